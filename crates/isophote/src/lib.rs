@@ -1,0 +1,3 @@
+//! Isophote
+pub mod map;
+pub mod units;

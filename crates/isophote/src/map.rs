@@ -1,0 +1,185 @@
+//! The result of a render: named channels of linear values with units, and what made them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::units::LengthUnit;
+
+/// Width and height in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Resolution {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl Resolution {
+    /// Number of pixels.
+    #[must_use]
+    pub fn pixels(self) -> usize {
+        self.width as usize * self.height as usize
+    }
+}
+
+/// One pixel: column 0 is the left one, row 0 the top one (2.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Pixel {
+    /// Counted from the left, from 0.
+    pub column: u32,
+    /// Counted from the top, from 0.
+    pub row: u32,
+}
+
+/// A rectangle of pixels of the full image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Region {
+    /// The top left pixel, counted in the full image.
+    pub corner: Pixel,
+    /// Its size.
+    pub size: Resolution,
+}
+
+/// A rectangle on the screen plane, in the scene's length unit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Window {
+    /// Left and right edge.
+    pub x: [f64; 2],
+    /// Lower and upper edge.
+    pub y: [f64; 2],
+    /// The unit of both.
+    pub length: LengthUnit,
+}
+
+/// What a channel holds.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Quantity {
+    /// Brightness by the scene's convention (3.1)–(3.6).
+    Brightness,
+    /// Irradiance (illuminance in a photometric scene), summed over the lights (3.1).
+    Irradiance,
+    /// The diffuse part of the brightness.
+    Diffuse,
+    /// The specular part of the brightness.
+    Specular,
+    /// Distance from the eye to the surface along the viewing ray, ‖P − O‖.
+    Depth,
+    /// The point P on the surface.
+    Position,
+    /// The unit normal at P, on the viewer's side.
+    Normal,
+    /// Index of the shape that is seen, −1 where none is.
+    Shape,
+    /// Irradiance from the light with this name alone, one term of (3.1).
+    Light(String),
+}
+
+impl Quantity {
+    /// The channel's name in outputs: `brightness`, `normal`, `light.lamp`, …
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self {
+            Self::Brightness => "brightness".into(),
+            Self::Irradiance => "irradiance".into(),
+            Self::Diffuse => "diffuse".into(),
+            Self::Specular => "specular".into(),
+            Self::Depth => "depth".into(),
+            Self::Position => "position".into(),
+            Self::Normal => "normal".into(),
+            Self::Shape => "shape".into(),
+            Self::Light(light) => format!("light.{light}"),
+        }
+    }
+}
+
+/// The values of a channel, row by row from the top, each row from the left. Zero (−1 for indices) where no
+/// surface is seen, never NaN: [`Map::is_visible`] tells the two kinds of zero apart.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// One number a pixel.
+    Scalar(Vec<f64>),
+    /// Three numbers a pixel: x, y, z.
+    Vector(Vec<[f64; 3]>),
+    /// One index a pixel.
+    Index(Vec<i32>),
+}
+
+/// A named quantity over the image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// What it holds.
+    pub quantity: Quantity,
+    /// Its unit, `"1"` for pure numbers and `""` for indices.
+    pub unit: String,
+    /// Its values.
+    pub values: Values,
+}
+
+/// What an output file says about itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// `isophote` and its version.
+    pub program: String,
+    /// The scene's title.
+    pub title: String,
+    /// The whole scene, as a TOML scene file that renders this map again.
+    pub scene: String,
+    /// The brightness convention and its formula number, such as `lab (3.3)`.
+    pub convention: String,
+    /// The renderer and its precision.
+    pub renderer: String,
+}
+
+/// An image of channels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// Size of the full image, of which the map may be a part.
+    pub full: Resolution,
+    /// The part that the map holds.
+    pub region: Region,
+    /// The region's outer edges on the screen.
+    pub window: Window,
+    /// What made the map.
+    pub provenance: Provenance,
+    pub(crate) channels: Vec<Channel>,
+}
+
+impl Map {
+    /// All channels, in the order in which they were asked for; `shape` is always among them.
+    #[must_use]
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// The channel with this quantity, if the map holds it.
+    #[must_use]
+    pub fn channel(&self, quantity: &Quantity) -> Option<&Channel> {
+        self.channels.iter().find(|channel| channel.quantity == *quantity)
+    }
+
+    /// The values of a scalar channel, if the map holds it.
+    #[must_use]
+    pub fn scalar(&self, quantity: &Quantity) -> Option<&[f64]> {
+        match &self.channel(quantity)?.values {
+            Values::Scalar(values) => Some(values),
+            Values::Vector(_) | Values::Index(_) => None,
+        }
+    }
+
+    /// Index of the shape seen at each pixel, −1 where none is: the mask of the map.
+    ///
+    /// # Panics
+    /// Never: every renderer fills the `shape` channel.
+    #[must_use]
+    pub fn shapes(&self) -> &[i32] {
+        match self.channel(&Quantity::Shape) {
+            Some(Channel { values: Values::Index(indices), .. }) => indices,
+            _ => unreachable!("a map is made with its shape channel"),
+        }
+    }
+
+    /// Whether a surface is seen at the pixel with this index (row × width + column).
+    #[must_use]
+    pub fn is_visible(&self, index: usize) -> bool {
+        self.shapes()[index] >= 0
+    }
+}

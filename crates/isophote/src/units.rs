@@ -1,0 +1,143 @@
+//! Units: every number that leaves the program carries one.
+
+use serde::{Deserialize, Serialize};
+
+/// A closed set of words that a scene file may use for one key.
+pub trait Choice: Copy + 'static {
+    /// Every member, in the order in which error messages list them.
+    const ALL: &'static [Self];
+
+    /// The word that stands in scene files and outputs.
+    fn name(self) -> &'static str;
+
+    /// The member with this name.
+    fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|choice| choice.name() == name)
+    }
+}
+
+/// The unit of every length in a scene file and in every output. Inside the program lengths are in metres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
+pub enum LengthUnit {
+    /// Millimetre.
+    #[serde(rename = "mm")]
+    Millimetre,
+    /// Centimetre.
+    #[serde(rename = "cm")]
+    Centimetre,
+    /// Metre.
+    #[serde(rename = "m")]
+    Metre,
+}
+
+impl Choice for LengthUnit {
+    const ALL: &'static [Self] = &[Self::Millimetre, Self::Centimetre, Self::Metre];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Millimetre => "mm",
+            Self::Centimetre => "cm",
+            Self::Metre => "m",
+        }
+    }
+}
+
+impl LengthUnit {
+    /// How many of this unit make a metre: 1000, 100 or 1. Exact in binary, where its inverse is not.
+    #[must_use]
+    pub fn per_metre(self) -> f64 {
+        match self {
+            Self::Millimetre => 1000.0,
+            Self::Centimetre => 100.0,
+            Self::Metre => 1.0,
+        }
+    }
+
+    /// A length in this unit, in metres (correctly rounded).
+    #[must_use]
+    pub fn to_metres(self, length: f64) -> f64 {
+        length / self.per_metre()
+    }
+
+    /// A length in metres, in this unit (correctly rounded).
+    #[must_use]
+    pub fn from_metres(self, metres: f64) -> f64 {
+        metres * self.per_metre()
+    }
+}
+
+/// Whether the lights of a scene are given in watts or in lumens. A scene is one or the other as a whole:
+/// converting needs a luminous efficacy, and there is no silent default for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Quantities {
+    /// W, W/sr, W/m², W/(m²·sr).
+    Radiometric,
+    /// lm, cd, lx, cd/m².
+    Photometric,
+}
+
+impl Choice for Quantities {
+    const ALL: &'static [Self] = &[Self::Radiometric, Self::Photometric];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Radiometric => "radiometric",
+            Self::Photometric => "photometric",
+        }
+    }
+}
+
+impl Quantities {
+    /// Unit of a light's power: W or lm.
+    #[must_use]
+    pub fn power_unit(self) -> &'static str {
+        match self {
+            Self::Radiometric => "W",
+            Self::Photometric => "lm",
+        }
+    }
+
+    /// Unit of a light's intensity: W/sr or cd.
+    #[must_use]
+    pub fn intensity_unit(self) -> &'static str {
+        match self {
+            Self::Radiometric => "W/sr",
+            Self::Photometric => "cd",
+        }
+    }
+
+    /// Unit of irradiance or illuminance: W/m² or lx.
+    #[must_use]
+    pub fn irradiance_unit(self) -> &'static str {
+        match self {
+            Self::Radiometric => "W/m²",
+            Self::Photometric => "lx",
+        }
+    }
+
+    /// Unit of radiance or luminance: W/(m²·sr) or cd/m².
+    #[must_use]
+    pub fn radiance_unit(self) -> &'static str {
+        match self {
+            Self::Radiometric => "W/(m²·sr)",
+            Self::Photometric => "cd/m²",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_length_survives_the_way_to_metres_and_back() {
+        for unit in LengthUnit::ALL {
+            for tenths in 0..100_000_u32 {
+                let length = f64::from(tenths) / 10.0;
+                let back = unit.from_metres(unit.to_metres(length));
+                assert!((back - length).abs() <= length * f64::EPSILON, "{length} {}", unit.name());
+            }
+        }
+    }
+}
