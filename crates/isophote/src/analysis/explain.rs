@@ -1,0 +1,172 @@
+//! Every step from the scene to a value, with its numbers and formula numbers.
+
+use std::fmt::Write;
+
+use super::probe::{ProbeReading, Visibility};
+use crate::light::Emission;
+use crate::prepare::PreparedScene;
+use crate::real::Real;
+use crate::reflectance::{Convention, Reflectance, lobe_constant};
+use crate::shade::LightTerm;
+use crate::text::significant;
+use crate::units::{Choice, LengthUnit};
+use crate::vector::Vector;
+
+impl ProbeReading {
+    /// The calculation as a person does it with a pocket calculator: every vector, cosine and product of this
+    /// reading, with 12 significant digits.
+    #[must_use]
+    pub fn explain(&self, scene: &PreparedScene, name: &str) -> String {
+        let mut text = String::new();
+        self.explain_geometry(&mut text, scene, name);
+        for (index, term) in self.terms.iter().enumerate() {
+            self.explain_light(&mut text, scene, index, term);
+        }
+        self.explain_sum(&mut text, scene);
+        text
+    }
+
+    fn explain_geometry(&self, text: &mut String, scene: &PreparedScene, name: &str) {
+        let description = scene.scene();
+        let length = description.length();
+        let shape = &description.shapes()[self.shape];
+        let point = &self.point;
+        let from_inside = point.normal.dot(point.offset) < 0.0;
+        line(text, format_args!("{name}: {}", description.title()));
+        line(text, format_args!("Convention {}: {}", description.convention().label(), description.convention().formula()));
+        line(text, format_args!(""));
+        line(text, format_args!("Geometry (2.2), lengths in {}", length.name()));
+        line(text, format_args!("  P   = {}   on \"{}\"", vector_in(point.position(), length), shape.name));
+        line(text, format_args!("  C   = {}   centre of \"{}\"", vector_in(point.anchor, length), shape.name));
+        let normal = if from_inside { "(C − P)/‖C − P‖, the eye is inside" } else { "(P − C)/‖P − C‖" };
+        line(text, format_args!("  N   = {}   {normal}", vector(point.normal)));
+        line(text, format_args!("  O   = {}   eye", vector_in(scene.frame().eye, length)));
+        line(text, format_args!("  V   = {}   (O − P)/‖O − P‖", vector(point.view)));
+        line(text, format_args!("  cosθ_o = N·V = {}", digits(point.cos_theta_o)));
+        match self.visibility {
+            Visibility::Seen => {}
+            Visibility::FacesAway => {
+                line(text, format_args!("  θ_o ≥ 90°: the eye does not see this side, and B = 0 where B depends on the viewer"));
+            }
+            Visibility::HiddenBy(other) => {
+                let other = &description.shapes()[other].name;
+                line(text, format_args!("  The eye does not see the point: \"{other}\" stands before it."));
+            }
+        }
+    }
+
+    fn explain_light(&self, text: &mut String, scene: &PreparedScene, index: usize, term: &LightTerm) {
+        let description = scene.scene();
+        let length = description.length();
+        let light = &description.lights()[index];
+        let unit = description.quantities().irradiance_unit();
+        line(text, format_args!(""));
+        line(text, format_args!("Light {} \"{}\"", index + 1, light.name));
+        line(text, format_args!("  S   = {} {}", vector_in(light.position, length), length.name()));
+        line(text, format_args!("  r   = ‖S − P‖ = {} m", digits(term.distance)));
+        line(text, format_args!("  L   = (S − P)/r = {}", vector(term.direction)));
+        let cosine = self.point.normal.dot(term.direction);
+        line(text, format_args!("  cosθ_i = max(0, N·L) = max(0, {}) = {}", digits(cosine), digits(term.cos_theta_i)));
+        let intensity_unit = description.quantities().intensity_unit();
+        match light.emission {
+            Emission::Isotropic => line(text, format_args!("  I   = {} {intensity_unit}, isotropic", digits(term.intensity))),
+            Emission::Lambertian { axis } => {
+                line(text, format_args!("  axis = {}", vector(axis)));
+                let cosine = axis.dot(-term.direction);
+                let (on_axis, intensity) = (digits(light.intensity), digits(term.intensity));
+                let cosine = digits(cosine);
+                line(text, format_args!("  I   = I₀ max(0, cosγ) = {on_axis} × max(0, {cosine}) = {intensity} {intensity_unit}"));
+            }
+        }
+        if term.visibility < 1.0 {
+            line(text, format_args!("  v   = {}: the wall of the shape stands between", term.visibility));
+        }
+        line(text, format_args!(
+            "  E   = v I cosθ_i / r² = {} × {} × {} / {}² = {} {unit}   (3.1)",
+            term.visibility,
+            digits(term.intensity),
+            digits(term.cos_theta_i),
+            digits(term.distance),
+            digits(term.irradiance)
+        ));
+        self.explain_reflection(text, scene, term);
+    }
+
+    fn explain_reflection(&self, text: &mut String, scene: &PreparedScene, term: &LightTerm) {
+        let convention = scene.scene().convention();
+        let Some(material) = scene.scene().shapes()[self.shape].material else { return };
+        if !convention.uses_material() {
+            return;
+        }
+        let material = &scene.scene().materials()[material];
+        let Reflectance { diffuse, specular, shininess } = material.reflectance;
+        if convention.has_specular_part() && specular > 0.0 {
+            let half = if term.half.length() > 0.0 { term.half.normalized() } else { term.half };
+            line(text, format_args!("  H   = (L + V)/‖L + V‖ = {}", vector(half)));
+            let cosine = term.cos_squared_theta_h.sqrt();
+            let lobe = f64::cosine_power(term.cos_squared_theta_h, term.sin_squared_theta_h, shininess);
+            line(text, format_args!("  cosθ_h = N·H = {},  (N·H)^{shininess} = {}", digits(cosine), digits(lobe)));
+        }
+        let unit = convention.unit(scene.scene().quantities());
+        let number = convention.formula_number();
+        let (k_d, k_s) = (diffuse, specular);
+        let how = match convention {
+            Convention::Irradiance | Convention::Lambert | Convention::Course => format!("E k_d = E × {k_d}"),
+            Convention::Lab => format!("E k_d cosθ_o = E × {k_d} × {}", digits(self.point.cos_theta_o)),
+            Convention::CoursePi | Convention::Radiance => format!("E k_d/π = E × {k_d}/π"),
+        };
+        line(text, format_args!("  diffuse  = {how} = {} {unit}   ({number})", digits(term.diffuse)));
+        if convention.has_specular_part() {
+            let how = match convention {
+                Convention::CoursePi => format!("E k_s/π (N·H)^n = E × {k_s}/π × (N·H)^{shininess}"),
+                Convention::Radiance => {
+                    let constant = digits(lobe_constant(shininess));
+                    format!("E k_s c(n) (N·H)^n = E × {k_s} × {constant} × (N·H)^{shininess}")
+                }
+                _ => format!("E k_s (N·H)^n = E × {k_s} × (N·H)^{shininess}"),
+            };
+            line(text, format_args!("  specular = {how} = {} {unit}   ({number})", digits(term.specular)));
+        }
+    }
+
+    fn explain_sum(&self, text: &mut String, scene: &PreparedScene) {
+        let description = scene.scene();
+        let convention = description.convention();
+        let unit = convention.unit(description.quantities());
+        line(text, format_args!(""));
+        line(text, format_args!("Sum over {} light{}", self.terms.len(), if self.terms.len() == 1 { "" } else { "s" }));
+        let irradiance = description.quantities().irradiance_unit();
+        line(text, format_args!("  E = {} {irradiance}   (3.1)", full(self.shading.irradiance)));
+        if convention.uses_material() {
+            let (diffuse, specular) = (digits(self.shading.diffuse), digits(self.shading.specular));
+            line(text, format_args!("  B = diffuse + specular = {diffuse} + {specular}"));
+        }
+        let number = convention.formula_number();
+        line(text, format_args!("  B = {} {unit}   ({number})", full(self.shading.brightness())));
+    }
+}
+
+fn line(text: &mut String, content: std::fmt::Arguments<'_>) {
+    // Writing to a text cannot fail.
+    let _ = text.write_fmt(content);
+    text.push('\n');
+}
+
+fn vector_in(vector: Vector, length: LengthUnit) -> String {
+    let components = vector.to_array().map(|component| digits(length.from_metres(component)));
+    format!("({})", components.join(", "))
+}
+
+fn vector(vector: Vector) -> String {
+    vector_in(vector, LengthUnit::Metre)
+}
+
+/// 12 significant digits, without the zeros behind them.
+fn digits(value: f64) -> String {
+    significant(value, 12)
+}
+
+/// 15 significant digits.
+fn full(value: f64) -> String {
+    significant(value, 15)
+}

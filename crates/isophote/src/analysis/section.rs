@@ -1,0 +1,99 @@
+//! Values along a line on the screen.
+
+use crate::camera::ScreenPosition;
+use crate::map::Pixel;
+use crate::prepare::{Hit, PreparedScene};
+use crate::shade::Shading;
+
+/// A line on the screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SectionLine {
+    /// The centres of a row's pixels, from the left.
+    Row(u32),
+    /// The centres of a column's pixels, from the top.
+    Column(u32),
+    /// Evenly spaced points between two points of the screen plane, both included; in metres.
+    Between {
+        /// The first point: x, y.
+        from: [f64; 2],
+        /// The last point: x, y.
+        to: [f64; 2],
+        /// How many points, at least 2.
+        samples: u32,
+    },
+}
+
+/// A point of a section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Where it is on the screen: x, y in metres.
+    pub screen: [f64; 2],
+    /// What is seen there and what it sends; nothing where no surface is seen.
+    pub seen: Option<(Hit, Shading)>,
+}
+
+/// Why there is no section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SectionError {
+    /// The image has no such row.
+    #[error("there is no row {row}: the image has rows 0 to {last}")]
+    NoSuchRow {
+        /// What was asked for.
+        row: u32,
+        /// The last row.
+        last: u32,
+    },
+    /// The image has no such column.
+    #[error("there is no column {column}: the image has columns 0 to {last}")]
+    NoSuchColumn {
+        /// What was asked for.
+        column: u32,
+        /// The last column.
+        last: u32,
+    },
+    /// A line of one point or none.
+    #[error("a section needs at least 2 samples")]
+    TooFewSamples,
+}
+
+impl PreparedScene {
+    /// The values along a line, each traced and summed in double precision, whatever a map's resolution.
+    ///
+    /// # Errors
+    /// A line that the image does not have.
+    pub fn section(&self, line: SectionLine) -> Result<Vec<Sample>, SectionError> {
+        let positions = self.positions(line)?;
+        let sample = |position| {
+            let seen = self.trace(position).map(|hit| (hit, self.shade(hit.shape, &hit.point, |_, _| {})));
+            Sample { screen: self.frame().point_on_screen(position), seen }
+        };
+        Ok(positions.into_iter().map(sample).collect())
+    }
+
+    fn positions(&self, line: SectionLine) -> Result<Vec<ScreenPosition>, SectionError> {
+        let size = self.scene().camera().resolution;
+        match line {
+            SectionLine::Row(row) if row >= size.height => {
+                Err(SectionError::NoSuchRow { row, last: size.height - 1 })
+            }
+            SectionLine::Column(column) if column >= size.width => {
+                Err(SectionError::NoSuchColumn { column, last: size.width - 1 })
+            }
+            SectionLine::Between { samples, .. } if samples < 2 => Err(SectionError::TooFewSamples),
+            SectionLine::Row(row) => {
+                Ok((0..size.width).map(|column| ScreenPosition::PixelCenter(Pixel { column, row })).collect())
+            }
+            SectionLine::Column(column) => {
+                Ok((0..size.height).map(|row| ScreenPosition::PixelCenter(Pixel { column, row })).collect())
+            }
+            SectionLine::Between { from, to, samples } => {
+                let point = |index: u32| {
+                    let part = f64::from(index) / f64::from(samples - 1);
+                    let between = |axis: usize| from[axis] * (1.0 - part) + to[axis] * part;
+                    ScreenPosition::Point { x: between(0), y: between(1) }
+                };
+                Ok((0..samples).map(point).collect())
+            }
+        }
+    }
+}

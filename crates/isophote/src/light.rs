@@ -1,0 +1,84 @@
+//! Point lights and where they send their power.
+
+use crate::real::Real;
+use crate::vector::Vector;
+
+/// A point light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    /// Its name, unique among the lights.
+    pub name: String,
+    /// Where it stands, in metres.
+    pub position: Vector,
+    /// I₀: radiant intensity (W/sr) on the axis, or luminous intensity (cd).
+    pub intensity: f64,
+    /// How the intensity depends on the direction.
+    pub emission: Emission,
+}
+
+/// The emission pattern I(ω) of a light (section 3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Emission {
+    /// I₀ in every direction; power 4π I₀.
+    Isotropic,
+    /// I₀ max(0, cosγ), γ the angle from the axis; power π I₀.
+    Lambertian {
+        /// Unit vector of the axis.
+        axis: Vector,
+    },
+}
+
+impl Light {
+    /// I(ω) in a direction, given as a unit vector that points away from the light; W/sr or cd.
+    #[inline(always)]
+    pub fn intensity_towards<T: Real>(&self, direction: Vector<T>) -> T {
+        let intensity = T::from_f64(self.intensity);
+        match self.emission {
+            Emission::Isotropic => intensity,
+            Emission::Lambertian { axis } => intensity * Vector::from_f64(axis).dot(direction).max(T::zero()),
+        }
+    }
+
+    /// The power that the light sends out in all directions, in W or lm.
+    #[must_use]
+    pub fn power(&self) -> f64 {
+        self.intensity * self.emission.solid_angle()
+    }
+}
+
+impl Emission {
+    /// Power over intensity on the axis, in sr: 4π or π.
+    #[must_use]
+    pub fn solid_angle(self) -> f64 {
+        match self {
+            Self::Isotropic => 4.0 * std::f64::consts::PI,
+            Self::Lambertian { .. } => std::f64::consts::PI,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ∫ I(ω) dω over the sphere of directions, by the midpoint rule in cosine and azimuth about a slanted axis.
+    #[test]
+    fn the_power_of_a_light_is_the_integral_of_its_intensity() {
+        let axis = Vector::new(1.0, 2.0, -2.0) * (1.0 / 3.0);
+        for emission in [Emission::Isotropic, Emission::Lambertian { axis }] {
+            let light = Light { name: "lamp".into(), position: Vector::default(), intensity: 3.5, emission };
+            let (cosines, turns) = (1000, 1000);
+            let mut power = 0.0;
+            for i in 0..cosines {
+                let z = (f64::from(i) + 0.5) / f64::from(cosines) * 2.0 - 1.0;
+                for j in 0..turns {
+                    let (sine, cosine) = (std::f64::consts::TAU * (f64::from(j) + 0.5) / f64::from(turns)).sin_cos();
+                    let ring = (1.0 - z * z).sqrt();
+                    power += light.intensity_towards(Vector::new(ring * cosine, ring * sine, z));
+                }
+            }
+            power *= 4.0 * std::f64::consts::PI / f64::from(cosines * turns);
+            assert!((power / light.power() - 1.0).abs() < 1e-5, "{emission:?}");
+        }
+    }
+}

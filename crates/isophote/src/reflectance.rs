@@ -1,0 +1,199 @@
+//! From irradiance to brightness: the conventions (3.1) to (3.6).
+
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use crate::real::Real;
+use crate::units::{Choice, Quantities};
+
+/// Which formula turns irradiance into brightness. People publish several that disagree by constant factors or by
+/// a cosine, so a scene names its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Convention {
+    /// B = Σ E_j (3.1), W/m²: no material, no viewer.
+    Irradiance,
+    /// B = k_d Σ E_j (3.2), W/m².
+    Lambert,
+    /// B = Σ E_j (k_d cosθ_o + k_s (N·H_j)ⁿ) (3.3), W/m².
+    Lab,
+    /// B = Σ E_j (k_d + k_s (N·H_j)ⁿ) (3.4), W/(m²·sr) with coefficients in sr⁻¹.
+    Course,
+    /// B = (1/π) Σ E_j (k_d + k_s (N·H_j)ⁿ) (3.5), W/(m²·sr).
+    CoursePi,
+    /// B = Σ E_j (k_d/π + k_s c(n) (N·H_j)ⁿ) (3.6), W/(m²·sr), with [`lobe_constant`] c(n).
+    Radiance,
+}
+
+impl Choice for Convention {
+    const ALL: &'static [Self] =
+        &[Self::Irradiance, Self::Lambert, Self::Lab, Self::Course, Self::CoursePi, Self::Radiance];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Irradiance => "irradiance",
+            Self::Lambert => "lambert",
+            Self::Lab => "lab",
+            Self::Course => "course",
+            Self::CoursePi => "course-pi",
+            Self::Radiance => "radiance",
+        }
+    }
+}
+
+impl Convention {
+    /// The number of its formula in the documentation.
+    #[must_use]
+    pub fn formula_number(self) -> &'static str {
+        match self {
+            Self::Irradiance => "3.1",
+            Self::Lambert => "3.2",
+            Self::Lab => "3.3",
+            Self::Course => "3.4",
+            Self::CoursePi => "3.5",
+            Self::Radiance => "3.6",
+        }
+    }
+
+    /// Its formula, as a person writes it.
+    #[must_use]
+    pub fn formula(self) -> &'static str {
+        match self {
+            Self::Irradiance => "B = Σ E_j",
+            Self::Lambert => "B = k_d Σ E_j",
+            Self::Lab => "B = Σ E_j (k_d cosθ_o + k_s (N·H_j)^n)",
+            Self::Course => "B = Σ E_j (k_d + k_s (N·H_j)^n)",
+            Self::CoursePi => "B = (1/π) Σ E_j (k_d + k_s (N·H_j)^n)",
+            Self::Radiance => "B = Σ E_j (k_d/π + k_s c(n) (N·H_j)^n)",
+        }
+    }
+
+    /// Name and formula number, such as `lab (3.3)`.
+    #[must_use]
+    pub fn label(self) -> String {
+        format!("{} ({})", self.name(), self.formula_number())
+    }
+
+    /// The unit of B.
+    #[must_use]
+    pub fn unit(self, quantities: Quantities) -> &'static str {
+        match self {
+            Self::Irradiance | Self::Lambert | Self::Lab => quantities.irradiance_unit(),
+            Self::Course | Self::CoursePi | Self::Radiance => quantities.radiance_unit(),
+        }
+    }
+
+    /// Whether the coefficients of a material enter at all.
+    #[must_use]
+    pub fn uses_material(self) -> bool {
+        self != Self::Irradiance
+    }
+
+    /// Whether the specular coefficient and the shininess of a material enter.
+    #[must_use]
+    pub fn has_specular_part(self) -> bool {
+        !matches!(self, Self::Irradiance | Self::Lambert)
+    }
+}
+
+/// c(n) = (n+2)(n+4) / (8π (n + 2^(−n/2))): the constant that makes the lobe (N·H)ⁿ reflect exactly what falls on
+/// it at normal incidence (3.6). Its inverse is the albedo A(n) of the bare lobe.
+///
+/// `shininess` is positive; the result is in sr⁻¹.
+#[must_use]
+pub fn lobe_constant(shininess: f64) -> f64 {
+    let n = shininess;
+    (n + 2.0) * (n + 4.0) / (8.0 * PI * (n + libm::exp2(-0.5 * n)))
+}
+
+/// What a surface is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reflectance {
+    /// k_d, 0…1 (sr⁻¹ in the `course` convention).
+    pub diffuse: f64,
+    /// k_s, 0…1 (sr⁻¹ in the `course` convention).
+    pub specular: f64,
+    /// n > 0.
+    pub shininess: f64,
+}
+
+/// A convention applied to a material: every formula of section 3 is
+/// B = Σ E_j (a + b cosθ_o + s (N·H_j)ⁿ) with its own a, b and s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BrightnessFormula {
+    diffuse_constant: f64,
+    diffuse_cosine: f64,
+    /// s, the factor of the lobe.
+    pub(crate) specular: f64,
+    /// n.
+    pub(crate) shininess: f64,
+    depends_on_viewer: bool,
+}
+
+impl BrightnessFormula {
+    /// The formula of a convention for a material.
+    #[must_use]
+    pub fn new(convention: Convention, material: &Reflectance) -> Self {
+        let Reflectance { diffuse, specular, shininess } = *material;
+        let (diffuse_constant, diffuse_cosine, specular) = match convention {
+            Convention::Irradiance => (1.0, 0.0, 0.0),
+            Convention::Lambert => (diffuse, 0.0, 0.0),
+            Convention::Lab => (0.0, diffuse, specular),
+            Convention::Course => (diffuse, 0.0, specular),
+            Convention::CoursePi => (diffuse / PI, 0.0, specular / PI),
+            Convention::Radiance => (diffuse / PI, 0.0, specular * lobe_constant(shininess)),
+        };
+        let depends_on_viewer = convention.uses_material();
+        Self { diffuse_constant, diffuse_cosine, specular, shininess, depends_on_viewer }
+    }
+
+    /// The factor of E_j in the diffuse part. Zero where the surface faces away from the viewer (θ_o ≥ 90°), but
+    /// for the irradiance itself, which knows no viewer.
+    #[inline(always)]
+    pub fn diffuse_factor<T: Real>(&self, cos_theta_o: T) -> T {
+        let factor = T::from_f64(self.diffuse_constant) + T::from_f64(self.diffuse_cosine) * cos_theta_o;
+        if self.depends_on_viewer { Self::towards_viewer(cos_theta_o, factor) } else { factor }
+    }
+
+    /// The factor of E_j in the specular part, from the squares of cosine and sine of θ_h.
+    #[inline(always)]
+    pub fn specular_factor<T: Real>(&self, cos_theta_o: T, cos_squared: T, sin_squared: T) -> T {
+        if self.specular == 0.0 {
+            return T::zero();
+        }
+        let lobe = T::cosine_power(cos_squared, sin_squared, self.shininess);
+        Self::towards_viewer(cos_theta_o, T::from_f64(self.specular) * lobe)
+    }
+
+    #[inline(always)]
+    fn towards_viewer<T: Real>(cos_theta_o: T, factor: T) -> T {
+        T::select(T::zero().is_less(cos_theta_o), factor, T::zero())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lobe_constant_has_its_published_value() {
+        assert!((lobe_constant(80.0) - 3.425_810).abs() < 5e-7);
+    }
+
+    /// ∫ c(n) (N·H)ⁿ cosθ_i dω = 1 at normal incidence, where θ_h = θ/2: by Simpson's rule in cosθ.
+    #[test]
+    fn the_normalised_lobe_reflects_all_that_falls_on_it() {
+        for shininess in [0.5, 1.0, 2.0, 10.0, 20.0, 80.0, 500.0] {
+            let steps = 200_000;
+            let integrand = |k: i32| {
+                let cosine = f64::from(k) / f64::from(steps);
+                let half_cosine_squared = f64::midpoint(1.0, cosine);
+                half_cosine_squared.powf(0.5 * shininess) * cosine * 2.0 * PI
+            };
+            let inner: f64 = (1..steps).map(|k| integrand(k) * if k % 2 == 1 { 4.0 } else { 2.0 }).sum();
+            let albedo = (integrand(0) + integrand(steps) + inner) / (3.0 * f64::from(steps));
+            assert!((albedo * lobe_constant(shininess) - 1.0).abs() < 1e-10, "n = {shininess}");
+        }
+    }
+}

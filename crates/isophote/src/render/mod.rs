@@ -1,0 +1,81 @@
+//! From a prepared scene to a map.
+
+mod reference;
+mod rows;
+mod threaded;
+
+use std::ops::ControlFlow;
+
+pub use reference::Reference;
+pub use threaded::Threaded;
+
+use crate::map::{Map, Pixel, Quantity, Region, Resolution};
+use crate::prepare::PreparedScene;
+
+/// Something that computes maps. Every renderer passes the one [conformance suite](crate::conformance).
+pub trait Renderer {
+    /// Its name and precision, as outputs carry them.
+    fn name(&self) -> String;
+
+    /// Computes the channels that the settings ask for.
+    ///
+    /// # Errors
+    /// Settings that do not fit the scene, or an interruption.
+    fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError>;
+}
+
+/// What to render.
+#[derive(Clone, Default)]
+pub struct RenderSettings<'o> {
+    /// The part of the image to compute; all of it by default.
+    pub region: Option<Region>,
+    /// The channels, in the order of the outputs; `shape` is always added. Duplicates count once.
+    pub quantities: Vec<Quantity>,
+    /// Hears of the progress and may stop it.
+    pub observer: Option<&'o dyn Observer>,
+}
+
+/// Hears how a render gets on. It may be called from several threads.
+pub trait Observer: Sync {
+    /// So many more pixels are done. `Break` ends the render with [`RenderError::Interrupted`].
+    fn advance(&self, pixels: u64) -> ControlFlow<()>;
+}
+
+/// Why there is no map.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RenderError {
+    /// The region is empty or sticks out of the image.
+    #[error("the region {}×{} at column {}, row {} is not within the image of {}×{} pixels",
+        region.size.width, region.size.height, region.corner.column, region.corner.row, full.width, full.height)]
+    Region {
+        /// What was asked for.
+        region: Region,
+        /// The image.
+        full: Resolution,
+    },
+    /// A channel of a light that the scene does not have.
+    #[error("the scene has no light named \"{name}\"")]
+    NoSuchLight {
+        /// What was asked for.
+        name: String,
+    },
+    /// The observer stopped it.
+    #[error("interrupted")]
+    Interrupted,
+    /// The threads could not be started.
+    #[error("cannot start {threads} threads: {reason}")]
+    Threads {
+        /// What was asked for.
+        threads: usize,
+        /// What the system says.
+        reason: String,
+    },
+}
+
+impl Region {
+    /// The whole image.
+    #[must_use]
+    pub fn all(full: Resolution) -> Self {
+        Self { corner: Pixel { column: 0, row: 0 }, size: full }
+    }
+}

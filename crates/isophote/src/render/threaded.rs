@@ -1,0 +1,34 @@
+//! The reference's rows, shared among threads. A pixel depends on nothing but the scene, so the bytes are the same
+//! for any number of threads.
+
+use rayon::prelude::*;
+
+use super::{RenderError, RenderSettings, Renderer, rows};
+use crate::map::Map;
+use crate::prepare::PreparedScene;
+
+/// Rows on several threads, in double precision.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Threaded {
+    /// How many threads; as many as there are processors when unstated.
+    pub threads: Option<std::num::NonZeroUsize>,
+}
+
+impl Renderer for Threaded {
+    fn name(&self) -> String {
+        "threads, double".into()
+    }
+
+    fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
+        let mut map = rows::empty_map(scene, settings, self.name())?;
+        let threads = self.threads.map_or(0, std::num::NonZeroUsize::get);
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|error| RenderError::Threads { threads, reason: error.to_string() })?;
+        pool.install(|| {
+            rows::split(&mut map, scene).into_par_iter().try_for_each(|mut row| row.render(scene, settings.observer))
+        })?;
+        Ok(map)
+    }
+}

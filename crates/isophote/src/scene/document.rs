@@ -1,0 +1,291 @@
+//! A scene file as a tree that remembers where everything stands: TOML and JSON look the same from here on.
+
+use std::fmt;
+use std::ops::Range;
+
+use jsonc_parser::common::Ranged;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::{Problem, ProblemKind};
+
+/// A scene file's text and its tree.
+#[derive(Debug)]
+pub struct Document {
+    /// The root table.
+    pub root: Node,
+    /// What the syntax of the file violates; the tree holds what could be read in spite of it.
+    pub syntax_problems: Vec<Problem>,
+}
+
+/// A value and its place in the text, in bytes.
+#[derive(Debug)]
+pub struct Node {
+    /// The value.
+    pub value: Value,
+    /// Where it stands.
+    pub span: Range<usize>,
+}
+
+/// A value of either language.
+#[derive(Debug)]
+pub enum Value {
+    /// `true` or `false`.
+    Boolean,
+    /// A number without a fraction or an exponent.
+    Integer(i64),
+    /// Any other number; TOML has NaN and infinities too.
+    Float(f64),
+    /// A string.
+    Text(String),
+    /// `[…]`
+    Array(Vec<Node>),
+    /// A table, or an object.
+    Table(Vec<Entry>),
+    /// A date, a time or null: nothing that a scene needs.
+    Other(&'static str),
+}
+
+impl Value {
+    /// What it is, for error messages.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        match self {
+            Self::Boolean => "true or false".into(),
+            Self::Integer(number) => format!("the number {number}"),
+            Self::Float(number) => format!("the number {number}"),
+            Self::Text(_) => "a text".into(),
+            Self::Array(items) => format!("a list of {}", items.len()),
+            Self::Table(_) => "a table".into(),
+            Self::Other(kind) => (*kind).into(),
+        }
+    }
+}
+
+/// A key and its value.
+#[derive(Debug)]
+pub struct Entry {
+    /// The key.
+    pub key: String,
+    /// Where the key stands.
+    pub key_span: Range<usize>,
+    /// Its value.
+    pub node: Node,
+}
+
+/// The language of a scene file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Syntax {
+    /// <https://toml.io>
+    Toml,
+    /// <https://www.json.org>
+    Json,
+}
+
+impl Document {
+    /// Reads as much of the text as its syntax allows.
+    #[must_use]
+    pub fn parse(text: &str, syntax: Syntax) -> Self {
+        match syntax {
+            Syntax::Toml => parse_toml(text),
+            Syntax::Json => parse_json(text),
+        }
+    }
+
+    /// Where the thing at a path stands, or else the nearest thing around it that the text has.
+    #[must_use]
+    pub fn span_of(&self, path: &Path) -> Option<Range<usize>> {
+        let mut node = &self.root;
+        let mut span = None;
+        for step in &path.0 {
+            node = match (step, &node.value) {
+                (Step::Key(key), Value::Table(entries)) => match entries.iter().find(|entry| entry.key == *key) {
+                    Some(entry) => {
+                        // A table's own span is often its whole body: its key says better where it is.
+                        span = Some(match entry.node.value {
+                            Value::Table(_) => entry.key_span.clone(),
+                            _ => entry.node.span.clone(),
+                        });
+                        &entry.node
+                    }
+                    None => return span,
+                },
+                (Step::Index(index), Value::Array(items)) => match items.get(*index) {
+                    Some(item) => {
+                        span = Some(item.span.clone());
+                        item
+                    }
+                    None => return span,
+                },
+                _ => return span,
+            };
+        }
+        span
+    }
+}
+
+/// The way from the root of a scene file to a thing in it: `sphere[0].center[2]`.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Path(Vec<Step>);
+
+/// One step of a [`Path`].
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Step {
+    /// Into a table.
+    Key(String),
+    /// Into a list, counted from 0.
+    Index(usize),
+}
+
+impl Path {
+    /// The root itself.
+    #[must_use]
+    pub fn root() -> Self {
+        Self::default()
+    }
+
+    /// The value of a key.
+    #[must_use]
+    pub fn key(&self, key: &str) -> Self {
+        self.step(Step::Key(key.into()))
+    }
+
+    /// An item of a list.
+    #[must_use]
+    pub fn index(&self, index: usize) -> Self {
+        self.step(Step::Index(index))
+    }
+
+    /// Whether this path is `other` or leads to something inside it.
+    #[must_use]
+    pub fn is_within(&self, other: &Self) -> bool {
+        self.0.starts_with(&other.0)
+    }
+
+    fn step(&self, step: Step) -> Self {
+        let mut steps = self.0.clone();
+        steps.push(step);
+        Self(steps)
+    }
+}
+
+impl fmt::Display for Path {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (position, step) in self.0.iter().enumerate() {
+            match step {
+                Step::Key(key) if position == 0 => write!(formatter, "{key}")?,
+                Step::Key(key) => write!(formatter, ".{key}")?,
+                Step::Index(index) => write!(formatter, "[{index}]")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+fn parse_toml(text: &str) -> Document {
+    let (root, errors) = DeTable::parse_recoverable(text);
+    let syntax_problems = errors
+        .iter()
+        .map(|error| Problem::at_span(ProblemKind::Syntax, error.span(), format!("not valid TOML: {}", error.message())))
+        .collect();
+    let span = root.span();
+    Document { root: Node { value: Value::Table(toml_entries(root.into_inner())), span }, syntax_problems }
+}
+
+fn toml_entries(table: DeTable<'_>) -> Vec<Entry> {
+    table
+        .into_iter()
+        .map(|(key, value)| Entry {
+            key_span: key.span(),
+            key: key.into_inner().into_owned(),
+            node: toml_node(value),
+        })
+        .collect()
+}
+
+fn toml_node(value: Spanned<DeValue<'_>>) -> Node {
+    let span = value.span();
+    let value = match value.into_inner() {
+        DeValue::Boolean(_) => Value::Boolean,
+        DeValue::String(text) => Value::Text(text.into_owned()),
+        DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+            .map_or_else(|_| number(integer.as_str()), Value::Integer),
+        DeValue::Float(float) => number(float.as_str()),
+        DeValue::Array(items) => Value::Array(items.into_iter().map(toml_node).collect()),
+        DeValue::Table(table) => Value::Table(toml_entries(table)),
+        DeValue::Datetime(_) => Value::Other("a date or time"),
+    };
+    Node { value, span }
+}
+
+/// A decimal literal. One that no double can hold becomes infinite and is refused as such later.
+fn number(literal: &str) -> Value {
+    literal.parse().map_or(Value::Other("a number that cannot be read"), Value::Float)
+}
+
+fn parse_json(text: &str) -> Document {
+    use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
+    let strict = ParseOptions {
+        allow_comments: false,
+        allow_loose_object_property_names: false,
+        allow_trailing_commas: false,
+        allow_missing_commas: false,
+        allow_single_quoted_strings: false,
+        allow_hexadecimal_numbers: false,
+        allow_unary_plus_numbers: false,
+        allow_bare_decimal_point_numbers: false,
+        allow_non_finite_numbers: false,
+        allow_extended_string_escapes: false,
+    };
+    let empty = || Node { value: Value::Table(Vec::new()), span: 0..0 };
+    let mut syntax_problems = Vec::new();
+    let root = match parse_to_ast(text, &CollectOptions::default(), &strict) {
+        Ok(parsed) => parsed.value.map_or_else(empty, |value| json_node(value, &mut syntax_problems)),
+        Err(error) => {
+            let span = error.range().start..error.range().end;
+            let message = format!("not valid JSON: {}", error.kind());
+            syntax_problems.push(Problem::at_span(ProblemKind::Syntax, Some(span), message));
+            empty()
+        }
+    };
+    if !matches!(root.value, Value::Table(_)) {
+        let message = format!("a scene is an object {{…}}, not {}", root.value.describe());
+        syntax_problems.push(Problem::at_span(ProblemKind::Syntax, Some(root.span), message));
+        return Document { root: empty(), syntax_problems };
+    }
+    Document { root, syntax_problems }
+}
+
+fn json_node(value: jsonc_parser::ast::Value<'_>, problems: &mut Vec<Problem>) -> Node {
+    use jsonc_parser::ast::Value as Json;
+    let span = value.range().start..value.range().end;
+    let value = match value {
+        Json::BooleanLit(_) => Value::Boolean,
+        Json::NullKeyword(_) => Value::Other("null"),
+        Json::StringLit(text) => Value::Text(text.value.into_owned()),
+        Json::NumberLit(literal) => {
+            literal.value.parse().map_or_else(|_| number(literal.value), Value::Integer)
+        }
+        Json::Array(array) => {
+            Value::Array(array.elements.into_iter().map(|item| json_node(item, problems)).collect())
+        }
+        Json::Object(object) => Value::Table(json_entries(object, problems)),
+    };
+    Node { value, span }
+}
+
+fn json_entries(object: jsonc_parser::ast::Object<'_>, problems: &mut Vec<Problem>) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::with_capacity(object.properties.len());
+    let mut keys = std::collections::HashSet::new();
+    for property in object.properties {
+        let key_span = property.name.range().start..property.name.range().end;
+        let key = property.name.into_string();
+        if keys.insert(key.clone()) {
+            entries.push(Entry { key, key_span, node: json_node(property.value, problems) });
+        } else {
+            let message = format!("the key `{key}` stands twice in this object");
+            problems.push(Problem::at_span(ProblemKind::Syntax, Some(key_span), message));
+        }
+    }
+    entries
+}

@@ -1,0 +1,188 @@
+//! What is wrong with a scene: every problem at once, each with its place.
+
+use std::ops::Range;
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+
+use super::document::{Document, Path};
+
+/// Why a scene could not be used.
+#[derive(Debug, Clone, thiserror::Error)]
+#[error("{}", self.report(false))]
+pub struct SceneError {
+    /// The file's name as the user gave it, or a word for where the scene came from.
+    pub name: String,
+    /// Everything that is wrong, in the order of the file.
+    pub problems: Vec<Problem>,
+}
+
+/// One thing that is wrong with a scene, or, in [`Scene::warnings`](super::Scene::warnings), that deserves a word.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// What sort of mistake it is.
+    pub kind: ProblemKind,
+    /// The thing concerned, such as `sphere[0].radius`; empty for the file as a whole.
+    pub path: String,
+    /// What is wrong, with the value.
+    pub message: String,
+    /// What is allowed, or what to do.
+    pub help: Option<String>,
+    /// Where it stands, when the scene came from a text that has it.
+    pub place: Option<Place>,
+    pub(super) target: Target,
+}
+
+/// How a problem finds its place in the text.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Target {
+    Nothing,
+    Span(Range<usize>),
+    Value(Path),
+    /// The table that lacks a key.
+    Table(Path),
+}
+
+/// The sort of a [`Problem`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ProblemKind {
+    /// The file cannot be read at all.
+    Unreadable,
+    /// The text is not TOML, or not JSON.
+    Syntax,
+    /// A key that no scene has.
+    UnknownKey,
+    /// A key that must be there is not.
+    MissingKey,
+    /// A value of the wrong type.
+    WrongType,
+    /// A value that is not allowed.
+    Value,
+    /// Nothing wrong, but the user should know.
+    Warning,
+}
+
+/// A place in a scene file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// The line's text.
+    pub text: String,
+    /// The bytes of `text` that are meant.
+    pub highlight: Range<usize>,
+}
+
+impl SceneError {
+    /// An error with one problem that concerns the file as a whole.
+    #[must_use]
+    pub fn unreadable(name: &str, message: String, help: Option<String>) -> Self {
+        let problem = Problem { help, ..Problem::new(ProblemKind::Unreadable, Target::Nothing, message) };
+        Self { name: name.into(), problems: vec![problem] }
+    }
+
+    /// The problems as a person reads them: message, file, line, the line's text with a caret, what is allowed.
+    /// `color` adds terminal colours.
+    #[must_use]
+    pub fn report(&self, color: bool) -> String {
+        report(&self.name, &self.problems, color)
+    }
+}
+
+/// More problems than this are counted, not shown: nobody reads them, and the first ones cause the rest.
+const SHOWN: usize = 30;
+
+/// Draws problems; see [`SceneError::report`].
+#[must_use]
+pub fn report(name: &str, problems: &[Problem], color: bool) -> String {
+    let renderer = if color { Renderer::styled() } else { Renderer::plain() };
+    let mut drawn: Vec<String> = problems.iter().take(SHOWN).map(|problem| problem.draw(name, &renderer)).collect();
+    if problems.len() > SHOWN {
+        drawn.push(format!("… and {} more", problems.len() - SHOWN));
+    }
+    drawn.join("\n\n")
+}
+
+impl Problem {
+    pub(super) fn new(kind: ProblemKind, target: Target, message: String) -> Self {
+        let path = match &target {
+            Target::Value(path) | Target::Table(path) => path.to_string(),
+            Target::Nothing | Target::Span(_) => String::new(),
+        };
+        Self { kind, path, message, help: None, place: None, target }
+    }
+
+    pub(super) fn at_span(kind: ProblemKind, span: Option<Range<usize>>, message: String) -> Self {
+        Self::new(kind, span.map_or(Target::Nothing, Target::Span), message)
+    }
+
+    pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Finds the problem's place in the text it came from.
+    pub(super) fn locate(&mut self, text: &Lines<'_>, document: &Document) {
+        let span = match &self.target {
+            Target::Nothing => None,
+            Target::Span(span) => Some(span.clone()),
+            Target::Value(path) | Target::Table(path) => document.span_of(path),
+        };
+        self.place = span.map(|span| text.place(&span));
+    }
+
+    fn draw(&self, name: &str, renderer: &Renderer) -> String {
+        let level = if self.kind == ProblemKind::Warning { Level::WARNING } else { Level::ERROR };
+        let Some(place) = &self.place else {
+            let place = if self.path.is_empty() { name.into() } else { format!("{name}: {}", self.path) };
+            let title = level.primary_title(format!("{place}: {}", self.message));
+            return self.add_help(title.elements(Vec::<Snippet<'_, annotate_snippets::Annotation<'_>>>::new()), renderer);
+        };
+        let snippet = Snippet::source(place.text.as_str())
+            .path(name)
+            .line_start(place.line)
+            .annotation(AnnotationKind::Primary.span(place.highlight.clone()));
+        self.add_help(level.primary_title(self.message.as_str()).element(snippet), renderer)
+    }
+
+    fn add_help(&self, group: annotate_snippets::Group<'_>, renderer: &Renderer) -> String {
+        match &self.help {
+            Some(help) => renderer.render(&[group.element(Level::HELP.message(help.as_str()))]),
+            None => renderer.render(&[group]),
+        }
+    }
+}
+
+/// A text whose lines are counted once, however many problems it has.
+pub(super) struct Lines<'t> {
+    text: &'t str,
+    /// Where each line starts.
+    starts: Vec<usize>,
+}
+
+impl<'t> Lines<'t> {
+    pub(super) fn new(text: &'t str) -> Self {
+        let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(newline, _)| newline + 1)).collect();
+        Self { text, starts }
+    }
+
+    fn place(&self, span: &Range<usize>) -> Place {
+        let text = self.text;
+        let start = text.floor_char_boundary(span.start.min(text.len()));
+        let line = self.starts.partition_point(|&line_start| line_start <= start);
+        let line_start = self.starts[line - 1];
+        let line_end = self.starts.get(line).map_or(text.len(), |next| next - 1);
+        // A line of a generated file may be as long as the file: keep what is around the place.
+        let from = text.floor_char_boundary(line_start.max(start.saturating_sub(Self::AROUND)));
+        let to = text.ceil_char_boundary(line_end.min(start + Self::AROUND)).max(from);
+        let end = text.ceil_char_boundary(span.end.clamp(start, start.max(to)));
+        let kept = text[from..to].trim_end_matches('\r');
+        let highlight = (start - from).min(kept.len())..(end - from).min(kept.len());
+        let column = text[line_start..start].chars().count() + 1;
+        Place { line, column, text: kept.to_owned(), highlight }
+    }
+
+    /// Bytes of a line that are kept on either side of the place.
+    const AROUND: usize = 160;
+}

@@ -1,0 +1,250 @@
+//! Scenes: read once, checked once, valid from then on.
+
+pub mod document;
+pub mod error;
+pub mod library;
+mod read;
+pub mod source;
+mod validate;
+
+use std::path::Path as FilePath;
+
+pub use document::Syntax;
+pub use error::{Place, Problem, ProblemKind, SceneError};
+pub use source::SceneSource;
+pub use validate::limits;
+
+use crate::camera::Camera;
+use crate::light::Light;
+use crate::map::Resolution;
+use crate::reflectance::{Convention, Reflectance};
+use crate::shape::Geometry;
+use crate::units::{LengthUnit, Quantities};
+use crate::vector::Vector;
+use document::Document;
+use read::Problems;
+
+/// A scene that is valid by construction. Lengths in metres.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// A line that says what the scene is; may be empty.
+    pub(crate) title: String,
+    pub(crate) length: LengthUnit,
+    pub(crate) convention: Convention,
+    pub(crate) quantities: Quantities,
+    pub(crate) camera: Camera,
+    pub(crate) materials: Vec<Material>,
+    pub(crate) shapes: Vec<Shape>,
+    pub(crate) lights: Vec<Light>,
+    pub(crate) probes: Vec<Probe>,
+    pub(crate) warnings: Vec<Problem>,
+    pub(crate) source: SceneSource,
+}
+
+/// A material with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Its name, unique among the materials.
+    pub name: String,
+    /// Its coefficients.
+    pub reflectance: Reflectance,
+}
+
+/// A thing that can be seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// Its name, unique among the shapes.
+    pub name: String,
+    /// Index of its material; none only in the `irradiance` convention.
+    pub material: Option<usize>,
+    /// Its form and place.
+    pub geometry: Geometry,
+}
+
+/// A point on a surface whose values are reported.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Its name, unique among the probes.
+    pub name: String,
+    /// The point, in metres.
+    pub at: Vector,
+    /// A value that somebody published for this point, in the unit of the brightness.
+    pub published: Option<f64>,
+}
+
+impl Scene {
+    /// Reads a scene file: JSON when the name ends in `.json`, TOML otherwise.
+    ///
+    /// # Errors
+    /// Every problem of the file and of the scene in it, with its place.
+    pub fn from_file(path: &FilePath) -> Result<Self, SceneError> {
+        let name = path.display().to_string();
+        let text = read_text(path, &name)?;
+        let is_json = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("json"));
+        Self::from_text(&name, &text, if is_json { Syntax::Json } else { Syntax::Toml })
+    }
+
+    /// Reads a scene from a text; `name` stands for it in error messages.
+    ///
+    /// # Errors
+    /// Every problem of the text and of the scene in it, with its place.
+    pub fn from_text(name: &str, text: &str, syntax: Syntax) -> Result<Self, SceneError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        if text.trim().is_empty() {
+            let help = "`isophote new lab` writes a scene to start from";
+            return Err(SceneError::unreadable(name, "the scene is empty".into(), Some(help.into())));
+        }
+        let mut document = Document::parse(text, syntax);
+        let mut problems = Problems::default();
+        let syntax_problems = std::mem::take(&mut document.syntax_problems);
+        let is_broken = !syntax_problems.is_empty();
+        problems.extend(syntax_problems);
+        let source = read::read(&document, &mut problems);
+        let lines = error::Lines::new(text);
+        let locate = |mut problem: Problem| {
+            problem.locate(&lines, &document);
+            problem
+        };
+        match validate::validate(source, problems) {
+            Ok(mut scene) => {
+                scene.warnings = scene.warnings.into_iter().map(locate).collect();
+                Ok(scene)
+            }
+            Err(mut problems) => {
+                if is_broken {
+                    // What a broken text seems to lack may stand in the part that could not be read.
+                    problems.retain(|problem| problem.kind != ProblemKind::MissingKey);
+                }
+                let mut problems: Vec<Problem> = problems.into_iter().map(locate).collect();
+                problems.sort_by_key(|problem| problem.place.as_ref().map_or(0, |place| place.line));
+                Err(SceneError { name: name.into(), problems })
+            }
+        }
+    }
+
+    /// The scene with another number of pixels.
+    ///
+    /// # Errors
+    /// A resolution out of the [`limits`].
+    pub fn with_resolution(mut self, resolution: Resolution) -> Result<Self, SceneError> {
+        self.source.camera.get_or_insert_default().resolution =
+            Some([u64::from(resolution.width), u64::from(resolution.height)]);
+        Self::try_from(self.source)
+    }
+
+    /// A line that says what the scene is; may be empty.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// The unit of lengths in the scene's file and in everything that is made from it.
+    #[must_use]
+    pub fn length(&self) -> LengthUnit {
+        self.length
+    }
+
+    /// Which formula gives the brightness.
+    #[must_use]
+    pub fn convention(&self) -> Convention {
+        self.convention
+    }
+
+    /// Radiometric or photometric.
+    #[must_use]
+    pub fn quantities(&self) -> Quantities {
+        self.quantities
+    }
+
+    /// The observer.
+    #[must_use]
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// The materials, by name.
+    #[must_use]
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// The shapes, in the order of the file.
+    #[must_use]
+    pub fn shapes(&self) -> &[Shape] {
+        &self.shapes
+    }
+
+    /// The lights, in the order of the file: the order of every sum.
+    #[must_use]
+    pub fn lights(&self) -> &[Light] {
+        &self.lights
+    }
+
+    /// The probes, in the order of the file.
+    #[must_use]
+    pub fn probes(&self) -> &[Probe] {
+        &self.probes
+    }
+
+    /// What is allowed but deserves a word.
+    #[must_use]
+    pub fn warnings(&self) -> &[Problem] {
+        &self.warnings
+    }
+
+    /// The scene as it was written.
+    #[must_use]
+    pub fn source(&self) -> &SceneSource {
+        &self.source
+    }
+}
+
+impl TryFrom<SceneSource> for Scene {
+    type Error = SceneError;
+
+    /// Checks a scene and converts it to metres.
+    fn try_from(source: SceneSource) -> Result<Self, SceneError> {
+        validate::validate(source, Problems::default())
+            .map_err(|problems| SceneError { name: "the scene".into(), problems })
+    }
+}
+
+/// Reads a text file that may be anything: missing, a directory, huge, binary.
+fn read_text(path: &FilePath, name: &str) -> Result<String, SceneError> {
+    use std::io::Read;
+    let unreadable = |message: String| SceneError::unreadable(name, message, None);
+    let file = std::fs::File::open(path).map_err(|error| unreadable(describe(&error)))?;
+    let metadata = file.metadata().map_err(|error| unreadable(describe(&error)))?;
+    if metadata.is_dir() {
+        return Err(unreadable("this is a directory, not a scene file".into()));
+    }
+    let too_large = |size: u64| {
+        let message = format!("the file has {size} bytes; a scene file may have {}", limits::FILE_BYTES);
+        SceneError::unreadable(name, message, None)
+    };
+    if metadata.len() > limits::FILE_BYTES {
+        return Err(too_large(metadata.len()));
+    }
+    // A pipe has no length beforehand.
+    let mut bytes = Vec::new();
+    file.take(limits::FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(describe(&error)))?;
+    if bytes.len() as u64 > limits::FILE_BYTES {
+        return Err(too_large(bytes.len() as u64));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let byte = error.as_bytes()[at];
+        let message = format!("not a text in UTF-8: byte 0x{byte:02X} at offset {at}, line {line}");
+        let help = "a scene is a TOML or JSON text; save it as UTF-8";
+        SceneError::unreadable(name, message, Some(help.into()))
+    })
+}
+
+fn describe(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "there is no such file".into(),
+        std::io::ErrorKind::PermissionDenied => "this file may not be read: permission denied".into(),
+        _ => format!("this file cannot be read: {error}"),
+    }
+}

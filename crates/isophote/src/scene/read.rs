@@ -1,0 +1,356 @@
+//! From the tree to [`SceneSource`]: types and keys. Every key is named here once; what it may hold is checked in
+//! `validate`.
+
+use std::collections::{BTreeMap, HashSet};
+
+use super::document::{Document, Entry, Node, Path, Value};
+use super::error::{Problem, ProblemKind, Target};
+use super::source::{
+    CameraSource, LightSource, MaterialSource, ProbeSource, SceneSource, ScreenSource, SphereSource,
+};
+use crate::units::Choice;
+
+/// Reads a scene out of a document. What cannot be read is reported and left out.
+pub fn read(document: &Document, problems: &mut Problems) -> SceneSource {
+    let mut source = SceneSource::default();
+    if let Value::Table(entries) = &document.root.value {
+        let mut table = Table { entries, path: Path::root(), known: Vec::new(), problems };
+        source = read_scene(&mut table);
+        table.refuse_unknown_keys();
+    }
+    source
+}
+
+fn read_scene(table: &mut Table<'_>) -> SceneSource {
+    SceneSource {
+        version: table.count("version"),
+        title: table.text("title"),
+        length: table.choice("length"),
+        handedness: table.choice("handedness"),
+        convention: table.choice("convention"),
+        quantities: table.choice("quantities"),
+        camera: table.table("camera", read_camera),
+        material: table.named_tables("material", read_material),
+        sphere: table.tables("sphere", read_sphere),
+        light: table.tables("light", read_light),
+        probe: table.tables("probe", read_probe),
+    }
+}
+
+fn read_camera(table: &mut Table<'_>) -> CameraSource {
+    CameraSource {
+        eye: table.numbers("eye"),
+        forward: table.numbers("forward"),
+        target: table.numbers("target"),
+        up: table.numbers("up"),
+        screen: table.table("screen", read_screen),
+        resolution: table.counts("resolution"),
+    }
+}
+
+fn read_screen(table: &mut Table<'_>) -> ScreenSource {
+    ScreenSource { distance: table.number("distance"), x: table.numbers("x"), y: table.numbers("y") }
+}
+
+fn read_material(table: &mut Table<'_>) -> MaterialSource {
+    MaterialSource {
+        diffuse: table.number("diffuse"),
+        specular: table.number("specular"),
+        shininess: table.number("shininess"),
+    }
+}
+
+fn read_sphere(table: &mut Table<'_>) -> SphereSource {
+    SphereSource {
+        name: table.text("name"),
+        center: table.numbers("center"),
+        radius: table.number("radius"),
+        material: table.text("material"),
+    }
+}
+
+fn read_light(table: &mut Table<'_>) -> LightSource {
+    LightSource {
+        name: table.text("name"),
+        position: table.numbers("position"),
+        intensity: table.number("intensity"),
+        power: table.number("power"),
+        emission: table.choice("emission"),
+        axis: table.numbers("axis"),
+        target: table.numbers("target"),
+    }
+}
+
+fn read_probe(table: &mut Table<'_>) -> ProbeSource {
+    ProbeSource { name: table.text("name"), at: table.numbers("at"), published: table.number("published") }
+}
+
+/// Problems as they are found, each place at most once.
+#[derive(Default)]
+pub struct Problems {
+    list: Vec<Problem>,
+    reported: HashSet<Path>,
+}
+
+impl Problems {
+    /// Notes a problem, unless something around its place is already known to be wrong.
+    pub fn push(&mut self, kind: ProblemKind, path: &Path, message: impl Into<String>, help: impl Into<String>) {
+        if !self.reported.contains(path) {
+            self.reported.insert(path.clone());
+            let problem = Problem::new(kind, Target::Value(path.clone()), message.into());
+            self.list.push(problem.with_help(help));
+        }
+    }
+
+    /// Notes that a key is missing from a table, unless the key is there and already known to be wrong.
+    pub fn missing(&mut self, table: &Path, key: &str, help: impl Into<String>) {
+        if self.reported.insert(table.key(key)) {
+            let target = Target::Table(table.clone());
+            let place = if *table == Path::root() { String::new() } else { format!(" in `{table}`") };
+            let message = format!("the key `{key}` is missing{place}");
+            let mut problem = Problem::new(ProblemKind::MissingKey, target, message).with_help(help);
+            problem.path = table.key(key).to_string();
+            self.list.push(problem);
+        }
+    }
+
+    /// Notes problems that were found before the scene was read.
+    pub fn extend(&mut self, problems: impl IntoIterator<Item = Problem>) {
+        self.list.extend(problems);
+    }
+
+    /// All problems, in the order in which they were found.
+    pub fn into_list(self) -> Vec<Problem> {
+        self.list
+    }
+
+    /// Whether nothing was found.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+}
+
+/// A table while it is read.
+struct Table<'t> {
+    entries: &'t [Entry],
+    path: Path,
+    known: Vec<&'static str>,
+    problems: &'t mut Problems,
+}
+
+impl<'t> Table<'t> {
+    fn find(&mut self, key: &'static str) -> Option<&'t Node> {
+        self.known.push(key);
+        self.entries.iter().find(|entry| entry.key == key).map(|entry| &entry.node)
+    }
+
+    /// The value of a key by `convert`; one that has none is reported as not being `expected`.
+    fn value<T>(&mut self, key: &'static str, expected: &str, convert: impl FnOnce(&Value) -> Option<T>) -> Option<T> {
+        let node = self.find(key)?;
+        let value = convert(&node.value);
+        if value.is_none() {
+            self.wrong_type(&self.path.key(key), &node.value, expected);
+        }
+        value
+    }
+
+    fn wrong_type(&mut self, path: &Path, value: &Value, expected: &str) {
+        let message = format!("`{path}` is {}", value.describe());
+        self.problems.push(ProblemKind::WrongType, path, message, format!("allowed: {expected}"));
+    }
+
+    fn text(&mut self, key: &'static str) -> Option<String> {
+        self.value(key, "a text in quotes", |value| match value {
+            Value::Text(text) => Some(text.clone()),
+            _ => None,
+        })
+    }
+
+    fn number(&mut self, key: &'static str) -> Option<f64> {
+        let number = self.value(key, "a number", as_number)?;
+        self.finite(&self.path.key(key), number)
+    }
+
+    fn count(&mut self, key: &'static str) -> Option<u64> {
+        self.value(key, "a whole number, not negative", as_count)
+    }
+
+    fn numbers<const N: usize>(&mut self, key: &'static str) -> Option<[f64; N]> {
+        let numbers: [f64; N] = self.list(key, &format!("a list of {N} numbers"), as_number)?;
+        let mut all_finite = true;
+        for (index, number) in numbers.into_iter().enumerate() {
+            all_finite &= self.finite(&self.path.key(key).index(index), number).is_some();
+        }
+        all_finite.then_some(numbers)
+    }
+
+    fn counts<const N: usize>(&mut self, key: &'static str) -> Option<[u64; N]> {
+        self.list(key, &format!("a list of {N} whole numbers, not negative"), as_count)
+    }
+
+    fn list<T: Copy + Default, const N: usize>(
+        &mut self,
+        key: &'static str,
+        expected: &str,
+        convert: impl Fn(&Value) -> Option<T>,
+    ) -> Option<[T; N]> {
+        let node = self.find(key)?;
+        let path = self.path.key(key);
+        let Value::Array(items) = &node.value else {
+            self.wrong_type(&path, &node.value, expected);
+            return None;
+        };
+        if items.len() != N {
+            self.wrong_type(&path, &node.value, expected);
+            return None;
+        }
+        let mut list = [T::default(); N];
+        let mut complete = true;
+        for (index, item) in items.iter().enumerate() {
+            match convert(&item.value) {
+                Some(value) => list[index] = value,
+                None => {
+                    self.wrong_type(&path.index(index), &item.value, &format!("`{key}` is {expected}"));
+                    complete = false;
+                }
+            }
+        }
+        // The whole key is then known to be wrong, and not to be missing.
+        if !complete {
+            self.problems.reported.insert(path);
+        }
+        complete.then_some(list)
+    }
+
+    fn choice<C: Choice>(&mut self, key: &'static str) -> Option<C> {
+        let text = self.text(key)?;
+        let choice = C::from_name(&text);
+        if choice.is_none() {
+            let names: Vec<&str> = C::ALL.iter().map(|choice| choice.name()).collect();
+            let path = self.path.key(key);
+            let message = format!("`{path}` is \"{}\", which is not one of its words", short(&text));
+            let help = format!("allowed: {}{}", names.join(", "), suggestion(closest(&text, &names)));
+            self.problems.push(ProblemKind::Value, &path, message, help);
+        }
+        choice
+    }
+
+    fn table<T>(&mut self, key: &'static str, read: impl FnOnce(&mut Table<'_>) -> T) -> Option<T> {
+        let path = self.path.key(key);
+        let node = self.find(key)?;
+        self.read_table(node, path, read)
+    }
+
+    fn read_table<T>(&mut self, node: &Node, path: Path, read: impl FnOnce(&mut Table<'_>) -> T) -> Option<T> {
+        let Value::Table(entries) = &node.value else {
+            self.wrong_type(&path, &node.value, "a table");
+            return None;
+        };
+        let mut table = Table { entries, path, known: Vec::new(), problems: self.problems };
+        let value = read(&mut table);
+        table.refuse_unknown_keys();
+        Some(value)
+    }
+
+    fn tables<T: Default>(&mut self, key: &'static str, read: impl Fn(&mut Table<'_>) -> T) -> Vec<T> {
+        let path = self.path.key(key);
+        let Some(node) = self.find(key) else {
+            return Vec::new();
+        };
+        let Value::Array(items) = &node.value else {
+            let help = format!("a list of tables, each headed by [[{key}]]");
+            self.wrong_type(&path, &node.value, &help);
+            return Vec::new();
+        };
+        let read_item = |(index, item)| {
+            let path = path.index(index);
+            // An item that is no table keeps its place, so that the others keep their numbers.
+            self.read_table(item, path, &read).unwrap_or_default()
+        };
+        items.iter().enumerate().map(read_item).collect()
+    }
+
+    fn named_tables<T>(&mut self, key: &'static str, read: impl Fn(&mut Table<'_>) -> T) -> BTreeMap<String, T> {
+        let path = self.path.key(key);
+        let Some(node) = self.find(key) else {
+            return BTreeMap::new();
+        };
+        let Value::Table(tables) = &node.value else {
+            self.wrong_type(&path, &node.value, &format!("tables with names, each headed by [{key}.NAME]"));
+            return BTreeMap::new();
+        };
+        let read_entry = |entry: &Entry| {
+            let value = self.read_table(&entry.node, path.key(&entry.key), &read)?;
+            Some((entry.key.clone(), value))
+        };
+        tables.iter().filter_map(read_entry).collect()
+    }
+
+    fn finite(&mut self, path: &Path, number: f64) -> Option<f64> {
+        if number.is_finite() {
+            return Some(number);
+        }
+        let message = format!("`{path}` is {number}");
+        self.problems.push(ProblemKind::Value, path, message, "allowed: finite numbers");
+        None
+    }
+
+    fn refuse_unknown_keys(&mut self) {
+        for entry in self.entries {
+            if !self.known.contains(&entry.key.as_str()) {
+                let path = self.path.key(&entry.key);
+                let place = if self.path == Path::root() { "a scene".into() } else { format!("`{}`", self.path) };
+                let message = format!("{place} has no key `{}`", short(&entry.key));
+                let meant = closest(&entry.key, &self.known);
+                // The key that was meant is then not missing as well.
+                self.problems.reported.extend(meant.map(|key| self.path.key(key)));
+                let help = format!("allowed: {}{}", self.known.join(", "), suggestion(meant));
+                let mut problem = Problem::at_span(ProblemKind::UnknownKey, Some(entry.key_span.clone()), message);
+                problem.path = path.to_string();
+                self.problems.list.push(problem.with_help(help));
+            }
+        }
+    }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "a number with more than 15 digits is rounded, as every double is")]
+fn as_number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Integer(number) => Some(*number as f64),
+        Value::Float(number) => Some(*number),
+        _ => None,
+    }
+}
+
+fn as_count(value: &Value) -> Option<u64> {
+    match value {
+        Value::Integer(number) => u64::try_from(*number).ok(),
+        _ => None,
+    }
+}
+
+/// The known word that is closest to the written one, if any is close.
+pub(super) fn closest<'w>(written: &str, known: &[&'w str]) -> Option<&'w str> {
+    let written = written.to_lowercase();
+    known
+        .iter()
+        .map(|word| (strsim::damerau_levenshtein(&written, word), *word))
+        .filter(|(distance, word)| *distance <= 1 + word.chars().count() / 4)
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, word)| word)
+}
+
+/// `; did you mean …?`
+pub(super) fn suggestion(meant: Option<&str>) -> String {
+    meant.map_or(String::new(), |word| format!("; did you mean `{word}`?"))
+}
+
+/// A text from the file, fit to stand in a message.
+pub(super) fn short(text: &str) -> String {
+    const LENGTH: usize = 40;
+    let mut short: String = text.chars().take(LENGTH).flat_map(char::escape_debug).collect();
+    if text.chars().nth(LENGTH).is_some() {
+        short.push('…');
+    }
+    short
+}

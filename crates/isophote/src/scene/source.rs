@@ -1,0 +1,259 @@
+//! A scene exactly as it is written: nothing checked, nothing filled in. The schema is generated from here.
+
+use std::collections::BTreeMap;
+
+use schemars::{JsonSchema, Schema, transform::RecursiveTransform, transform::Transform};
+use serde::Serialize;
+
+use crate::camera::Handedness;
+use crate::reflectance::Convention;
+use crate::units::{LengthUnit, Quantities};
+
+/// A scene of surfaces lit by point lights, for the program isophote.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "Isophote scene")]
+pub struct SceneSource {
+    /// Version of the scene format: 1.
+    #[schemars(required, extend("const" = 1))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub version: Option<u64>,
+    /// A line that says what the scene is.
+    #[schemars(extend("default" = ""))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// Unit of every length in the scene.
+    #[schemars(required)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<LengthUnit>,
+    /// Which way x runs on the screen (formula 2.3): `left` means right = up × forward, `right` means
+    /// right = forward × up.
+    #[schemars(extend("default" = "right"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub handedness: Option<Handedness>,
+    /// Which formula gives the brightness (3.1 to 3.6).
+    #[schemars(extend("default" = "radiance"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub convention: Option<Convention>,
+    /// Whether lights are given in W and W/sr, or in lm and cd.
+    #[schemars(extend("default" = "radiometric"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub quantities: Option<Quantities>,
+    /// The observer.
+    #[schemars(required)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<CameraSource>,
+    /// The materials by name.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(extend("default" = {}))]
+    pub material: BTreeMap<String, MaterialSource>,
+    /// The spheres.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("default" = []))]
+    pub sphere: Vec<SphereSource>,
+    /// The lights.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("default" = []))]
+    pub light: Vec<LightSource>,
+    /// Points whose values are reported.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("default" = []))]
+    pub probe: Vec<ProbeSource>,
+}
+
+/// The observer: a pinhole camera that looks through a window.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CameraSource {
+    /// Where the eye is.
+    #[schemars(required)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eye: Option<[f64; 3]>,
+    /// Direction of view, of any length but zero. Either this or `target`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub forward: Option<[f64; 3]>,
+    /// A point to look at. Either this or `forward`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<[f64; 3]>,
+    /// A direction that appears vertical; not parallel to the direction of view.
+    #[schemars(extend("default" = [0, 1, 0]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub up: Option<[f64; 3]>,
+    /// The window.
+    #[schemars(required)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub screen: Option<ScreenSource>,
+    /// Width and height of the image in pixels.
+    #[schemars(extend("default" = [800, 600]))]
+    #[schemars(inner(range(min = 1, max = 65536)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<[u64; 2]>,
+}
+
+/// The window on the screen plane.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ScreenSource {
+    /// Distance of the screen plane from the eye.
+    #[schemars(required, extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distance: Option<f64>,
+    /// Left and right edge of the window; the first is smaller.
+    #[schemars(required)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x: Option<[f64; 2]>,
+    /// Lower and upper edge of the window; the first is smaller.
+    #[schemars(required)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y: Option<[f64; 2]>,
+}
+
+/// What a surface is made of.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialSource {
+    /// Diffuse coefficient k_d.
+    #[schemars(required, range(min = 0.0, max = 1.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diffuse: Option<f64>,
+    /// Specular coefficient k_s.
+    #[schemars(range(min = 0.0, max = 1.0), extend("default" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub specular: Option<f64>,
+    /// Shininess n, the exponent of the highlight. Must be given where `specular` is not 0.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 100000.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shininess: Option<f64>,
+}
+
+/// A sphere.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SphereSource {
+    /// A name of its own; by default `sphere[0]`, `sphere[1]` and so on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Its centre.
+    #[schemars(required)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub center: Option<[f64; 3]>,
+    /// Its radius.
+    #[schemars(required, extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Name of its material. May be left out in the `irradiance` convention, which knows no material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+}
+
+/// A point light.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LightSource {
+    /// A name of its own; by default `light[0]`, `light[1]` and so on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Where it stands: not inside a sphere, unless the eye is inside the same one.
+    #[schemars(required)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position: Option<[f64; 3]>,
+    /// Intensity on the axis in W/sr or cd. Either this or `power`.
+    #[schemars(range(min = 0.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub intensity: Option<f64>,
+    /// Power sent out in all directions, in W or lm; isotropic: 4π times the intensity, lambertian: π times.
+    #[schemars(range(min = 0.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub power: Option<f64>,
+    /// How the intensity depends on the direction: not at all, or as the cosine of the angle from the axis.
+    #[schemars(extend("default" = "isotropic"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub emission: Option<EmissionName>,
+    /// The axis of a lambertian light, of any length but zero. Either this or `target`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axis: Option<[f64; 3]>,
+    /// A point at which a lambertian light is aimed. Either this or `axis`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<[f64; 3]>,
+}
+
+/// The emission patterns by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum EmissionName {
+    /// The same intensity in every direction.
+    Isotropic,
+    /// I₀ cosγ, γ the angle from the axis.
+    Lambertian,
+}
+
+impl crate::units::Choice for EmissionName {
+    const ALL: &'static [Self] = &[Self::Isotropic, Self::Lambertian];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Isotropic => "isotropic",
+            Self::Lambertian => "lambertian",
+        }
+    }
+}
+
+/// A point on a surface whose values are reported.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ProbeSource {
+    /// A name of its own; by default `probe[0]`, `probe[1]` and so on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// The point; it must lie on a surface, to a billionth of the shape's size.
+    #[schemars(required)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<[f64; 3]>,
+    /// A value that somebody published for this point, shown beside the computed brightness and used for nothing else.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub published: Option<f64>,
+}
+
+impl SceneSource {
+    /// The scene as a TOML scene file, with the keys that it has.
+    ///
+    /// # Panics
+    /// Never: every value of a scene has a TOML form.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("every value of a scene has a TOML form")
+    }
+}
+
+/// The JSON Schema of a scene file, as `schema/scene.schema.json` holds it.
+///
+/// # Panics
+/// Never: a schema is plain data.
+#[must_use]
+pub fn schema() -> String {
+    let mut schema = schemars::schema_for!(SceneSource);
+    // `Option` says whether a key was written; to write null for it is not allowed.
+    RecursiveTransform(forbid_null).transform(&mut schema);
+    let mut text = serde_json::to_string_pretty(&schema).expect("a schema is plain data");
+    text.push('\n');
+    text
+}
+
+fn forbid_null(schema: &mut Schema) {
+    let Some(object) = schema.as_object_mut() else { return };
+    if let Some(serde_json::Value::Array(types)) = object.get_mut("type") {
+        types.retain(|kind| kind != "null");
+        if let [only] = types.as_slice() {
+            let only = only.clone();
+            object.insert("type".into(), only);
+        }
+    }
+    if let Some(serde_json::Value::Array(choices)) = object.get_mut("anyOf") {
+        choices.retain(|choice| choice.get("type").is_none_or(|kind| kind != "null"));
+        if let [serde_json::Value::Object(only)] = choices.as_slice() {
+            let only = only.clone();
+            object.remove("anyOf");
+            object.extend(only);
+        }
+    }
+}

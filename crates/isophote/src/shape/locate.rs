@@ -1,0 +1,61 @@
+//! Which surface a point lies on.
+
+use super::{Geometry, NearestPoint};
+use crate::units::{Choice, LengthUnit};
+use crate::vector::Vector;
+
+/// A point found on a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Located {
+    /// Index of the shape among those that were searched.
+    pub shape: usize,
+    /// The point, moved onto the surface by less than the tolerance.
+    pub nearest: NearestPoint,
+}
+
+/// A point that is on no surface, and the surface nearest to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Miss {
+    /// Index of the nearest shape among those that were searched.
+    pub shape: usize,
+    /// Its signed distance in metres, negative where the point is inside.
+    pub distance: f64,
+    /// The point of it that is nearest.
+    pub nearest: NearestPoint,
+}
+
+/// The surface on which a point lies, to [`Geometry::surface_tolerance`].
+///
+/// # Errors
+/// The nearest surface when the point is on none; nothing when there are no shapes at all.
+pub fn surface_at<'g>(shapes: impl Iterator<Item = &'g Geometry>, point: Vector) -> Result<Located, Option<Miss>> {
+    let nearest = shapes
+        .enumerate()
+        .map(|(index, geometry)| (index, geometry, geometry.signed_distance(point)))
+        .min_by(|first, second| first.2.abs().total_cmp(&second.2.abs()));
+    let Some((shape, geometry, distance)) = nearest else { return Err(None) };
+    let nearest = geometry.nearest(point);
+    if distance.abs() <= geometry.surface_tolerance() {
+        Ok(Located { shape, nearest })
+    } else {
+        Err(Some(Miss { shape, distance, nearest }))
+    }
+}
+
+impl Miss {
+    /// Where the nearest surface is, in the scene's unit. `name` is the nearest shape's.
+    #[must_use]
+    pub fn describe(&self, name: &str, length: LengthUnit) -> String {
+        let side = if self.distance < 0.0 { "inside" } else { "outside" };
+        let distance = length.from_metres(self.distance.abs());
+        let [x, y, z] = self.point().map(|coordinate| length.from_metres(coordinate));
+        let unit = length.name();
+        format!("it is {distance:.6} {unit} {side} the surface of \"{name}\"; the nearest point there is [{x}, {y}, {z}]")
+    }
+
+    /// The nearest surface point, in metres.
+    #[must_use]
+    pub fn point(&self) -> [f64; 3] {
+        (self.nearest.anchor + self.nearest.offset).to_array()
+    }
+}

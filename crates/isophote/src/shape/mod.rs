@@ -1,0 +1,117 @@
+//! Shapes: what a ray can hit.
+
+mod locate;
+mod sphere;
+
+pub use locate::{Located, Miss, surface_at};
+pub use sphere::Sphere;
+
+use crate::real::Real;
+use crate::vector::Vector;
+
+/// The form of a shape and its place in space. A closed set: each variant has a file of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Geometry {
+    /// See [`Sphere`].
+    Sphere(Sphere),
+}
+
+/// A ray from the eye.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray<T = f64> {
+    /// O, in metres.
+    pub origin: Vector<T>,
+    /// D, a unit vector.
+    pub direction: Vector<T>,
+}
+
+/// Where a ray meets a shape.
+#[derive(Clone, Copy, Debug)]
+pub struct Intersection<T: Real = f64> {
+    /// Whether it does; the other members mean nothing where it does not.
+    pub is_hit: T::Mask,
+    /// t, the distance from the eye in metres.
+    pub distance: T,
+    /// The point that was hit.
+    pub point: SurfacePoint<T>,
+    /// How far the ray is from grazing the shape: cos²θ_o at the hit, negative for a miss.
+    pub clearance: T,
+}
+
+/// A point on a surface, as its shading needs it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint<T = f64> {
+    /// A place near the point (the centre of a sphere), in metres. The point is kept as `anchor + offset`, because
+    /// far from the origin the sum would lose the digits that the offset still has.
+    pub anchor: Vector<T>,
+    /// From the anchor to the point, in metres.
+    pub offset: Vector<T>,
+    /// N, the unit normal on the viewer's side.
+    pub normal: Vector<T>,
+    /// V, the unit vector to the eye.
+    pub view: Vector<T>,
+    /// cosθ_o = N·V.
+    pub cos_theta_o: T,
+}
+
+impl<T: Real> SurfacePoint<T> {
+    /// P, in metres.
+    #[must_use]
+    pub fn position(&self) -> Vector<T> {
+        self.anchor + self.offset
+    }
+}
+
+impl Geometry {
+    /// The nearest intersection with a ray (2.2). `from_inside` says that the ray starts inside the shape.
+    #[inline(always)]
+    pub fn intersect<T: Real>(&self, ray: &Ray<T>, from_inside: bool) -> Intersection<T> {
+        match self {
+            Self::Sphere(sphere) => sphere.intersect(ray, from_inside),
+        }
+    }
+
+    /// Signed distance of a point from the surface in metres, negative inside.
+    #[must_use]
+    pub fn signed_distance(&self, point: Vector) -> f64 {
+        match self {
+            Self::Sphere(sphere) => sphere.signed_distance(point),
+        }
+    }
+
+    /// The surface point nearest to a point, as an offset from [`anchor`](Self::anchor), and the outward normal there.
+    #[must_use]
+    pub fn nearest(&self, point: Vector) -> NearestPoint {
+        match self {
+            Self::Sphere(sphere) => sphere.nearest(point),
+        }
+    }
+
+    /// The surface point that lies in a direction (a unit vector) from the shape's centre.
+    #[must_use]
+    pub fn in_direction(&self, direction: Vector) -> NearestPoint {
+        match self {
+            Self::Sphere(sphere) => sphere.in_direction(direction),
+        }
+    }
+
+    /// How near a place must be to the surface to count as on it: a billionth of the shape's size, in metres. Ten
+    /// typed digits are enough for that, and no value moves by more than the ninth digit.
+    #[must_use]
+    pub fn surface_tolerance(&self) -> f64 {
+        match self {
+            Self::Sphere(sphere) => 1e-9 * sphere.radius,
+        }
+    }
+}
+
+/// The point of a surface that is nearest to some place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearestPoint {
+    /// See [`SurfacePoint::anchor`].
+    pub anchor: Vector,
+    /// See [`SurfacePoint::offset`].
+    pub offset: Vector,
+    /// The unit normal that points out of the shape.
+    pub outward_normal: Vector,
+}
