@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::units::LengthUnit;
+use crate::reflectance::Convention;
+use crate::units::{Choice, LengthUnit, Quantities};
 
 /// Width and height in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -91,6 +92,41 @@ impl Quantity {
     }
 }
 
+impl Quantity {
+    /// The quantities that every map can hold, whatever the lights are called.
+    pub const COMMON: [Self; 8] = [
+        Self::Brightness,
+        Self::Irradiance,
+        Self::Diffuse,
+        Self::Specular,
+        Self::Depth,
+        Self::Position,
+        Self::Normal,
+        Self::Shape,
+    ];
+
+    /// The unit of the quantity in a scene of this kind: `"1"` for pure numbers, `""` for indices.
+    #[must_use]
+    pub fn unit(&self, convention: Convention, quantities: Quantities, length: LengthUnit) -> &'static str {
+        match self {
+            Self::Brightness | Self::Diffuse | Self::Specular => convention.unit(quantities),
+            Self::Irradiance | Self::Light(_) => quantities.irradiance_unit(),
+            Self::Depth | Self::Position => length.name(),
+            Self::Normal => "1",
+            Self::Shape => "",
+        }
+    }
+
+    /// The quantity with this [name](Self::name).
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name.strip_prefix("light.") {
+            Some(light) => Some(Self::Light(light.into())),
+            None => Self::COMMON.into_iter().find(|quantity| quantity.name() == name),
+        }
+    }
+}
+
 /// The values of a channel, row by row from the top, each row from the left. Zero (−1 for indices) where no
 /// surface is seen, never NaN: [`Map::is_visible`] tells the two kinds of zero apart.
 #[derive(Clone, Debug, PartialEq)]
@@ -148,6 +184,11 @@ impl Map {
     #[must_use]
     pub fn channels(&self) -> &[Channel] {
         &self.channels
+    }
+
+    /// Drops the channels that are not wanted; `shape` always stays.
+    pub fn retain(&mut self, is_wanted: impl Fn(&Quantity) -> bool) {
+        self.channels.retain(|channel| channel.quantity == Quantity::Shape || is_wanted(&channel.quantity));
     }
 
     /// The channel with this quantity, if the map holds it.

@@ -5,6 +5,7 @@ use crate::map::Pixel;
 use crate::prepare::PreparedScene;
 use crate::shade::{LightTerm, Shading};
 use crate::shape::{Located, Miss, SurfacePoint, surface_at};
+use crate::units::LengthUnit;
 use crate::vector::Vector;
 
 /// Where a value is asked for.
@@ -52,6 +53,20 @@ pub enum Visibility {
     FacesAway,
     /// A shape with this index stands before it.
     HiddenBy(usize),
+}
+
+impl ProbeReading {
+    /// The point, in the scene's unit.
+    #[must_use]
+    pub fn position(&self, length: LengthUnit) -> [f64; 3] {
+        self.point.position().to_array().map(|metres| length.from_metres(metres))
+    }
+
+    /// Whether the eye sees the point.
+    #[must_use]
+    pub fn is_seen(&self) -> bool {
+        self.visibility == Visibility::Seen
+    }
 }
 
 /// Why there is no value.

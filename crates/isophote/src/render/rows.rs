@@ -4,7 +4,7 @@ use super::{Observer, RenderError, RenderSettings};
 use crate::map::{Channel, Map, Pixel, Provenance, Quantity, Region, Values, Window};
 use crate::prepare::{Hit, PreparedScene};
 use crate::scene::Scene;
-use crate::units::{Choice, LengthUnit};
+use crate::units::LengthUnit;
 
 /// A map of zeros (−1 for the shape), with every channel that the settings ask for.
 pub fn empty_map(
@@ -38,26 +38,19 @@ pub fn empty_map(
 }
 
 fn empty_channel(quantity: &Quantity, scene: &Scene, region: Region) -> Result<Channel, RenderError> {
+    if let Quantity::Light(name) = quantity
+        && scene.lights.iter().all(|light| light.name != *name)
+    {
+        return Err(RenderError::NoSuchLight { name: name.clone() });
+    }
     let pixels = region.size.pixels();
-    let irradiance = scene.quantities.irradiance_unit();
-    let brightness = scene.convention.unit(scene.quantities);
-    let scalar = || Values::Scalar(vec![0.0; pixels]);
-    let vector = || Values::Vector(vec![[0.0; 3]; pixels]);
-    let (unit, values) = match quantity {
-        Quantity::Brightness | Quantity::Diffuse | Quantity::Specular => (brightness, scalar()),
-        Quantity::Irradiance => (irradiance, scalar()),
-        Quantity::Light(name) => {
-            if scene.lights.iter().all(|light| light.name != *name) {
-                return Err(RenderError::NoSuchLight { name: name.clone() });
-            }
-            (irradiance, scalar())
-        }
-        Quantity::Depth => (scene.length.name(), scalar()),
-        Quantity::Position => (scene.length.name(), vector()),
-        Quantity::Normal => ("1", vector()),
-        Quantity::Shape => ("", Values::Index(vec![-1; pixels])),
+    let values = match quantity {
+        Quantity::Position | Quantity::Normal => Values::Vector(vec![[0.0; 3]; pixels]),
+        Quantity::Shape => Values::Index(vec![-1; pixels]),
+        _ => Values::Scalar(vec![0.0; pixels]),
     };
-    Ok(Channel { quantity: quantity.clone(), unit: unit.into(), values })
+    let unit = quantity.unit(scene.convention, scene.quantities, scene.length).into();
+    Ok(Channel { quantity: quantity.clone(), unit, values })
 }
 
 fn window(scene: &Scene, region: Region) -> Window {

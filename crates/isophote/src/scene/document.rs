@@ -96,7 +96,11 @@ impl Document {
     #[must_use]
     pub fn span_of(&self, path: &Path) -> Option<Range<usize>> {
         let mut node = &self.root;
-        let mut span = None;
+        // The root itself is shown by its first key.
+        let mut span = match &node.value {
+            Value::Table(entries) => entries.first().map(|entry| entry.key_span.clone()),
+            _ => None,
+        };
         for step in &path.0 {
             node = match (step, &node.value) {
                 (Step::Key(key), Value::Table(entries)) => match entries.iter().find(|entry| entry.key == *key) {

@@ -7,6 +7,7 @@ mod read;
 pub mod source;
 mod validate;
 
+use std::io::Read;
 use std::path::Path as FilePath;
 
 pub use document::Syntax;
@@ -79,7 +80,7 @@ impl Scene {
     /// Every problem of the file and of the scene in it, with its place.
     pub fn from_file(path: &FilePath) -> Result<Self, SceneError> {
         let name = path.display().to_string();
-        let text = read_text(path, &name)?;
+        let text = Self::read_text(&mut open(path, &name)?, &name)?;
         let is_json = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("json"));
         Self::from_text(&name, &text, if is_json { Syntax::Json } else { Syntax::Toml })
     }
@@ -96,8 +97,14 @@ impl Scene {
         }
         let mut document = Document::parse(text, syntax);
         let mut problems = Problems::default();
-        let syntax_problems = std::mem::take(&mut document.syntax_problems);
+        let mut syntax_problems = std::mem::take(&mut document.syntax_problems);
         let is_broken = !syntax_problems.is_empty();
+        let is_unreadable = syntax_problems.len() > FOLLOWED_SYNTAX_PROBLEMS;
+        if is_unreadable {
+            syntax_problems.truncate(1);
+            let help = "what follows could not be read because of this; mend it and check again";
+            syntax_problems[0].help = Some(help.into());
+        }
         problems.extend(syntax_problems);
         let source = read::read(&document, &mut problems);
         let lines = error::Lines::new(text);
@@ -111,7 +118,9 @@ impl Scene {
                 Ok(scene)
             }
             Err(mut problems) => {
-                if is_broken {
+                if is_unreadable {
+                    problems.retain(|problem| problem.kind == ProblemKind::Syntax);
+                } else if is_broken {
                     // What a broken text seems to lack may stand in the part that could not be read.
                     problems.retain(|problem| problem.kind != ProblemKind::MissingKey);
                 }
@@ -120,6 +129,29 @@ impl Scene {
                 Err(SceneError { name: name.into(), problems })
             }
         }
+    }
+
+    /// Reads the text of a scene from anything that may turn out to be endless or binary; `name` stands for it in
+    /// error messages.
+    ///
+    /// # Errors
+    /// More bytes than the [`limits`] allow, or bytes that are no text.
+    pub fn read_text(input: &mut impl std::io::Read, name: &str) -> Result<String, SceneError> {
+        let mut bytes = Vec::new();
+        std::io::Read::take(input, limits::FILE_BYTES + 1)
+            .read_to_end(&mut bytes)
+            .map_err(|error| SceneError::unreadable(name, describe(&error), None))?;
+        if bytes.len() as u64 > limits::FILE_BYTES {
+            return Err(too_large(name, "more bytes"));
+        }
+        String::from_utf8(bytes).map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
+            let byte = error.as_bytes()[at];
+            let message = format!("not a text in UTF-8: byte 0x{byte:02X} at offset {at}, line {line}");
+            let help = "a scene is a TOML or JSON text; save it as UTF-8";
+            SceneError::unreadable(name, message, Some(help.into()))
+        })
     }
 
     /// The scene with another number of pixels.
@@ -209,36 +241,26 @@ impl TryFrom<SceneSource> for Scene {
     }
 }
 
-/// Reads a text file that may be anything: missing, a directory, huge, binary.
-fn read_text(path: &FilePath, name: &str) -> Result<String, SceneError> {
-    use std::io::Read;
-    let unreadable = |message: String| SceneError::unreadable(name, message, None);
-    let file = std::fs::File::open(path).map_err(|error| unreadable(describe(&error)))?;
-    let metadata = file.metadata().map_err(|error| unreadable(describe(&error)))?;
+/// When a text has more syntax problems than this, one of them (a bracket that never closes) has caused the others.
+const FOLLOWED_SYNTAX_PROBLEMS: usize = 3;
+
+/// Opens a file that may be anything: missing, a directory, huge.
+fn open(path: &FilePath, name: &str) -> Result<std::fs::File, SceneError> {
+    let unreadable = |error: std::io::Error| SceneError::unreadable(name, describe(&error), None);
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    let metadata = file.metadata().map_err(unreadable)?;
     if metadata.is_dir() {
-        return Err(unreadable("this is a directory, not a scene file".into()));
+        return Err(SceneError::unreadable(name, "this is a directory, not a scene file".into(), None));
     }
-    let too_large = |size: u64| {
-        let message = format!("the file has {size} bytes; a scene file may have {}", limits::FILE_BYTES);
-        SceneError::unreadable(name, message, None)
-    };
     if metadata.len() > limits::FILE_BYTES {
-        return Err(too_large(metadata.len()));
+        return Err(too_large(name, &format!("{} bytes", metadata.len())));
     }
-    // A pipe has no length beforehand.
-    let mut bytes = Vec::new();
-    file.take(limits::FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(describe(&error)))?;
-    if bytes.len() as u64 > limits::FILE_BYTES {
-        return Err(too_large(bytes.len() as u64));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
-        let byte = error.as_bytes()[at];
-        let message = format!("not a text in UTF-8: byte 0x{byte:02X} at offset {at}, line {line}");
-        let help = "a scene is a TOML or JSON text; save it as UTF-8";
-        SceneError::unreadable(name, message, Some(help.into()))
-    })
+    Ok(file)
+}
+
+fn too_large(name: &str, size: &str) -> SceneError {
+    let message = format!("the file has {size}; a scene file may have {}", limits::FILE_BYTES);
+    SceneError::unreadable(name, message, None)
 }
 
 fn describe(error: &std::io::Error) -> String {

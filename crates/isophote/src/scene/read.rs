@@ -124,6 +124,11 @@ impl Problems {
         self.list
     }
 
+    /// Whether the thing at a path is known to be wrong.
+    pub fn has(&self, path: &Path) -> bool {
+        self.reported.contains(path)
+    }
+
     /// Whether nothing was found.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
@@ -181,6 +186,9 @@ impl<'t> Table<'t> {
         for (index, number) in numbers.into_iter().enumerate() {
             all_finite &= self.finite(&self.path.key(key).index(index), number).is_some();
         }
+        if !all_finite {
+            self.problems.reported.insert(self.path.key(key));
+        }
         all_finite.then_some(numbers)
     }
 
@@ -228,7 +236,7 @@ impl<'t> Table<'t> {
         if choice.is_none() {
             let names: Vec<&str> = C::ALL.iter().map(|choice| choice.name()).collect();
             let path = self.path.key(key);
-            let message = format!("`{path}` is \"{}\", which is not one of its words", short(&text));
+            let message = format!("`{path}` cannot be \"{}\"", short(&text));
             let help = format!("allowed: {}{}", names.join(", "), suggestion(closest(&text, &names)));
             self.problems.push(ProblemKind::Value, &path, message, help);
         }

@@ -368,7 +368,7 @@ impl Validator {
 
     fn probes_against_shapes(&mut self, probes: &Checked<Probe>, shapes: &Checked<Shape>) {
         // With a shape missing, its probes would be called wrong for nothing.
-        if shapes.iter().any(Option::is_none) {
+        if shapes.iter().any(Option::is_none) || self.problems.has(&Path::root().key("sphere")) {
             return;
         }
         for (index, probe) in probes.iter().enumerate() {

@@ -1,0 +1,286 @@
+//! The command line as the user types it.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+use isophote::export::colormap::Colormap;
+use isophote::map::{Pixel, Region, Resolution};
+use isophote::scene::library::Starter;
+use isophote::units::Choice;
+
+use crate::numbers;
+
+/// Brightness of surfaces lit by point lights: maps, exact values at points, pictures.
+///
+/// Without a command, renders the lab's scene: a table to standard output and the picture lab.png.
+#[derive(Parser)]
+#[command(name = "isophote", version, max_term_width = 100)]
+#[command(after_help = "Exit codes: 0 fine, 1 failed, 2 wrong arguments, 3 invalid scene, 130 interrupted.")]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Compute the brightness map of a scene; print its extremes and probes, write it to files
+    Render(RenderArguments),
+    /// Print exact values at points of a surface, with every step if asked
+    Probe(ProbeArguments),
+    /// Print or plot the values along a line of the picture
+    Section(SectionArguments),
+    /// Check a scene and print it as it is understood, in metres
+    Check(CheckArguments),
+    /// Write a commented scene file to start from
+    New(NewArguments),
+    /// Print what an output file says about itself
+    Show(ShowArguments),
+    /// Print the JSON Schema of scene files
+    Schema,
+    /// Print the completions for a shell
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page, or that of a command
+    Man {
+        /// A command, such as `render`.
+        command: Option<String>,
+    },
+}
+
+/// Where the scene comes from.
+#[derive(Args, Default)]
+pub struct SceneArgument {
+    /// Scene file (TOML, or JSON by its suffix), an output file of this program, or - for standard input; without it,
+    /// the lab's scene
+    #[arg(value_name = "SCENE")]
+    pub scene: Option<PathBuf>,
+}
+
+#[derive(Args, Default)]
+pub struct RenderArguments {
+    #[command(flatten)]
+    pub scene: SceneArgument,
+
+    /// Write the map to FILE: .png, .exr, .npy, .npz or .csv; may be given several times
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+
+    /// Draw the map with axes, colour bar and isophotes into FILE: .svg or .png; may be given several times
+    #[arg(long, value_name = "FILE")]
+    pub figure: Vec<PathBuf>,
+
+    /// Channel: brightness, irradiance, diffuse, specular, depth, position, normal, shape or light.NAME; may be given
+    /// several times. The first one is summarised and pictured. By default the picture shows the brightness, and files
+    /// with many channels get all
+    #[arg(short, long, value_name = "NAME")]
+    pub channel: Vec<String>,
+
+    /// Add the irradiance from each light as a channel of its own
+    #[arg(long)]
+    pub lights: bool,
+
+    /// Pixels of the whole image, instead of the scene's
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = numbers::size)]
+    pub size: Option<Resolution>,
+
+    /// Compute only this part of the image
+    #[arg(long, value_name = "COLUMN,ROW,WIDTH,HEIGHT", value_parser = numbers::region)]
+    pub region: Option<Region>,
+
+    /// Colours of pictures and figures (pictures are grey by default, figures viridis)
+    #[arg(long, value_name = "NAME", value_parser = choice::<Colormap>())]
+    pub colormap: Option<Colormap>,
+
+    /// The values that become black and white (by default 0 and the maximum)
+    #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = parse_range)]
+    pub range: Option<[f64; 2]>,
+
+    /// Brighten the middle tones of .png pictures: v becomes v^(1/GAMMA)
+    #[arg(long, value_name = "GAMMA", default_value_t = 1.0, value_parser = parse_gamma)]
+    pub gamma: f64,
+
+    /// Bits of a grey .png picture
+    #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
+    pub depth: String,
+
+    /// About how many isophotes a figure shows; 0 for none
+    #[arg(long, value_name = "COUNT", default_value_t = 6, value_parser = clap::value_parser!(u8).range(0..=50))]
+    pub isophotes: u8,
+
+    /// Leave pixels without a surface out of .csv files
+    #[arg(long)]
+    pub visible_only: bool,
+
+    /// How many threads compute; as many as there are processors by default
+    #[arg(long, value_name = "COUNT")]
+    pub threads: Option<NonZeroUsize>,
+
+    /// Print the results as JSON
+    #[arg(long)]
+    pub json: bool,
+
+    /// No notes, no progress: only results and errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Args)]
+pub struct ProbeArguments {
+    #[command(flatten)]
+    pub scene: SceneArgument,
+
+    /// A point on a surface, in the scene's length unit; may be given several times
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_point)]
+    pub at: Vec<[f64; 3]>,
+
+    /// What the centre of a pixel sees; may be given several times
+    #[arg(long, value_name = "COLUMN,ROW", value_parser = numbers::pixel)]
+    pub pixel: Vec<Pixel>,
+
+    /// A point of a sphere in degrees: THETA from the direction towards the viewer, PHI from the screen's x towards its
+    /// y; may be given several times
+    #[arg(long, value_name = "THETA,PHI", allow_hyphen_values = true, value_parser = parse_angles)]
+    pub angles: Vec<[f64; 2]>,
+
+    /// The sphere that --angles means; not needed when there is only one
+    #[arg(long, value_name = "NAME")]
+    pub shape: Option<String>,
+
+    /// Move points given by --at to the nearest surface
+    #[arg(long)]
+    pub snap: bool,
+
+    /// Show every step of the calculation, with its numbers and formula numbers
+    #[arg(long)]
+    pub explain: bool,
+
+    /// Print the results as JSON
+    #[arg(long, conflicts_with = "explain")]
+    pub json: bool,
+
+    /// No notes: only results and errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Args)]
+pub struct SectionArguments {
+    #[command(flatten)]
+    pub scene: SceneArgument,
+
+    #[command(flatten)]
+    pub line: LineArgument,
+
+    /// How many points a --line has
+    #[arg(long, value_name = "COUNT", default_value_t = 513, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    pub samples: u32,
+
+    /// Channel: brightness, irradiance, diffuse, specular or depth; may be given several times (by default the
+    /// brightness)
+    #[arg(short, long, value_name = "NAME")]
+    pub channel: Vec<String>,
+
+    /// Write to FILE instead: .csv, .png or .svg; may be given several times
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+
+    /// Print the values as JSON
+    #[arg(long)]
+    pub json: bool,
+
+    /// No notes: only results and errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Args)]
+#[group(required = true, multiple = false)]
+pub struct LineArgument {
+    /// Along a row of pixels, 0 at the top
+    #[arg(long, value_name = "ROW")]
+    pub row: Option<u32>,
+
+    /// Along a column of pixels, 0 at the left
+    #[arg(long, value_name = "COLUMN")]
+    pub column: Option<u32>,
+
+    /// Between two points of the screen, in the scene's length unit
+    #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = parse_line)]
+    pub line: Option<[f64; 4]>,
+}
+
+#[derive(Args)]
+pub struct CheckArguments {
+    #[command(flatten)]
+    pub scene: SceneArgument,
+
+    /// Print the scene, with every default filled in, as JSON
+    #[arg(long)]
+    pub json: bool,
+
+    /// No warnings: only results and errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Args)]
+pub struct NewArguments {
+    /// Which scene
+    #[arg(value_name = "NAME", value_parser = choice::<Starter>())]
+    pub name: Starter,
+
+    /// Write to FILE (by default NAME.toml), or - for standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+
+    /// Overwrite a file that exists
+    #[arg(short, long)]
+    pub force: bool,
+}
+
+#[derive(Args)]
+pub struct ShowArguments {
+    /// A file that this program wrote
+    pub file: PathBuf,
+
+    /// Print the scene that the file carries, as a scene file
+    #[arg(long, conflicts_with = "json")]
+    pub scene: bool,
+
+    /// Print everything as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// One of a closed set of words.
+fn choice<C: Choice + Send + Sync>() -> impl TypedValueParser<Value = C> {
+    let names = C::ALL.iter().map(|choice| choice.name());
+    PossibleValuesParser::new(names).try_map(|name| C::from_name(&name).ok_or("no such word"))
+}
+
+fn parse_point(text: &str) -> Result<[f64; 3], String> {
+    numbers::finite(text, "X,Y,Z, such as 0,0,4")
+}
+
+fn parse_angles(text: &str) -> Result<[f64; 2], String> {
+    numbers::finite(text, "THETA,PHI in degrees, such as 45,90")
+}
+
+fn parse_line(text: &str) -> Result<[f64; 4], String> {
+    numbers::finite(text, "X0,Y0,X1,Y1, such as -1,0,1,0")
+}
+
+fn parse_range(text: &str) -> Result<[f64; 2], String> {
+    let range: [f64; 2] = numbers::finite(text, "MIN,MAX, such as 0,0.5")?;
+    if range[0] < range[1] { Ok(range) } else { Err("MIN must be smaller than MAX".into()) }
+}
+
+fn parse_gamma(text: &str) -> Result<f64, String> {
+    let gamma: f64 = text.parse().map_err(|_| "expected a number".to_owned())?;
+    if (0.1..=10.0).contains(&gamma) { Ok(gamma) } else { Err("allowed: 0.1 to 10".into()) }
+}

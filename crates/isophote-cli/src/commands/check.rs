@@ -1,0 +1,170 @@
+//! `isophote check`: the scene as it is understood.
+
+use std::fmt::Write;
+
+use anyhow::Result;
+use isophote::camera::CameraFrame;
+use isophote::light::Emission;
+use isophote::scene::Scene;
+use isophote::shape::Geometry;
+use isophote::text::significant;
+use isophote::units::Choice;
+use isophote::vector::Vector;
+use serde_json::{Value, json};
+
+use crate::args::CheckArguments;
+use crate::table::{Align, table};
+use crate::{load, numbers};
+
+/// Checks a scene and prints it.
+pub fn run(arguments: &CheckArguments) -> Result<String> {
+    let scene = load::scene(&arguments.scene, None, arguments.quiet)?;
+    if arguments.json { numbers::json(&to_json(&scene)) } else { Ok(to_text(&scene)) }
+}
+
+fn to_text(scene: &Scene) -> String {
+    let camera = scene.camera();
+    let frame = CameraFrame::<f64>::new(camera);
+    let screen = camera.screen;
+    let [left, right] = screen.x.map(short);
+    let [bottom, top] = screen.y.map(short);
+    let convention = scene.convention();
+    let mut text = String::new();
+    // Writing to a text cannot fail.
+    let mut row = |name: &str, value: String| {
+        let _ = writeln!(text, "  {name:<12}{value}");
+    };
+    row("title", scene.title().to_owned());
+    row("length", format!("{} in the file; metres below", scene.length().name()));
+    row("handedness", format!("{} (2.3)", camera.handedness.name()));
+    row("convention", format!("{}: {}", convention.label(), convention.formula()));
+    row("quantities", format!("{}: B in {}", scene.quantities().name(), convention.unit(scene.quantities())));
+    row("eye", vector(camera.eye));
+    row("forward", vector(frame.forward));
+    row("up", vector(frame.up));
+    row("right", vector(frame.right));
+    row("screen", format!("distance {}, x {left} to {right}, y {bottom} to {top}", short(screen.distance)));
+    row("resolution", format!("{} × {} pixels", camera.resolution.width, camera.resolution.height));
+    for (title, table) in [
+        ("materials", materials(scene)),
+        ("shapes", shapes(scene)),
+        ("lights", lights(scene)),
+        ("probes", probes(scene)),
+    ] {
+        let _ = write!(text, "\n{title}\n{}", table.unwrap_or_else(|| "  none\n".into()));
+    }
+    text
+}
+
+fn materials(scene: &Scene) -> Option<String> {
+    let columns = [("name", Align::Left), ("k_d", Align::Right), ("k_s", Align::Right), ("n", Align::Right)];
+    let rows = scene.materials().iter().map(|material| {
+        let isophote::reflectance::Reflectance { diffuse, specular, shininess } = material.reflectance;
+        let shininess = if specular == 0.0 { "–".into() } else { short(shininess) };
+        vec![material.name.clone(), short(diffuse), short(specular), shininess]
+    });
+    filled(&columns, rows.collect())
+}
+
+fn shapes(scene: &Scene) -> Option<String> {
+    let columns = [
+        ("name", Align::Left),
+        ("shape", Align::Left),
+        ("centre, m", Align::Left),
+        ("radius, m", Align::Right),
+        ("material", Align::Left),
+    ];
+    let rows = scene.shapes().iter().map(|shape| {
+        let Geometry::Sphere(sphere) = shape.geometry;
+        let material = shape.material.map_or("–", |index| scene.materials()[index].name.as_str());
+        vec![shape.name.clone(), "sphere".into(), vector(sphere.center), short(sphere.radius), material.to_owned()]
+    });
+    filled(&columns, rows.collect())
+}
+
+fn lights(scene: &Scene) -> Option<String> {
+    let intensity = format!("I₀, {}", scene.quantities().intensity_unit());
+    let power = format!("power, {}", scene.quantities().power_unit());
+    let columns = [
+        ("name", Align::Left),
+        ("position, m", Align::Left),
+        (intensity.as_str(), Align::Right),
+        (power.as_str(), Align::Right),
+        ("emission", Align::Left),
+    ];
+    let rows = scene.lights().iter().map(|light| {
+        let emission = match light.emission {
+            Emission::Isotropic => "isotropic".into(),
+            Emission::Lambertian { axis } => format!("lambertian, axis {}", vector(axis)),
+        };
+        let position = vector(light.position);
+        vec![light.name.clone(), position, short(light.intensity), short(light.power()), emission]
+    });
+    filled(&columns, rows.collect())
+}
+
+fn probes(scene: &Scene) -> Option<String> {
+    let columns = [("name", Align::Left), ("at, m", Align::Left), ("published", Align::Right)];
+    let rows = scene.probes().iter().map(|probe| {
+        vec![probe.name.clone(), vector(probe.at), probe.published.map_or("–".into(), short)]
+    });
+    filled(&columns, rows.collect())
+}
+
+fn filled(columns: &[(&str, Align)], rows: Vec<Vec<String>>) -> Option<String> {
+    (!rows.is_empty()).then(|| table(columns, &rows))
+}
+
+fn short(value: f64) -> String {
+    significant(value, 9)
+}
+
+fn vector(vector: Vector) -> String {
+    let [x, y, z] = vector.to_array().map(short);
+    format!("({x}, {y}, {z})")
+}
+
+/// The same in SI units, for programs.
+fn to_json(scene: &Scene) -> Value {
+    let camera = scene.camera();
+    let frame = CameraFrame::<f64>::new(camera);
+    let materials: Vec<Value> = scene.materials().iter().map(|material| {
+        let reflectance = material.reflectance;
+        json!({"name": material.name, "diffuse": reflectance.diffuse, "specular": reflectance.specular,
+            "shininess": reflectance.shininess})
+    }).collect();
+    let shapes: Vec<Value> = scene.shapes().iter().map(|shape| {
+        let Geometry::Sphere(sphere) = shape.geometry;
+        let material = shape.material.map(|index| scene.materials()[index].name.as_str());
+        json!({"name": shape.name, "shape": "sphere", "center": sphere.center.to_array(), "radius": sphere.radius,
+            "material": material})
+    }).collect();
+    let lights: Vec<Value> = scene.lights().iter().map(|light| {
+        let (emission, axis) = match light.emission {
+            Emission::Isotropic => ("isotropic", None),
+            Emission::Lambertian { axis } => ("lambertian", Some(axis.to_array())),
+        };
+        json!({"name": light.name, "position": light.position.to_array(), "intensity": light.intensity,
+            "power": light.power(), "emission": emission, "axis": axis})
+    }).collect();
+    let probes: Vec<Value> = scene.probes().iter().map(|probe| {
+        json!({"name": probe.name, "at": probe.at.to_array(), "published": probe.published})
+    }).collect();
+    let warnings: Vec<Value> = scene.warnings().iter().map(|warning| {
+        json!({"path": warning.path, "message": warning.message, "help": warning.help,
+            "line": warning.place.as_ref().map(|place| place.line)})
+    }).collect();
+    json!({
+        "title": scene.title(), "length": "m", "length_in_file": scene.length().name(),
+        "handedness": camera.handedness.name(), "convention": scene.convention().name(),
+        "formula": scene.convention().formula_number(), "quantities": scene.quantities().name(),
+        "unit": scene.convention().unit(scene.quantities()),
+        "camera": {
+            "eye": camera.eye.to_array(), "forward": frame.forward.to_array(), "up": frame.up.to_array(),
+            "right": frame.right.to_array(),
+            "screen": {"distance": camera.screen.distance, "x": camera.screen.x, "y": camera.screen.y},
+            "resolution": [camera.resolution.width, camera.resolution.height],
+        },
+        "materials": materials, "shapes": shapes, "lights": lights, "probes": probes, "warnings": warnings,
+    })
+}

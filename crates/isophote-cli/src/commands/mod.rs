@@ -1,0 +1,49 @@
+//! One file per command: raw arguments become a job, the job runs and gives the text for standard output.
+
+mod check;
+mod new;
+mod output;
+mod probe;
+mod render;
+mod section;
+mod show;
+
+use anyhow::Result;
+use clap::CommandFactory;
+
+use crate::args::{Arguments, Command, RenderArguments};
+use crate::failure::Usage;
+
+/// Runs a command; the result is what goes to standard output.
+pub fn run(arguments: Arguments) -> Result<String> {
+    match arguments.command {
+        None => render::run(&RenderArguments::lab()),
+        Some(Command::Render(arguments)) => render::run(&arguments),
+        Some(Command::Probe(arguments)) => probe::run(&arguments),
+        Some(Command::Section(arguments)) => section::run(&arguments),
+        Some(Command::Check(arguments)) => check::run(&arguments),
+        Some(Command::New(arguments)) => new::run(&arguments),
+        Some(Command::Show(arguments)) => show::run(&arguments),
+        Some(Command::Schema) => Ok(isophote::scene::source::schema()),
+        Some(Command::Completions { shell }) => Ok(completions(shell)),
+        Some(Command::Man { command }) => man(command.as_deref()),
+    }
+}
+
+fn completions(shell: clap_complete::Shell) -> String {
+    let mut bytes = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "isophote", &mut bytes);
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+fn man(name: Option<&str>) -> Result<String> {
+    let mut command = Arguments::command();
+    command.build();
+    let command = match name {
+        None => &command,
+        Some(name) => command.find_subcommand(name).ok_or_else(|| Usage(format!("there is no command `{name}`")))?,
+    };
+    let mut bytes = Vec::new();
+    clap_mangen::Man::new(command.clone()).render(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}

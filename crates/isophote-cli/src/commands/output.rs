@@ -1,0 +1,128 @@
+//! Writing maps and figures to files.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, anyhow};
+use isophote::export::colormap::Colormap;
+use isophote::export::png::{Depth, PictureColor, PictureOptions};
+use isophote::export::{self, Format, atomic, csv, figure, write_atomically};
+use isophote::map::{Map, Quantity};
+use isophote::text::significant;
+use isophote::units::Choice;
+
+use crate::failure::Usage;
+use crate::progress::Interruptible;
+
+/// A map file to be written.
+pub struct MapFile {
+    path: PathBuf,
+    format: Format,
+}
+
+/// How pictures and tables are written.
+pub struct MapStyle {
+    pub quantity: Quantity,
+    pub range: Option<[f64; 2]>,
+    pub gamma: f64,
+    pub depth: Depth,
+    pub colormap: Option<Colormap>,
+    pub rows: csv::Rows,
+}
+
+impl MapFile {
+    /// A file whose suffix names a format and whose place can be written: known before anything is computed.
+    pub fn new(path: &Path) -> Result<Self> {
+        let format = Format::from_path(path).ok_or_else(|| {
+            let allowed: Vec<String> = Format::ALL.iter().map(|format| format!(".{}", format.name())).collect();
+            Usage(format!("cannot tell the format of {}; allowed: {}", path.display(), allowed.join(", ")))
+        })?;
+        atomic::check_target(path)?;
+        Ok(Self { path: path.into(), format })
+    }
+
+    /// Whether the format holds more than one channel.
+    pub fn holds_many_channels(&self) -> bool {
+        matches!(self.format, Format::Exr | Format::Npz | Format::Csv)
+    }
+
+    /// Writes the map; notes what a reader of the file should know.
+    pub fn write(&self, map: &Map, style: &MapStyle, notes: &mut Vec<String>) -> Result<()> {
+        let path = &self.path;
+        let note = write_atomically(path, |file| {
+            let mut file = Interruptible(file);
+            match self.format {
+                Format::Png => return write_picture(map, style, &mut file).map(Some),
+                Format::Exr => export::exr::write(map, &mut file)?,
+                Format::Npy => export::npy::write(map, &style.quantity, &mut file)?,
+                Format::Npz => export::npz::write(map, &mut file)?,
+                Format::Csv => {
+                    csv::write(map, style.rows, &mut file)?;
+                }
+            }
+            Ok(None)
+        });
+        crate::progress::check()?;
+        notes.push(format!("wrote {}{}", path.display(), note?.unwrap_or_default()));
+        Ok(())
+    }
+}
+
+fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<String, export::ExportError> {
+    let color = style.colormap.map(|colormap| move |fraction| colormap.color(fraction));
+    let name = style.colormap.map_or("", Colormap::name);
+    let options = PictureOptions {
+        quantity: style.quantity.clone(),
+        range: style.range,
+        gamma: style.gamma,
+        depth: style.depth,
+        color: color.as_ref().map(|color| PictureColor { name, color }),
+    };
+    let report = export::png::write(map, &options, file)?;
+    let unit = map.channel(&style.quantity).map_or("", |channel| &channel.unit);
+    let [black, white] = report.range.map(|value| significant(value, 6));
+    let mut note = format!(": {} to {} {unit} from black to white", black, white);
+    for (count, side) in [(report.clamped_below, "below"), (report.clamped_above, "above")] {
+        if count > 0 {
+            note.push_str(&format!("; {count} pixels {side} are clipped"));
+        }
+    }
+    Ok(note)
+}
+
+/// What a figure is written as.
+#[derive(Clone, Copy)]
+pub enum FigureFormat {
+    Svg,
+    Png,
+}
+
+/// The format of a figure by its suffix, with its place checked.
+pub fn figure_format(path: &Path) -> Result<FigureFormat> {
+    let suffix = path.extension().and_then(|suffix| suffix.to_str()).map(str::to_ascii_lowercase);
+    let format = match suffix.as_deref() {
+        Some("svg") => FigureFormat::Svg,
+        Some("png") => FigureFormat::Png,
+        _ => {
+            let message = format!("cannot tell the format of {}; allowed for figures: .svg, .png", path.display());
+            return Err(Usage(message).into());
+        }
+    };
+    atomic::check_target(path)?;
+    Ok(format)
+}
+
+/// Writes a figure.
+pub fn write_figure(svg: &str, path: &Path, format: FigureFormat, notes: &mut Vec<String>) -> Result<()> {
+    /// Dots per unit of the drawing: sharp on paper and on dense screens.
+    const SCALE: f64 = 2.0;
+    let bytes = match format {
+        FigureFormat::Svg => svg.as_bytes().to_vec(),
+        FigureFormat::Png => figure::svg_to_png(svg, SCALE).map_err(|error| anyhow!("cannot draw the figure: {error}"))?,
+    };
+    let written = write_atomically(path, |file| Ok(Interruptible(file).write_all(&bytes)?));
+    crate::progress::check()?;
+    written?;
+    notes.push(format!("wrote {}", path.display()));
+    Ok(())
+}

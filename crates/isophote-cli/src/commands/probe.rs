@@ -1,0 +1,234 @@
+//! `isophote probe`: exact values at points.
+
+use std::fmt::Write;
+
+use anyhow::Result;
+use isophote::analysis::probe::{Place, ProbeError, ProbeReading, Visibility};
+use isophote::prepare::PreparedScene;
+use isophote::scene::Scene;
+use isophote::text::significant;
+use isophote::units::Choice;
+use isophote::vector::Vector;
+use serde::Serialize;
+
+use crate::args::ProbeArguments;
+use crate::failure::Usage;
+use crate::table::{Align, table};
+use crate::{load, numbers};
+
+/// Reads the values at the places that were asked for, or at the scene's own probes.
+pub fn run(arguments: &ProbeArguments) -> Result<String> {
+    let scene = PreparedScene::new(&load::scene(&arguments.scene, None, arguments.quiet)?);
+    let requests = requests(arguments, scene.scene())?;
+    let mut readings = Vec::new();
+    for Request { name, place, published } in &requests {
+        let reading = scene.probe(place).map_err(|error| refusal(name, &error, scene.scene()))?;
+        readings.push((name.as_str(), reading, *published));
+    }
+    if arguments.json {
+        let probes = readings.iter().map(|(name, reading, published)| ProbeJson::new(name, reading, *published, &scene));
+        return numbers::json(&ProbesJson { length: scene.scene().length().name(), probes: probes.collect() });
+    }
+    if arguments.explain {
+        let explanations: Vec<String> = readings.iter().map(|(name, reading, _)| reading.explain(&scene, name)).collect();
+        return Ok(explanations.join("\n"));
+    }
+    let rows: Vec<_> = readings.iter().map(|(name, reading, published)| (*name, reading, *published)).collect();
+    Ok(table_text(&rows, &scene))
+}
+
+/// A place with a name.
+struct Request {
+    name: String,
+    place: Place,
+    published: Option<f64>,
+}
+
+fn requests(arguments: &ProbeArguments, scene: &Scene) -> Result<Vec<Request>> {
+    let length = scene.length();
+    let mut requests = Vec::new();
+    let mut push = |name: String, place| requests.push(Request { name, place, published: None });
+    for at in &arguments.at {
+        let point = Vector::from(at.map(|coordinate| length.to_metres(coordinate)));
+        let [x, y, z] = at;
+        push(format!("({x}, {y}, {z})"), if arguments.snap { Place::NearestTo(point) } else { Place::Point(point) });
+    }
+    for pixel in &arguments.pixel {
+        push(format!("pixel {},{}", pixel.column, pixel.row), Place::Pixel(*pixel));
+    }
+    for [theta, phi] in &arguments.angles {
+        let shape = sphere(arguments, scene)?;
+        let place = Place::Angles { shape, theta: theta.to_radians(), phi: phi.to_radians() };
+        push(format!("θ {theta}°, φ {phi}°"), place);
+    }
+    if requests.is_empty() {
+        requests.extend(scene.probes().iter().map(|probe| Request {
+            name: probe.name.clone(),
+            place: Place::Point(probe.at),
+            published: probe.published,
+        }));
+    }
+    if requests.is_empty() {
+        let message = "the scene has no probes; say where with --at X,Y,Z, --pixel COLUMN,ROW or --angles THETA,PHI";
+        return Err(Usage(message.into()).into());
+    }
+    Ok(requests)
+}
+
+fn sphere(arguments: &ProbeArguments, scene: &Scene) -> Result<usize> {
+    let names: Vec<&str> = scene.shapes().iter().map(|shape| shape.name.as_str()).collect();
+    let index = match (&arguments.shape, names.as_slice()) {
+        (None, [_]) => Some(0),
+        (None, _) => None,
+        (Some(name), _) => names.iter().position(|known| known == name),
+    };
+    index.ok_or_else(|| {
+        let shown: Vec<&str> = names.iter().copied().take(20).collect();
+        Usage(format!("--angles needs --shape with the name of a sphere; there are: {}", shown.join(", "))).into()
+    })
+}
+
+/// Why there is no value, and what to do about it.
+fn refusal(name: &str, error: &ProbeError, scene: &Scene) -> Usage {
+    Usage(match error {
+        ProbeError::OffSurface(miss) => {
+            let shape = &scene.shapes()[miss.shape].name;
+            format!("the point {name} is on no surface: {}; --snap uses that point", miss.describe(shape, scene.length()))
+        }
+        other => format!("{name}: {other}"),
+    })
+}
+
+/// A table of readings, with the published values where there are any.
+pub fn table_text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &PreparedScene) -> String {
+    let description = scene.scene();
+    let length = description.length();
+    let convention = description.convention();
+    let unit = convention.unit(description.quantities());
+    let point = format!("point, {}", length.name());
+    let irradiance = format!("E (3.1), {}", description.quantities().irradiance_unit());
+    let brightness = format!("B ({}), {unit}", convention.formula_number());
+    let mut columns = vec![
+        ("probe", Align::Left),
+        (point.as_str(), Align::Left),
+        (irradiance.as_str(), Align::Right),
+        (brightness.as_str(), Align::Right),
+    ];
+    let has_published = readings.iter().any(|(_, _, published)| published.is_some());
+    if has_published {
+        columns.push(("published", Align::Right));
+    }
+    let row = |(name, reading, published): &(&str, &ProbeReading, Option<f64>)| {
+        let [x, y, z] = reading.position(length).map(|coordinate| significant(coordinate, 6));
+        let mut row = vec![
+            (*name).to_owned(),
+            format!("({x}, {y}, {z})"),
+            significant(reading.shading.irradiance, 15),
+            significant(reading.shading.brightness(), 15),
+        ];
+        if has_published {
+            row.push(published.map_or("–".into(), |value| significant(value, 15)));
+        }
+        row
+    };
+    let mut text = table(&columns, &readings.iter().map(row).collect::<Vec<_>>());
+    for (name, reading, _) in readings {
+        if let Some(note) = visibility_note(reading, description) {
+            // Writing to a text cannot fail.
+            let _ = writeln!(text, "  {name} is not seen from the eye: {note}");
+        }
+    }
+    text
+}
+
+fn visibility_note(reading: &ProbeReading, scene: &Scene) -> Option<String> {
+    match reading.visibility {
+        Visibility::Seen => None,
+        Visibility::FacesAway => Some("the surface faces away there (θ_o ≥ 90°)".into()),
+        Visibility::HiddenBy(shape) => Some(format!("\"{}\" stands before it", scene.shapes()[shape].name)),
+    }
+}
+
+#[derive(Serialize)]
+struct ProbesJson {
+    length: &'static str,
+    probes: Vec<ProbeJson>,
+}
+
+/// A reading as JSON; lengths in the scene's unit.
+#[derive(Serialize)]
+pub struct ProbeJson {
+    name: String,
+    point: [f64; 3],
+    normal: [f64; 3],
+    shape: String,
+    seen: bool,
+    cos_theta_o: f64,
+    channels: ChannelsJson,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    published: Option<f64>,
+    lights: Vec<LightJson>,
+}
+
+#[derive(Serialize)]
+struct ChannelsJson {
+    brightness: ValueJson,
+    irradiance: ValueJson,
+    diffuse: ValueJson,
+    specular: ValueJson,
+}
+
+#[derive(Serialize)]
+struct ValueJson {
+    value: f64,
+    unit: &'static str,
+}
+
+#[derive(Serialize)]
+struct LightJson {
+    name: String,
+    irradiance: f64,
+    cos_theta_i: f64,
+    cos_theta_h: f64,
+    distance: f64,
+    intensity: f64,
+    visibility: f64,
+    diffuse: f64,
+    specular: f64,
+}
+
+impl ProbeJson {
+    pub fn new(name: &str, reading: &ProbeReading, published: Option<f64>, scene: &PreparedScene) -> Self {
+        let description = scene.scene();
+        let length = description.length();
+        let brightness = |value| ValueJson { value, unit: description.convention().unit(description.quantities()) };
+        let irradiance = |value| ValueJson { value, unit: description.quantities().irradiance_unit() };
+        let lights = reading.terms.iter().zip(description.lights()).map(|(term, light)| LightJson {
+            name: light.name.clone(),
+            irradiance: term.irradiance,
+            cos_theta_i: term.cos_theta_i,
+            cos_theta_h: term.cos_squared_theta_h.sqrt(),
+            distance: length.from_metres(term.distance),
+            intensity: term.intensity,
+            visibility: term.visibility,
+            diffuse: term.diffuse,
+            specular: term.specular,
+        });
+        Self {
+            name: name.into(),
+            point: reading.position(length),
+            normal: reading.point.normal.to_array(),
+            shape: description.shapes()[reading.shape].name.clone(),
+            seen: reading.is_seen(),
+            cos_theta_o: reading.point.cos_theta_o,
+            channels: ChannelsJson {
+                brightness: brightness(reading.shading.brightness()),
+                irradiance: irradiance(reading.shading.irradiance),
+                diffuse: brightness(reading.shading.diffuse),
+                specular: brightness(reading.shading.specular),
+            },
+            published,
+            lights: lights.collect(),
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! `isophote show`: what an output file says about itself.
+
+use std::fmt::Write;
+
+use anyhow::Result;
+use isophote::export::{FileMetadata, read_metadata};
+use isophote::text::significant;
+use isophote::units::Choice;
+
+use crate::args::ShowArguments;
+
+/// Prints the metadata of a file.
+pub fn run(arguments: &ShowArguments) -> Result<String> {
+    let metadata = read_metadata(&arguments.file)?;
+    if arguments.scene {
+        return Ok(metadata.scene);
+    }
+    if arguments.json {
+        return Ok(metadata.to_json() + "\n");
+    }
+    Ok(to_text(&metadata))
+}
+
+fn to_text(metadata: &FileMetadata) -> String {
+    let mut text = String::new();
+    // Writing to a text cannot fail.
+    let mut row = |name: &str, value: String| {
+        let _ = writeln!(text, "  {name:<12}{value}");
+    };
+    let FileMetadata { full, region, window, .. } = metadata;
+    row("title", metadata.title.clone());
+    row("made by", format!("{}, {}", metadata.program, metadata.renderer));
+    row("convention", metadata.convention.clone());
+    row("image", format!("{} × {} pixels", full.width, full.height));
+    if region.size != *full {
+        let (corner, size) = (region.corner, region.size);
+        row("region", format!("{} × {} from column {}, row {}", size.width, size.height, corner.column, corner.row));
+    }
+    let [left, right] = window.x.map(|x| significant(x, 9));
+    let [bottom, top] = window.y.map(|y| significant(y, 9));
+    row("window", format!("x {left} to {right}, y {bottom} to {top} {}", window.length.name()));
+    for channel in &metadata.channels {
+        let unit = if channel.unit.is_empty() { "no unit" } else { &channel.unit };
+        let stored_as = match channel.stored_as.join(", ") {
+            names if names.is_empty() || names == channel.name => String::new(),
+            names => format!(", stored as {names}"),
+        };
+        row("channel", format!("{}, {unit}{stored_as}", channel.name));
+    }
+    if let Some(picture) = &metadata.picture {
+        let [black, white] = picture.range.map(|value| significant(value, 12));
+        row("picture", format!("{black} to {white} from black to white, {} bits, gamma {}", picture.depth, picture.gamma));
+        if let Some(colormap) = &picture.colormap {
+            row("colours", colormap.clone());
+        }
+    }
+    let _ = write!(text, "\nscene\n{}", indented(&metadata.scene));
+    text
+}
+
+fn indented(scene: &str) -> String {
+    scene.lines().map(|line| if line.is_empty() { "\n".into() } else { format!("  {line}\n") }).collect()
+}

@@ -1,0 +1,61 @@
+//! Failures, and the exit codes that tell them apart.
+
+use std::fmt;
+use std::io::IsTerminal;
+use std::process::ExitCode;
+
+use isophote::render::RenderError;
+use isophote::scene::SceneError;
+
+/// The arguments do not make sense, for this scene or at all: exit code 2.
+#[derive(Debug)]
+pub struct Usage(pub String);
+
+impl fmt::Display for Usage {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Usage {}
+
+/// The user stopped the program: exit code 130.
+#[derive(Debug)]
+pub struct Interrupted;
+
+impl fmt::Display for Interrupted {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("interrupted")
+    }
+}
+
+impl std::error::Error for Interrupted {}
+
+/// Writes an error to standard error and chooses the exit code.
+pub fn report(error: &anyhow::Error) -> ExitCode {
+    if let Some(scene_error) = find::<SceneError>(error) {
+        eprintln!("{}", scene_error.report(use_color()));
+        let count = scene_error.problems.len();
+        eprintln!("\n{count} problem{} in {}; nothing was written", if count == 1 { "" } else { "s" }, scene_error.name);
+        return ExitCode::from(3);
+    }
+    if is_interruption(error) {
+        eprintln!("interrupted; nothing was left half-written");
+        return ExitCode::from(130);
+    }
+    eprintln!("error: {error:#}");
+    ExitCode::from(if find::<Usage>(error).is_some() { 2 } else { 1 })
+}
+
+/// Whether standard error is a terminal that wants colours (<https://no-color.org>).
+pub fn use_color() -> bool {
+    std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+fn is_interruption(error: &anyhow::Error) -> bool {
+    find::<Interrupted>(error).is_some() || matches!(find(error), Some(RenderError::Interrupted))
+}
+
+fn find<E: std::error::Error + 'static>(error: &anyhow::Error) -> Option<&E> {
+    error.chain().find_map(|cause| cause.downcast_ref())
+}

@@ -1,0 +1,45 @@
+//! The scene that a command works on.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use isophote::export::{Format, read_metadata};
+use isophote::map::Resolution;
+use isophote::scene::library::Starter;
+use isophote::scene::{Scene, Syntax, error};
+
+use crate::args::SceneArgument;
+use crate::failure;
+
+/// Reads the scene and says what it warns of.
+pub fn scene(argument: &SceneArgument, size: Option<Resolution>, quiet: bool) -> Result<Scene> {
+    let (name, mut scene) = read(argument)?;
+    if let Some(size) = size {
+        scene = scene.with_resolution(size)?;
+    }
+    if !quiet && !scene.warnings().is_empty() {
+        eprintln!("{}", error::report(&name, scene.warnings(), failure::use_color()));
+    }
+    Ok(scene)
+}
+
+fn read(argument: &SceneArgument) -> Result<(String, Scene)> {
+    let Some(path) = &argument.scene else {
+        let name = "the lab's scene".to_owned();
+        let scene = Scene::from_text(&name, Starter::Lab.text(), Syntax::Toml)?;
+        return Ok((name, scene));
+    };
+    let name = path.display().to_string();
+    let scene = if path == Path::new("-") {
+        let name = "standard input";
+        let text = Scene::read_text(&mut std::io::stdin().lock(), name)?;
+        let syntax = if text.trim_start().starts_with('{') { Syntax::Json } else { Syntax::Toml };
+        Scene::from_text(name, &text, syntax)?
+    } else if Format::from_path(path).is_some() {
+        let metadata = read_metadata(path).with_context(|| format!("cannot take a scene out of {name}"))?;
+        Scene::from_text(&name, &metadata.scene, Syntax::Toml)?
+    } else {
+        Scene::from_file(path)?
+    };
+    Ok((name, scene))
+}

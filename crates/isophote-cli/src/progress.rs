@@ -1,0 +1,74 @@
+//! Progress and interruption.
+
+use std::io::{self, Seek, SeekFrom, Write};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use isophote::render::Observer;
+
+use crate::failure::Interrupted;
+
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// From now on Ctrl-C ends the work at the next row, with everything cleaned up.
+pub fn watch_for_interrupts() {
+    // Without the handler Ctrl-C ends the program at once, which leaves a temporary file at worst.
+    let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+}
+
+/// Whether Ctrl-C was pressed.
+pub fn check() -> Result<(), Interrupted> {
+    if INTERRUPTED.load(Ordering::Relaxed) { Err(Interrupted) } else { Ok(()) }
+}
+
+/// A bar for work that takes over a second; nothing where standard error is no terminal.
+pub struct Progress {
+    bar: ProgressBar,
+    since: Instant,
+    is_shown: AtomicBool,
+}
+
+impl Progress {
+    pub fn new(pixels: u64, quiet: bool) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(pixels), ProgressDrawTarget::hidden());
+        let style = "{bar:40} {percent}%  {per_sec} pixels  {eta} left";
+        bar.set_style(ProgressStyle::with_template(style).unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Self { bar, since: Instant::now(), is_shown: AtomicBool::new(quiet) }
+    }
+
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Observer for Progress {
+    fn advance(&self, pixels: u64) -> ControlFlow<()> {
+        self.bar.inc(pixels);
+        if self.since.elapsed() > Duration::from_secs(1) && !self.is_shown.swap(true, Ordering::Relaxed) {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        if check().is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// A file that stops being written when Ctrl-C is pressed.
+pub struct Interruptible<W>(pub W);
+
+impl<W: Write> Write for Interruptible<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        check().map_err(io::Error::other)?;
+        self.0.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
+}
+
+impl<W: Seek> Seek for Interruptible<W> {
+    fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
+        self.0.seek(position)
+    }
+}

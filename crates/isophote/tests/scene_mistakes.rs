@@ -1,0 +1,187 @@
+//! Every mistake that a scene file can have is reported with its place, the line, what is allowed; and all at once.
+
+use isophote::scene::{ProblemKind, Scene, SceneError, Syntax};
+use proptest::prelude::*;
+
+const LAB: &str = include_str!("../../../scenes/lab.toml");
+
+/// What is said about the lab's scene after `from` became `to` in it.
+fn mistake(from: &str, to: &str) -> SceneError {
+    assert!(LAB.contains(from), "the lab's scene has no {from:?}");
+    refused("lab.toml", &LAB.replacen(from, to, 1), Syntax::Toml)
+}
+
+fn refused(name: &str, text: &str, syntax: Syntax) -> SceneError {
+    Scene::from_text(name, text, syntax).expect_err("a mistake is refused")
+}
+
+/// Each test: its name, what is changed in the lab's scene, and how many problems that makes. The messages are golden.
+macro_rules! mistakes {
+    ($($name:ident: $from:expr => $to:expr, $count:expr;)*) => {
+        $(
+            #[test]
+            fn $name() {
+                let error = mistake($from, $to);
+                insta::assert_snapshot!(stringify!($name), error.report(false));
+                assert_eq!(error.problems.len(), $count);
+            }
+        )*
+    };
+}
+
+mistakes! {
+    an_unknown_key: "radius = 1" => "radius = 1\ncolour = 3", 1;
+    a_misspelt_key: "radius = 1" => "raduis = 1", 1;
+    a_misspelt_table: "[[light]]" => "[[lights]]", 1;
+    a_missing_key: "radius = 1" => "", 1;
+    a_missing_version: "version = 1" => "", 1;
+    a_missing_length_unit: "length = \"m\"" => "", 1;
+    a_wrong_version: "version = 1" => "version = 2", 1;
+    a_text_for_a_number: "radius = 1" => "radius = \"one\"", 1;
+    a_number_for_a_text: "title = \"Lab 4: one sphere, one light\"" => "title = 4", 1;
+    a_vector_of_two: "center = [0, 0, 5]" => "center = [0, 5]", 1;
+    a_text_in_a_vector: "center = [0, 0, 5]" => "center = [0, \"five\", 5]", 1;
+    a_table_for_a_list: "[[sphere]]" => "[sphere]", 1;
+    nan: "radius = 1" => "radius = nan", 1;
+    infinity: "position = [5, 5, -10]" => "position = [5, inf, -10]", 1;
+    a_number_too_large_for_a_double: "intensity = 100" => "intensity = 1e999", 1;
+    a_radius_of_zero: "radius = 1" => "radius = 0", 1;
+    a_negative_radius: "radius = 1" => "radius = -1", 1;
+    a_direction_without_length: "forward = [0, 0, 1]" => "forward = [0, 0, 0]", 1;
+    up_parallel_to_forward: "up = [0, 1, 0]" => "up = [0, 0, -2]", 1;
+    the_default_up_parallel_to_forward: "forward = [0, 0, 1]       # or a point to look at: target = [0, 0, 5]\nup = [0, 1, 0]" => "forward = [0, 1, 0]", 1;
+    forward_and_target: "up = [0, 1, 0]" => "target = [0, 0, 5]", 1;
+    neither_forward_nor_target: "forward = [0, 0, 1]" => "", 1;
+    a_target_at_the_eye: "forward = [0, 0, 1]" => "target = [0, 0, 0]", 1;
+    a_reversed_x_range: "x = [-4, 4]" => "x = [4, -4]", 1;
+    an_empty_y_range: "y = [-3, 3]" => "y = [3, 3]", 1;
+    a_screen_behind_the_eye: "distance = 5" => "distance = -5", 1;
+    an_unknown_material: "material = \"clay\"" => "material = \"caly\"", 1;
+    no_material: "material = \"clay\"" => "", 1;
+    two_spheres_of_one_name: "[[sphere]]" => "[[sphere]]\nname = \"ball\"\ncenter = [3, 0, 5]\nradius = 1\nmaterial = \"clay\"\n\n[[sphere]]", 1;
+    a_light_on_a_surface: "position = [5, 5, -10]" => "position = [0, 1, 5]", 1;
+    a_light_inside_a_sphere: "position = [5, 5, -10]" => "position = [0, 0.5, 5]", 1;
+    an_eye_on_a_surface: "eye = [0, 0, 0]" => "eye = [0, 0, 4]", 1;
+    a_coefficient_above_one: "diffuse = 0.7" => "diffuse = 1.7", 1;
+    a_negative_coefficient: "specular = 0.3" => "specular = -0.3", 1;
+    a_shininess_of_zero: "shininess = 20" => "shininess = 0", 1;
+    a_negative_shininess: "shininess = 20" => "shininess = -5", 1;
+    a_missing_shininess: "shininess = 20" => "", 1;
+    a_resolution_of_zero: "resolution = [800, 600]" => "resolution = [800, 0]", 1;
+    an_absurd_resolution: "resolution = [800, 600]" => "resolution = [60000, 60000]", 1;
+    a_negative_resolution: "resolution = [800, 600]" => "resolution = [-800, 600]", 1;
+    a_fractional_resolution: "resolution = [800, 600]" => "resolution = [800.5, 600]", 1;
+    an_unknown_convention: "convention = \"lab\"" => "convention = \"labb\"", 1;
+    an_unknown_unit: "length = \"m\"" => "length = \"inch\"", 1;
+    an_unknown_emission: "emission = \"isotropic\"" => "emission = \"spot\"", 1;
+    an_axis_of_an_isotropic_light: "emission = \"isotropic\"" => "axis = [0, 0, 1]", 1;
+    a_lambertian_light_without_axis: "emission = \"isotropic\"" => "emission = \"lambertian\"", 1;
+    intensity_and_power: "intensity = 100" => "power = 3\nintensity = 100", 1;
+    neither_intensity_nor_power: "intensity = 100" => "", 1;
+    a_negative_intensity: "intensity = 100" => "intensity = -100", 1;
+    a_place_too_far_away: "position = [5, 5, -10]" => "position = [5, 5, -1e16]", 1;
+    a_probe_off_the_surface: "at = [0, 0, 4]" => "at = [0.353, 0.353, 4.830]", 1;
+    an_unclosed_list: "eye = [0, 0, 0]" => "eye = [0, 0, 0", 1;
+    a_key_given_twice: "radius = 1" => "radius = 1\nradius = 2", 1;
+}
+
+#[test]
+fn all_mistakes_of_a_file_are_reported_in_one_run() {
+    let text = LAB
+        .replace("radius = 1", "radius = -1")
+        .replace("diffuse = 0.7", "difuse = 0.7")
+        .replace("up = [0, 1, 0]", "up = [0, 0, 1]")
+        .replace("intensity = 100", "intensity = \"bright\"")
+        .replace("convention = \"lab\"", "convention = \"phong\"")
+        .replace("resolution = [800, 600]", "resolution = [0, 600]");
+    let error = refused("lab.toml", &text, Syntax::Toml);
+    insta::assert_snapshot!(error.report(false));
+    let lines: Vec<usize> = error.problems.iter().filter_map(|problem| Some(problem.place.as_ref()?.line)).collect();
+    assert_eq!(lines.len(), 6, "each has its place");
+    assert!(lines.is_sorted(), "in the order of the file");
+}
+
+#[test]
+fn json_has_the_same_keys_and_the_same_messages() {
+    let text = "{\n  \"version\": 1,\n  \"length\": \"m\",\n  \"sphere\": [\n    { \"center\": [0, 0, 5], \"radius\": -1, \"radius\": 2, \"colour\": null }\n  ]\n}\n";
+    insta::assert_snapshot!(refused("scene.json", text, Syntax::Json).report(false));
+    let scene = Scene::from_text("lab", LAB, Syntax::Toml).expect("it is valid");
+    let json = serde_json::to_string_pretty(scene.source()).expect("it is plain data");
+    let twin = Scene::from_text("lab.json", &json, Syntax::Json).expect("the twin is valid");
+    assert_eq!(twin.source(), scene.source());
+}
+
+#[test]
+fn broken_json_is_reported_with_its_place() {
+    insta::assert_snapshot!(refused("scene.json", "{\n  \"version\": 1,\n  \"length\" \"m\"\n}", Syntax::Json).report(false));
+    insta::assert_snapshot!(refused("scene.json", "[1, 2]", Syntax::Json).report(false));
+}
+
+#[test]
+fn an_empty_scene_says_how_to_get_one() {
+    for text in ["", " \n\t\n", "\u{feff}"] {
+        insta::assert_snapshot!("an_empty_scene", refused("empty.toml", text, Syntax::Toml).report(false));
+    }
+}
+
+#[test]
+fn a_million_lights_are_too_many() {
+    let mut text = LAB.to_owned();
+    text.extend(std::iter::repeat_n("[[light]]\nposition = [5, 5, -10]\nintensity = 1\n", 1_000_000));
+    let error = refused("lab.toml", &text, Syntax::Toml);
+    insta::assert_snapshot!(error.report(false));
+}
+
+#[test]
+fn thousands_of_mistakes_are_counted_and_the_first_are_shown() {
+    let mut text = LAB.to_owned();
+    text.extend(std::iter::repeat_n("[[light]]\nposition = [5, 5]\nintensity = 1\n", 20_000));
+    let report = refused("lab.toml", &text, Syntax::Toml).report(false);
+    assert!(report.ends_with("… and 19970 more"), "{}", &report[report.len() - 100..]);
+}
+
+#[test]
+fn lines_of_any_length_and_ending_can_be_shown() {
+    let long = format!("{}{}", " ".repeat(1_000_000), "radius = -1");
+    let report = mistake("radius = 1", &long).report(false);
+    assert!(report.contains("radius = -1") && report.len() < 2000, "{report}");
+    let windows = LAB.replace("radius = 1", "radius = -1").replace('\n', "\r\n");
+    let report = refused("lab.toml", &windows, Syntax::Toml).report(false);
+    assert!(report.contains("lab.toml:27:") && !report.contains('\r'), "{report}");
+}
+
+#[test]
+fn deep_nesting_is_refused_and_not_followed_to_the_end_of_the_stack() {
+    for (syntax, open) in [(Syntax::Toml, "a = "), (Syntax::Json, "{\"a\": ")] {
+        let text = format!("{open}{}", "[".repeat(1_000_000));
+        let error = refused("deep", &text, syntax);
+        assert!(error.problems.iter().any(|problem| problem.kind == ProblemKind::Syntax), "{error}");
+    }
+}
+
+proptest! {
+    /// Bytes are changed, dropped and doubled in valid scenes: whatever comes out is accepted or refused with words.
+    #[test]
+    fn no_text_makes_the_reader_panic(
+        edits in prop::collection::vec((0.0..1.0_f64, 0_usize..6, "[\\x00-\\x7f]{0,12}|[-0-9.e\\[\\]{}\"=#,\n]{1,8}|é|∞|\u{feff}"), 1..12),
+        json in any::<bool>(),
+    ) {
+        let syntax = if json { Syntax::Json } else { Syntax::Toml };
+        let mut text = if json {
+            let scene = Scene::from_text("lab", LAB, Syntax::Toml).expect("it is valid");
+            serde_json::to_string_pretty(scene.source()).expect("it is plain data")
+        } else {
+            LAB.to_owned()
+        };
+        for (place, removed, inserted) in edits {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)]
+            let start = text.floor_char_boundary((place * text.len() as f64) as usize);
+            let end = text.ceil_char_boundary((start + removed).min(text.len()));
+            text.replace_range(start..end, &inserted);
+        }
+        if let Err(error) = Scene::from_text("mutated", &text, syntax) {
+            prop_assert!(!error.problems.is_empty());
+            prop_assert!(!error.report(true).is_empty());
+        }
+    }
+}
