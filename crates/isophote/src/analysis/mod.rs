@@ -1,0 +1,5 @@
+//! What is read off a finished map.
+
+mod grid;
+pub mod isophotes;
+pub(crate) mod levels;

@@ -1,0 +1,4 @@
+//! Maps as files for other programs and for people.
+
+pub mod colormap;
+mod colormap_tables;
