@@ -55,7 +55,7 @@ impl<'map> Grid<'map> {
         for rise in (0..4).filter(|&k| rises(k)) {
             let mut after = (rise + 1..rise + 4).map(|k| k % 4).filter(|&k| falls(k));
             // Where the two higher corners of a saddle are joined, segments go round the lower ones instead.
-            let fall = if joined { after.last() } else { after.next() };
+            let fall = if joined { after.next_back() } else { after.next() };
             segments.extend(fall.map(|fall| Segment { start: edges[rise], end: edges[fall] }));
         }
     }

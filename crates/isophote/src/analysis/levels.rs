@@ -72,7 +72,6 @@ mod tests {
     use super::*;
 
     #[test]
-    #[expect(clippy::float_cmp, reason = "round numbers are rounded once, so they are exact")]
     fn levels_are_round_and_strictly_inside() {
         assert_eq!(nice_levels(0.0, 1.0, 4), [0.2, 0.4, 0.6, 0.8]);
         assert_eq!(nice_levels(0.0, 1.0, 9), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]);
@@ -108,7 +107,6 @@ mod tests {
     }
 
     #[test]
-    #[expect(clippy::float_cmp, reason = "round numbers are rounded once, so they are exact")]
     fn ticks_keep_round_ends_and_write_zero_without_a_sign() {
         let ticks = nice_ticks(-1.5, 1.5, 7);
         assert_eq!(ticks, [-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5]);

@@ -2,3 +2,4 @@
 
 pub mod colormap;
 mod colormap_tables;
+pub mod figure;
