@@ -1,16 +1,20 @@
 //! Isophote computes the brightness of surfaces lit by point lights, with units and a formula number on every value.
+
+pub mod analysis;
 pub mod camera;
 pub mod double_double;
+pub mod export;
 pub mod light;
 pub mod map;
 pub mod prepare;
 pub mod real;
 pub mod reflectance;
 pub mod render;
+#[cfg(test)]
+mod sample_map;
 pub mod scene;
 pub mod shade;
 pub mod shape;
 pub mod text;
 pub mod units;
 pub mod vector;
-pub mod analysis;

@@ -1,0 +1,254 @@
+//! A map as a figure.
+
+use crate::analysis::isophotes::{Isophote, isophotes, nice_levels};
+use crate::export::colormap::Colormap;
+use crate::export::figure::color_bar::ColorBar;
+use crate::export::figure::frame::{Axis, Frame, TICK_SIZE, TITLE_SIZE};
+use crate::export::figure::marks::{self, Mark, PlacedMark};
+use crate::export::figure::page::{MARGIN, Page};
+use crate::export::figure::raster::{self, Scale};
+use crate::export::figure::svg::{Anchor, INK, Place, Rectangle, Svg, Text};
+use crate::export::figure::ticks::{self, Ticks};
+use crate::export::figure::{FigureError, level_lines, text};
+use crate::map::{Map, Quantity};
+use crate::units::Choice;
+
+/// Longer side of the picture in px.
+const PICTURE: f64 = 480.0;
+const BAR_GAP: f64 = 18.0;
+/// Narrower pages have no room for a title.
+const NARROWEST: f64 = 320.0;
+const LEGEND_SIZE: f64 = 9.5;
+
+/// What a map figure shows, and in which words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureOptions {
+    /// Above the picture; broken into lines where it is long. None where empty.
+    pub title: String,
+    /// The scalar channel that is shown.
+    pub quantity: Quantity,
+    /// What the values are, beside the colour bar: "brightness B, lab (3.3)".
+    pub label: String,
+    /// Written for the channel's own unit, for figures in another language.
+    pub unit: Option<String>,
+    /// Written for the name of the window's unit of length, likewise.
+    pub length_unit: Option<String>,
+    /// Words for pixels without a surface.
+    pub no_surface: String,
+    /// From values to colours.
+    pub colormap: Colormap,
+    /// Values of the first and the last colour; `None` takes the least and the greatest value seen. Where values lie
+    /// beyond an end, the colour bar ends in an arrow.
+    pub range: Option<[f64; 2]>,
+    /// About how many isophotes; 0 for none.
+    pub isophotes: usize,
+    /// Places to be marked.
+    pub marks: Vec<Mark>,
+}
+
+impl FigureOptions {
+    /// A plain figure: no title, viridis, the whole range, about eight isophotes, no marks.
+    #[must_use]
+    pub fn new(quantity: Quantity, label: &str) -> Self {
+        Self {
+            title: String::new(),
+            quantity,
+            label: label.into(),
+            unit: None,
+            length_unit: None,
+            no_surface: "no surface".into(),
+            colormap: Colormap::default(),
+            range: None,
+            isophotes: 8,
+            marks: Vec::new(),
+        }
+    }
+}
+
+/// A map as an SVG figure with axes in the window's unit, equal scales in both directions, a colour bar, isophotes with
+/// their levels written on them, and marks.
+///
+/// Pixels without a surface are hatched, so that "nothing there" is not taken for "dark".
+///
+/// # Errors
+/// [`FigureError`]: the channel is missing or not scalar, a value is not finite, the range is not one, nothing is seen,
+/// or a mark lies outside the window.
+pub fn map_figure_svg(map: &Map, options: &FigureOptions) -> Result<String, FigureError> {
+    let content = Content::new(map, options)?;
+    let layout = Layout::new(&content);
+    let marks = marks::place(&layout.frame, &options.marks)?;
+    let mut svg = Svg::new();
+    content.draw_picture(&mut svg, &layout.frame, &marks)?;
+    layout.frame.draw_axes(&mut svg, &content.x, &content.y);
+    content.draw_color_bar(&mut svg, &layout)?;
+    layout.page.draw(&mut svg, layout.frame.rectangle.left + 0.5 * layout.frame.rectangle.width, layout.bottom);
+    Ok(svg.finish(layout.width, layout.page.height(layout.bottom)))
+}
+
+/// Everything that is drawn, before it has a place.
+struct Content<'figure> {
+    map: &'figure Map,
+    options: &'figure FigureOptions,
+    values: &'figure [f64],
+    isophotes: Vec<Isophote>,
+    has_gaps: bool,
+    /// Width and height of the picture in px.
+    size: [f64; 2],
+    x: Axis,
+    y: Axis,
+    bar: ColorBar,
+}
+
+impl<'figure> Content<'figure> {
+    fn new(map: &'figure Map, options: &'figure FigureOptions) -> Result<Self, FigureError> {
+        // Asked first without levels: it checks the channel, and says best what is wrong with it.
+        isophotes(map, &options.quantity, &[])?;
+        let values = map.scalar(&options.quantity).unwrap_or_default();
+        let seen = seen_range(map, &options.quantity, values)?;
+        let range = range(options.range, seen)?;
+        let levels = nice_levels(range[0], range[1], options.isophotes);
+        let window = &map.window;
+        let (width, height) = (window.x[1] - window.x[0], window.y[1] - window.y[0]);
+        let size = [width, height].map(|side| side * PICTURE / width.max(height));
+        let length = options.length_unit.as_deref().unwrap_or(window.length.name());
+        let axis = |name, ticks: Ticks| Axis { title: ticks::title(name, length, ticks.exponent), ticks };
+        Ok(Self {
+            map,
+            options,
+            values,
+            isophotes: isophotes(map, &options.quantity, &levels)?,
+            has_gaps: map.shapes().iter().any(|&shape| shape < 0),
+            size,
+            x: axis("x", Ticks::side_by_side(window.x, size[0], TICK_SIZE)),
+            y: axis("y", Ticks::stacked(window.y, size[1])),
+            bar: color_bar(map, options, range, seen, levels, size[1]),
+        })
+    }
+
+    fn draw_picture(&self, svg: &mut Svg, frame: &Frame, marks: &[PlacedMark]) -> Result<(), FigureError> {
+        if self.has_gaps {
+            svg.raw(HATCHING);
+            svg.rectangle(frame.rectangle, "fill=\"url(#no-surface)\"");
+        }
+        raster::draw_map(svg, self.map, self.values, self.bar.scale, frame.rectangle)?;
+        let taken = marks.iter().flat_map(PlacedMark::rooms).collect();
+        let is_surface = |place: Place| is_surface(self.map, &frame.rectangle, place);
+        level_lines::draw(svg, frame, &self.isophotes, self.bar.scale, self.bar.ticks.exponent, taken, &is_surface);
+        for mark in marks {
+            mark.draw(svg);
+        }
+        Ok(())
+    }
+
+    fn draw_color_bar(&self, svg: &mut Svg, layout: &Layout) -> Result<(), FigureError> {
+        let Rectangle { top, height, .. } = layout.frame.rectangle;
+        let left = layout.frame.right() + BAR_GAP;
+        self.bar.draw(svg, left, top, height)?;
+        if self.has_gaps {
+            let middle = layout.frame.bottom() + 20.0;
+            let swatch = Rectangle { left, top: middle - 5.0, width: 16.0, height: 10.0 };
+            svg.rectangle(swatch, &format!("fill=\"url(#no-surface)\" stroke=\"{INK}\" stroke-width=\"0.6\""));
+            let at = Place { x: left + 21.0, y: middle };
+            svg.text(&Text::new(&self.options.no_surface, at, LEGEND_SIZE, Anchor::Start));
+        }
+        Ok(())
+    }
+
+    /// Room in px right of the picture.
+    fn right_width(&self) -> f64 {
+        let legend = if self.has_gaps { 21.0 + text::width(&self.options.no_surface, LEGEND_SIZE) } else { 0.0 };
+        BAR_GAP + self.bar.width().max(legend)
+    }
+}
+
+/// Where everything stands on the page, in px.
+struct Layout {
+    page: Page,
+    frame: Frame,
+    width: f64,
+    /// Lower end of the axes.
+    bottom: f64,
+}
+
+impl Layout {
+    fn new(content: &Content) -> Self {
+        let [picture_width, picture_height] = content.size;
+        let natural = 2.0 * MARGIN + content.y.width() + picture_width + content.right_width();
+        let width = natural.max(NARROWEST);
+        let provenance = &content.map.provenance;
+        let made_by = [provenance.program.as_str(), provenance.renderer.as_str()];
+        let footer = made_by.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ");
+        let page = Page::new(width, &content.options.title, &footer);
+        // The colour bar's title is read along the picture's side, and may be longer than that side.
+        let overhang = 0.5 * (text::widest(&content.bar.title, TITLE_SIZE) - picture_height).max(0.0);
+        let rectangle = Rectangle {
+            left: MARGIN + content.y.width() + 0.5 * (width - natural),
+            top: page.top() + overhang.max(0.5 * TICK_SIZE),
+            width: picture_width,
+            height: picture_height,
+        };
+        let bottom = rectangle.top + picture_height + Axis::height().max(overhang);
+        Self { page, frame: Frame { rectangle, x: content.map.window.x, y: content.map.window.y }, width, bottom }
+    }
+}
+
+/// Pale, cool and striped: like no colour of any colour map.
+const HATCHING: &str = "<defs><pattern id=\"no-surface\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\" \
+    patternTransform=\"rotate(45)\"><rect width=\"6\" height=\"6\" fill=\"#f1f2f5\"/><rect width=\"1\" height=\"6\" \
+    fill=\"#d3d6dd\"/></pattern></defs>";
+
+/// The least and the greatest value seen; `None` where no surface is seen.
+fn seen_range(map: &Map, quantity: &Quantity, values: &[f64]) -> Result<Option<[f64; 2]>, FigureError> {
+    let mut seen: Option<[f64; 2]> = None;
+    for (index, (&value, _)) in values.iter().zip(map.shapes()).enumerate().filter(|(_, (_, shape))| **shape >= 0) {
+        if !value.is_finite() {
+            return Err(FigureError::NotFinite { name: format!("{}[{index}]", quantity.name()), value });
+        }
+        let [low, high] = seen.unwrap_or([value; 2]);
+        seen = Some([low.min(value), high.max(value)]);
+    }
+    Ok(seen)
+}
+
+/// The range asked for, or that of what is seen, widened about a constant.
+fn range(asked: Option<[f64; 2]>, seen: Option<[f64; 2]>) -> Result<[f64; 2], FigureError> {
+    match (asked, seen) {
+        (Some([low, high]), _) if (high - low).is_normal() && low < high => Ok([low, high]),
+        (Some([low, high]), _) => Err(FigureError::Range { low, high }),
+        (None, None) => Err(FigureError::NothingSeen),
+        (None, Some([low, high])) if (high - low) > 1e-12 * high.abs().max(low.abs()) => Ok([low, high]),
+        (None, Some([0.0, _])) => Ok([0.0, 1.0]),
+        (None, Some([value, _])) => Ok([value - 0.5 * value.abs(), value + 0.5 * value.abs()]),
+    }
+}
+
+fn color_bar(
+    map: &Map,
+    options: &FigureOptions,
+    range: [f64; 2],
+    seen: Option<[f64; 2]>,
+    levels: Vec<f64>,
+    height: f64,
+) -> ColorBar {
+    let ticks = Ticks::stacked(range, height);
+    let channel_unit = map.channel(&options.quantity).map_or("", |channel| channel.unit.as_str());
+    let title = ticks::title(&options.label, options.unit.as_deref().unwrap_or(channel_unit), ticks.exponent);
+    let beyond = seen.map_or([false; 2], |[low, high]| [low < range[0], high > range[1]]);
+    let scale = Scale { colormap: options.colormap, range };
+    ColorBar { scale, ticks, title: text::wrap(&title, TITLE_SIZE, height.max(160.0)), levels, beyond }
+}
+
+/// Whether the pixel at a place of the page shows a surface.
+fn is_surface(map: &Map, picture: &Rectangle, place: Place) -> bool {
+    let size = map.region.size;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the image")]
+    let index = |offset: f64, side: f64, count: u32| {
+        (offset / side * f64::from(count)).floor().clamp(0.0, f64::from(count - 1)) as usize
+    };
+    let column = index(place.x - picture.left, picture.width, size.width);
+    let row = index(place.y - picture.top, picture.height, size.height);
+    map.is_visible(row * size.width as usize + column)
+}
+
+#[cfg(test)]
+mod tests;
