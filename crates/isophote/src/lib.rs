@@ -1,3 +1,4 @@
 //! Isophote
+pub mod export;
 pub mod map;
 pub mod units;
