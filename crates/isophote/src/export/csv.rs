@@ -60,7 +60,10 @@ fn write_comments(map: &Map, columns: &[Vec<String>], out: &mut impl Write) -> R
     let mut lines = vec![
         format!("title: {}", one_line(&provenance.title)),
         format!("convention: {}", one_line(&provenance.convention)),
-        format!("column, row: pixel of the full image, {} × {}, from 0 at the top left", map.full.width, map.full.height),
+        format!(
+            "column, row: pixel of the full image, {} × {}, from 0 at the top left",
+            map.full.width, map.full.height
+        ),
         format!("x, y: centre of the pixel on the screen, {}", map.window.length.name()),
         "shape: index of the shape that is seen, -1 where none is".into(),
     ];

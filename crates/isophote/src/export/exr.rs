@@ -22,7 +22,7 @@ use super::{
     ExportError, FileMetadata, Format, names,
     read::{LONGEST_JSON, read_exactly},
 };
-use crate::map::{Channel, Map, Pixel, Quantity, Values};
+use crate::map::{Channel, Map, Pixel, Quantity, Region, Values};
 
 /// Writes one part with all channels of the map, without loss beyond the rounding to 32 bits (relative 6e-8; values
 /// below 1.2e-38 lose digits and below 7e-46 become 0).
@@ -32,6 +32,7 @@ use crate::map::{Channel, Map, Pixel, Quantity, Values};
 /// # Errors
 /// A value or index that 32 bits cannot hold; an image beyond the format's coordinates; an error of `out`.
 pub fn write(map: &Map, out: &mut (impl Write + Seek)) -> Result<(), ExportError> {
+    check_extent(map)?;
     let names = channel_names(map);
     let mut channels = Vec::new();
     for (channel, names) in map.channels().iter().zip(&names) {
@@ -43,16 +44,19 @@ pub fn write(map: &Map, out: &mut (impl Write + Seek)) -> Result<(), ExportError
     let size = map.region.size;
     let mut image = Image::from_layer(Layer::new(
         (size.width as usize, size.height as usize),
-        layer_attributes(map, names)?,
+        layer_attributes(map, &names),
         // Increasing order: with any other, the order of the blocks would depend on which thread is first.
         Encoding { compression: COMPRESSION, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing },
         AnyChannels::sort(channels.into()),
     ));
-    image.attributes = image_attributes(map);
+    image.attributes = image_attributes(map, &names);
     image.write().to_buffered(out).map_err(from_exr)
 }
 
-const COMPRESSION: Compression = Compression::ZIP16;
+/// Without loss, and the best where time is felt: nine channels of a sphere of 3840×2160 (299 MB) take 1.4 s and
+/// 53 MB on two cores, with `ZIP16` 2.2 s and 66 MB; `ZIP1` comes to 67 MB, `RLE` to 139 MB. (At 800×600 `ZIP16` would
+/// be ahead in size: 3.6 MB for 4.5 MB, 0.12 s for 0.14 s.)
+const COMPRESSION: Compression = Compression::PIZ;
 
 /// The name of each channel in the file, three for vectors; see the module's table.
 fn channel_names(map: &Map) -> Vec<Vec<String>> {
@@ -102,41 +106,50 @@ fn pixel(map: &Map, index: usize) -> Pixel {
     }
 }
 
-/// At most one attribute goes into each `other`: the encoder writes these in the random order of a hash map, and two
-/// would make the same map give different bytes.
-fn layer_attributes(map: &Map, names: Vec<Vec<String>>) -> Result<LayerAttributes, ExportError> {
-    let mut attributes = LayerAttributes::default();
-    let corner = map.region.corner;
-    let [column, row] = [corner.column, corner.row].map(|coordinate| {
-        i32::try_from(coordinate).map_err(|_| ExportError::Unsuitable {
+/// The format's coordinates are signed, and half of their range is what programs agree on.
+fn check_extent(map: &Map) -> Result<(), ExportError> {
+    let Region { corner, size } = map.region;
+    let ends = [corner.column.saturating_add(size.width), corner.row.saturating_add(size.height)];
+    match [map.full.width, map.full.height].into_iter().chain(ends).find(|end| *end > LARGEST_COORDINATE) {
+        None => Ok(()),
+        Some(end) => Err(ExportError::Unsuitable {
             format: Format::Exr,
-            reason: format!("the region begins at {coordinate}, coordinates end at {}", i32::MAX),
-        })
-    });
-    attributes.layer_position = Vec2(column?, row?);
-    attributes.software_name = Some(text(&map.provenance.program));
-    attributes.comments = Some(text(&format!("{}: {}", map.provenance.title, map.provenance.convention)));
-    let json = FileMetadata::of_stored(map, names).to_json();
-    attributes.other.insert(text("isophote"), AttributeValue::Text(text(&json)));
-    Ok(attributes)
+            reason: format!("the image reaches to {end}, its coordinates to {LARGEST_COORDINATE}"),
+        }),
+    }
 }
 
-fn image_attributes(map: &Map) -> ImageAttributes {
+const LARGEST_COORDINATE: u32 = (1 << 30) - 2;
+
+/// At most one attribute goes into each `other`: the encoder writes these in the random order of a hash map, and two
+/// would make the same map give different bytes.
+fn layer_attributes(map: &Map, names: &[Vec<String>]) -> LayerAttributes {
+    let mut attributes = LayerAttributes::default();
+    let corner = map.region.corner;
+    attributes.layer_position = Vec2(corner.column.cast_signed(), corner.row.cast_signed());
+    attributes.software_name = Some(text(&map.provenance.program));
+    attributes.comments = Some(text(&format!("{}: {}", map.provenance.title, map.provenance.convention)));
+    let json = FileMetadata::of_stored(map, names.to_vec()).to_json();
+    attributes.other.insert(text("isophote"), AttributeValue::Text(text(&json)));
+    attributes
+}
+
+fn image_attributes(map: &Map, names: &[Vec<String>]) -> ImageAttributes {
     let full = IntegerBounds::from_dimensions((map.full.width as usize, map.full.height as usize));
     let mut attributes = ImageAttributes::new(full);
-    let line = |(channel, names): (&Channel, Vec<String>)| {
+    let line = |(channel, names): (&Channel, &Vec<String>)| {
         let unit = match channel.unit.as_str() {
             "" => "index",
             unit => unit,
         };
         format!("{}: {}, {unit}", names.join(" "), super::one_line(&channel.quantity.name()))
     };
-    let units: Vec<_> = map.channels().iter().zip(channel_names(map)).map(line).collect();
+    let units: Vec<_> = map.channels().iter().zip(names).map(line).collect();
     attributes.other.insert(text("units"), AttributeValue::Text(text(&units.join("\n"))));
     attributes
 }
 
-/// The crate's own conversion refuses all but Latin-1; OpenEXR's libraries pass UTF-8 on as it is.
+/// The crate's own conversion refuses all but Latin-1; the libraries of `OpenEXR` pass UTF-8 on as it is.
 fn text(utf8: &str) -> Text {
     Text::from_slice_unchecked(utf8.as_bytes())
 }

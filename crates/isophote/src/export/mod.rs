@@ -35,9 +35,9 @@ pub enum Format {
     Png,
     /// All channels in 32-bit floating point: [`exr::write`].
     Exr,
-    /// One channel as a NumPy array: [`npy::write`].
+    /// One channel as a `NumPy` array: [`npy::write`].
     Npy,
-    /// All channels as NumPy arrays: [`npz::write`].
+    /// All channels as `NumPy` arrays: [`npz::write`].
     Npz,
     /// All channels as a table, one row a pixel: [`csv::write`].
     Csv,

@@ -54,9 +54,10 @@ mod tests {
 
     #[test]
     fn names_are_valid_and_differ_whatever_the_lights_are_called() {
-        assert_eq!(named(&["лампа", "a.b", "a b", "a_b_2", ""]), [
-            "light.лампа", "light.a_b", "light.a_b_2", "light.a_b_2_2", "light.unnamed"
-        ]);
+        assert_eq!(
+            named(&["лампа", "a.b", "a b", "a_b_2", ""]),
+            ["light.лампа", "light.a_b", "light.a_b_2", "light.a_b_2_2", "light.unnamed"]
+        );
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! One channel as a NumPy array, by the NPY format 1.0 (numpy.lib.format): magic, a header that is a Python
+//! One channel as a `NumPy` array, by the NPY format 1.0 (`numpy.lib.format`): magic, a header that is a Python
 //! dictionary, the numbers in little-endian order, rows from the top.
 //!
 //! After the numbers comes what `numpy.load` passes over: the metadata's JSON, its length in bytes (8, little-endian)
@@ -35,15 +35,15 @@ pub(super) fn write_array(out: &mut impl Write, size: Resolution, values: &Value
     match values {
         Values::Scalar(values) => {
             out.write_all(&header("<f8", &format!("({height}, {width})")))?;
-            write_numbers(out, values, |value| value.to_le_bytes())
+            write_numbers(out, values, f64::to_le_bytes)
         }
         Values::Vector(values) => {
             out.write_all(&header("<f8", &format!("({height}, {width}, 3)")))?;
-            write_numbers(out, values.as_flattened(), |value| value.to_le_bytes())
+            write_numbers(out, values.as_flattened(), f64::to_le_bytes)
         }
         Values::Index(indices) => {
             out.write_all(&header("<i4", &format!("({height}, {width})")))?;
-            write_numbers(out, indices, |index| index.to_le_bytes())
+            write_numbers(out, indices, i32::to_le_bytes)
         }
     }
 }

@@ -1,6 +1,6 @@
-//! All channels as NumPy arrays in one file: an uncompressed ZIP archive of NPY files, as `numpy.savez` makes it.
+//! All channels as `NumPy` arrays in one file: an uncompressed ZIP archive of NPY files, as `numpy.savez` makes it.
 
-use std::io::{self, BufRead, Read, Seek, Write};
+use std::io::{self, BufRead, Read, Seek, SeekFrom, Write};
 
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter, result::ZipError, write::SimpleFileOptions};
 
@@ -21,7 +21,7 @@ pub fn write(map: &Map, out: &mut (impl Write + Seek)) -> Result<(), ExportError
     // A slash would be a folder to programs that unpack the archive, and `/../` a way out of theirs.
     let names = names::unique(map.channels(), |character| !character.is_control() && !"/\\:".contains(character));
     let stored_as = names.iter().map(|name| vec![name.clone()]).collect();
-    let mut archive = ZipWriter::new(out);
+    let mut archive = ZipWriter::new(SilentAfterError::new(out));
     start(&mut archive, "metadata", 0)?;
     write_text(&mut archive, &FileMetadata::of_stored(map, stored_as).to_json())?;
     start(&mut archive, "mask", size.pixels() as u64)?;
@@ -35,8 +35,65 @@ pub fn write(map: &Map, out: &mut (impl Write + Seek)) -> Result<(), ExportError
     Ok(())
 }
 
+/// A `ZipWriter` that is dropped after an error tries to complete the archive, prints to the terminal when that fails
+/// too, and panics when the end lies before the member it was writing. After its first error this passes nothing on
+/// and behaves as a file that ends where the real one did, so that the attempt succeeds.
+struct SilentAfterError<'a, W> {
+    out: &'a mut W,
+    failed: bool,
+    position: u64,
+    end: u64,
+}
+
+impl<'a, W> SilentAfterError<'a, W> {
+    fn new(out: &'a mut W) -> Self {
+        Self { out, failed: false, position: 0, end: 0 }
+    }
+
+    fn move_to(&mut self, position: u64) -> u64 {
+        self.position = position;
+        self.end = self.end.max(position);
+        position
+    }
+
+    fn fail<T>(&mut self, error: io::Error) -> io::Result<T> {
+        self.failed = true;
+        self.position = self.end;
+        Err(error)
+    }
+}
+
+impl<W: Write> Write for SilentAfterError<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match if self.failed { Ok(bytes.len()) } else { self.out.write(bytes) } {
+            Ok(written) => {
+                self.move_to(self.position + written as u64);
+                Ok(written)
+            }
+            Err(again) if again.kind() == io::ErrorKind::Interrupted => Err(again),
+            Err(error) => self.fail(error),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if self.failed { Ok(()) } else { self.out.flush().or_else(|error| self.fail(error)) }
+    }
+}
+
+impl<W: Seek> Seek for SilentAfterError<'_, W> {
+    fn seek(&mut self, target: SeekFrom) -> io::Result<u64> {
+        let sought = match target {
+            _ if !self.failed => self.out.seek(target),
+            SeekFrom::Start(position) => Ok(position),
+            SeekFrom::Current(step) => Ok(self.position.saturating_add_signed(step)),
+            SeekFrom::End(step) => Ok(self.end.saturating_add_signed(step)),
+        };
+        sought.map(|position| self.move_to(position)).or_else(|error| self.fail(error))
+    }
+}
+
 /// Begins the member of that name; the fixed time and rights make the same map give the same bytes.
-pub(super) fn start(archive: &mut ZipWriter<impl Write + Seek>, name: &str, bytes: u64) -> Result<(), ExportError> {
+fn start(archive: &mut ZipWriter<impl Write + Seek>, name: &str, bytes: u64) -> Result<(), ExportError> {
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default())
@@ -56,7 +113,7 @@ fn bytes(values: &Values) -> u64 {
     }
 }
 
-/// NumPy's texts are of one width and have four bytes a character.
+/// Texts of `NumPy` are of one width and have four bytes a character.
 fn write_text(out: &mut impl Write, text: &str) -> io::Result<()> {
     let characters: Vec<char> = text.chars().collect();
     out.write_all(&npy::header(&format!("<U{}", characters.len()), "()"))?;

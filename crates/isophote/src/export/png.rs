@@ -2,10 +2,7 @@
 
 use std::io::{BufRead, Seek, Write};
 
-use super::{
-    ExportError, FileMetadata, Format, PictureMetadata, channel, one_line,
-    read::LONGEST_JSON,
-};
+use super::{ExportError, FileMetadata, Format, PictureMetadata, channel, one_line, read::LONGEST_JSON};
 use crate::map::{Channel, Map, Quantity, Values};
 
 /// Writes the picture, row 0 on top; missed pixels are black, with a colour map too.
@@ -27,7 +24,7 @@ pub fn write(map: &Map, options: &PictureOptions, out: &mut impl Write) -> Resul
         Depth::Eight => png::BitDepth::Eight,
         Depth::Sixteen => png::BitDepth::Sixteen,
     });
-    encoder.set_compression(COMPRESSION);
+    set_compression(&mut encoder, options.depth);
     for (keyword, text) in texts(map, channel, options, range) {
         encoder.add_itxt_chunk(keyword.into(), text).map_err(from_png)?;
     }
@@ -40,9 +37,8 @@ pub fn write(map: &Map, options: &PictureOptions, out: &mut impl Write) -> Resul
     Ok(report)
 }
 
-const COMPRESSION: png::Compression = png::Compression::Balanced;
-
 /// What a picture shows and how.
+#[derive(Clone)]
 pub struct PictureOptions<'a> {
     /// The channel, a scalar one.
     pub quantity: Quantity,
@@ -180,6 +176,18 @@ fn texts(map: &Map, channel: &Channel, options: &PictureOptions, range: [f64; 2]
     ]
 }
 
+/// Level 3 of deflate, rows predicted from the left neighbour for 8 bits and from the upper one for 16. On a shaded
+/// sphere of 800×600 (3840×2160) that takes 5 ms and 27 kB (70 ms, 185 kB) for 8 bits, 12 ms and 143 kB (130 ms,
+/// 1.1 MB) for 16. The encoder's `Balanced` takes 13 ms and 25 kB, 22 ms and 194 kB (360 ms, 1.3 MB); its `Fast` less
+/// than 3 ms, but 51 and 306 kB.
+fn set_compression(encoder: &mut png::Encoder<impl Write>, depth: Depth) {
+    encoder.set_deflate_compression(png::DeflateCompression::Level(3));
+    encoder.set_filter(match depth {
+        Depth::Eight => png::Filter::Sub,
+        Depth::Sixteen => png::Filter::Up,
+    });
+}
+
 fn description(map: &Map, channel: &Channel, options: &PictureOptions, range: [f64; 2]) -> String {
     let (quantity, convention) = (channel.quantity.name(), &map.provenance.convention);
     let [black, white] = range.map(|value| with_unit(value, &channel.unit));
@@ -192,7 +200,10 @@ fn description(map: &Map, channel: &Channel, options: &PictureOptions, range: [f
     match options.color {
         None => format!("{quantity}, {convention}; black is {black}, white is {white}; {level}"),
         Some(color) => {
-            format!("{quantity}, {convention}; colours {} from {black} to {white}, missed pixels black; {level}", color.name)
+            format!(
+                "{quantity}, {convention}; colours {} from {black} to {white}, missed pixels black; {level}",
+                color.name
+            )
         }
     }
 }
@@ -217,12 +228,10 @@ pub(super) fn read_json(file: &mut (impl BufRead + Seek)) -> Result<Option<Vec<u
         chunks.iter().find(|chunk| chunk.keyword == "isophote").map(png::text_metadata::ITXtChunk::get_text)
     };
     // Other programs that save the picture again may put the texts after the pixels.
-    let text = match found(&reader) {
-        Some(text) => Some(text),
-        None => {
-            reader.finish().map_err(|error| error.to_string())?;
-            found(&reader)
-        }
-    };
+    let mut text = found(&reader);
+    if text.is_none() {
+        reader.finish().map_err(|error| error.to_string())?;
+        text = found(&reader);
+    }
     text.transpose().map(|text| text.map(String::into_bytes)).map_err(|error| error.to_string())
 }

@@ -10,8 +10,15 @@ use crate::{
 
 fn image(map: &Map) -> FlatImage {
     let bytes = encoded(map, Format::Exr).unwrap();
-    read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes().pedantic()
-        .from_buffered(Cursor::new(bytes)).unwrap()
+    read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .all_layers()
+        .all_attributes()
+        .pedantic()
+        .from_buffered(Cursor::new(bytes))
+        .unwrap()
 }
 
 fn channels(image: &FlatImage) -> BTreeMap<String, Vec<f32>> {
@@ -23,8 +30,10 @@ fn channels(image: &FlatImage) -> BTreeMap<String, Vec<f32>> {
     image.layer_data[0].channel_data.list.iter().map(|channel| (name(channel), values(channel))).collect()
 }
 
-fn attribute(attributes: &std::collections::HashMap<Text, AttributeValue>, name: &str) -> String {
-    match &attributes[&Text::from(name)] {
+fn attribute(image: &FlatImage, name: &str) -> String {
+    // The reader may sort attributes of the only layer with those of the image.
+    let (shared, own) = (&image.attributes.other, &image.layer_data[0].attributes.other);
+    match shared.get(&Text::from(name)).unwrap_or_else(|| &own[&Text::from(name)]) {
         AttributeValue::Text(text) => String::from_utf8(text.as_slice().into()).unwrap(),
         other => panic!("no text: {other:?}"),
     }
@@ -36,10 +45,22 @@ fn every_channel_reads_back_rounded_to_32_bits() {
     let map = sample();
     let channels = channels(&image(&map));
     let names: Vec<_> = channels.keys().map(String::as_str).collect();
-    assert_eq!(names, [
-        "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "Y", "irradiance.Y", "light.a___b________c_.Y", "light.лампа.Y",
-        "shape.index"
-    ]);
+    assert_eq!(
+        names,
+        [
+            "N.X",
+            "N.Y",
+            "N.Z",
+            "P.X",
+            "P.Y",
+            "P.Z",
+            "Y",
+            "irradiance.Y",
+            "light.a___b_______c_.Y",
+            "light.лампа.Y",
+            "shape.index"
+        ]
+    );
     for (name, quantity) in [
         ("Y", Quantity::Brightness),
         ("irradiance.Y", Quantity::Irradiance),
@@ -69,12 +90,12 @@ fn units_and_names_are_attributes_that_any_tool_shows() {
     let own = &image.layer_data[0].attributes;
     assert_eq!(own.software_name, Some(Text::from("isophote 0.1.0")));
     assert_eq!(
-        attribute(&image.attributes.other, "units"),
+        attribute(&image, "units"),
         "Y: brightness, W/m²\nirradiance.Y: irradiance, W/m²\nshape.index: shape, index\nP.X P.Y P.Z: position, mm\n\
          N.X N.Y N.Z: normal, 1\nlight.лампа.Y: light.лампа, W/m²\n\
-         light.a___b________c_.Y: light.a, \"b\" #/../c., W/m²"
+         light.a___b_______c_.Y: light.a, \"b\" #/../c., W/m²"
     );
-    assert!(attribute(&own.other, "isophote").contains(r#""stored_as":["light.лампа.Y"]"#));
+    assert!(attribute(&image, "isophote").contains(r#""stored_as":["light.лампа.Y"]"#));
 }
 
 #[test]
@@ -87,6 +108,17 @@ fn what_32_bits_cannot_hold_is_refused_with_its_place() {
     map.channels[1].values = Values::Index(vec![16_777_217]);
     let message = encoded(&map, Format::Exr).unwrap_err().to_string();
     assert!(message.starts_with("channel ‘shape’ is 1.6777217e7 at column 1, row 2: "), "{message}");
+}
+
+#[test]
+fn an_image_beyond_the_formats_coordinates_is_refused() {
+    let mut map = sample();
+    map.full.width = 1 << 30;
+    let message = encoded(&map, Format::Exr).unwrap_err().to_string();
+    assert_eq!(message, "cannot be saved as exr: the image reaches to 1073741824, its coordinates to 1073741822");
+    map.full.width = (1 << 30) - 2;
+    map.region.corner.column = map.full.width - 3;
+    assert_eq!(image(&map).layer_data[0].attributes.layer_position, Vec2(1_073_741_819, 2));
 }
 
 #[test]

@@ -6,10 +6,11 @@ mod metadata;
 mod numpy;
 mod png;
 mod table;
+mod zip64;
 
-use std::io::Cursor;
+use std::io::{self, Cursor, Seek, SeekFrom, Write};
 
-use super::{ExportError, Format, csv, npy, npz};
+use super::{ExportError, Format, csv, npy, npz, png::PictureOptions};
 use crate::{
     map::{Channel, Map, Pixel, Provenance, Quantity, Region, Resolution, Values, Window},
     units::{Choice, LengthUnit},
@@ -62,28 +63,32 @@ fn only(map: &mut Map, brightness: &[f64]) {
     ];
 }
 
+fn encode(map: &Map, format: Format, out: &mut (impl Write + Seek)) -> Result<(), ExportError> {
+    match format {
+        Format::Png => super::png::write(map, &PictureOptions::new(Quantity::Brightness), out).map(|_| ()),
+        Format::Exr => super::exr::write(map, out),
+        Format::Npy => npy::write(map, &Quantity::Brightness, out),
+        Format::Npz => npz::write(map, out),
+        Format::Csv => csv::write(map, csv::Rows::All, out).map(|_| ()),
+    }
+}
+
 fn encoded(map: &Map, format: Format) -> Result<Vec<u8>, ExportError> {
     let mut out = Cursor::new(Vec::new());
-    match format {
-        Format::Png => {
-            super::png::write(map, &super::png::PictureOptions::new(Quantity::Brightness), &mut out).map(|_| ())
-        }
-        Format::Exr => super::exr::write(map, &mut out),
-        Format::Npy => npy::write(map, &Quantity::Brightness, &mut out),
-        Format::Npz => npz::write(map, &mut out),
-        Format::Csv => csv::write(map, csv::Rows::All, &mut out).map(|_| ()),
-    }?;
+    encode(map, format, &mut out)?;
     Ok(out.into_inner())
 }
 
 #[test]
 fn the_same_map_gives_the_same_bytes() {
-    for format in Format::ALL {
-        let first = encoded(&sample(), *format).unwrap();
-        // A later time and another thread: neither may be in the file.
-        std::thread::sleep(std::time::Duration::from_millis(2));
-        let second = std::thread::spawn(|| encoded(&sample(), *format).unwrap()).join().unwrap();
-        assert_eq!(first, second, "{}", format.name());
+    // Enough rows for many compressed blocks, which several threads finish in any order.
+    let mut tall = sample();
+    only(&mut tall, &(0..8 * 1000).map(|index| f64::from(index).sqrt()).collect::<Vec<_>>());
+    tall.region.size = Resolution { width: 8, height: 1000 };
+    for (map, format) in Format::ALL.iter().flat_map(|format| [(sample(), *format), (tall.clone(), *format)]) {
+        let first = encoded(&map, format).unwrap();
+        let second = std::thread::spawn(move || encoded(&map, format).unwrap()).join().unwrap();
+        assert!(first == second, "{}", format.name());
     }
 }
 
@@ -104,31 +109,36 @@ fn a_channel_that_is_not_there_is_named_with_those_that_are() {
     assert_eq!(error.to_string(), "no channel ‘depth’ in this map: it has brightness, shape");
 }
 
+/// A disk with room for so many bytes, over which a writer may go back and forth.
+struct Disk {
+    file: Cursor<Vec<u8>>,
+    room: usize,
+}
+
+impl Write for Disk {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.room = self.room.checked_sub(bytes.len()).ok_or(io::Error::other("disk full"))?;
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Seek for Disk {
+    fn seek(&mut self, target: SeekFrom) -> io::Result<u64> {
+        self.file.seek(target)
+    }
+}
+
 #[test]
-fn an_error_of_the_output_is_handed_on() {
-    struct Full;
-    impl std::io::Write for Full {
-        fn write(&mut self, _: &[u8]) -> std::io::Result<usize> {
-            Err(std::io::Error::other("disk full"))
-        }
-        fn flush(&mut self) -> std::io::Result<()> {
-            Ok(())
-        }
-    }
-    impl std::io::Seek for Full {
-        fn seek(&mut self, _: std::io::SeekFrom) -> std::io::Result<u64> {
-            Ok(0)
-        }
-    }
+fn a_disk_that_fills_up_at_any_moment_is_an_error() {
     let map = sample();
-    let errors = [
-        super::png::write(&map, &super::png::PictureOptions::new(Quantity::Brightness), &mut Full).map(|_| ()),
-        super::exr::write(&map, &mut Full),
-        npy::write(&map, &Quantity::Brightness, &mut Full),
-        npz::write(&map, &mut Full),
-        csv::write(&map, csv::Rows::All, &mut Full).map(|_| ()),
-    ];
-    for error in errors {
-        assert_eq!(error.unwrap_err().to_string(), "cannot write: disk full");
+    for format in Format::ALL {
+        for room in 0..encoded(&map, *format).unwrap().len() {
+            let error = encode(&map, *format, &mut Disk { file: Cursor::default(), room }).unwrap_err();
+            assert_eq!(error.to_string(), "cannot write: disk full", "{} with room for {room}", format.name());
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! NumPy itself reads what we write, and pandas and OpenEXR where they are installed beside it.
+//! `NumPy` itself reads what we write, and `pandas` and `OpenEXR` where they are installed beside it.
 
 use std::{env, fs, process::Command};
 
@@ -10,7 +10,7 @@ use crate::{
     map::{Map, Values},
 };
 
-/// `ISOPHOTE_PYTHON` names a Python that must have NumPy; without it `python3` is tried, and may lack it.
+/// `ISOPHOTE_PYTHON` names a Python that must have `NumPy`; without it `python3` is tried, and may lack it.
 #[test]
 fn numpy_reads_the_same_numbers() {
     let named = env::var_os("ISOPHOTE_PYTHON");
@@ -36,7 +36,8 @@ fn numpy_reads_the_same_numbers() {
     csv::write(&map, csv::Rows::Visible, &mut visible).unwrap();
     write("visible.csv", &visible);
     write("expected.json", expected(&map).to_string().as_bytes());
-    let run = Command::new(&python).arg("-c").arg(include_str!("numpy.py")).current_dir(folder.path()).output().unwrap();
+    let run =
+        Command::new(&python).arg("-c").arg(include_str!("numpy.py")).current_dir(folder.path()).output().unwrap();
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
     eprint!("{}", String::from_utf8_lossy(&run.stdout));
 }

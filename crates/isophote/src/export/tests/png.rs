@@ -65,10 +65,13 @@ fn a_colour_map_paints_what_is_seen_and_nothing_else() {
     let options = PictureOptions { color: Some(PictureColor { name: "test", color: &color }), ..brightness() };
     let (image, _) = picture(&sample(), &options);
     assert_eq!(image, DynamicImage::ImageRgb8(image.to_rgb8()));
-    assert_eq!(image.to_rgb8().into_raw(), [
-        10, 50, 20, 0, 0, 0, 10, 200, 20, //
-        10, 10, 20, 10, 100, 20, 0, 0, 0
-    ]);
+    assert_eq!(
+        image.to_rgb8().into_raw(),
+        [
+            10, 50, 20, 0, 0, 0, 10, 200, 20, //
+            10, 10, 20, 10, 100, 20, 0, 0, 0
+        ]
+    );
 }
 
 #[test]
@@ -108,7 +111,8 @@ fn the_texts_are_readable_and_say_what_white_is() {
     let mut bytes = Vec::new();
     write(&sample(), &brightness(), &mut bytes).unwrap();
     let reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
-    let texts: Vec<_> = reader.info().utf8_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.get_text().unwrap())).collect();
+    let texts: Vec<_> =
+        reader.info().utf8_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.get_text().unwrap())).collect();
     assert_eq!(texts[0], ("Title".into(), "Сфера, \"пример\" # 1 вторая строка".into()));
     assert_eq!(texts[1], ("Software".into(), "isophote 0.1.0".into()));
     assert_eq!(texts[2].0, "Description");

@@ -30,9 +30,9 @@ fn every_number_reads_back_exactly_beside_the_centre_of_its_pixel() {
     assert_eq!(lines[6][..5], ["3", "3", "1", "-1.5", "-1"]);
     let read = |index: usize, column: usize| lines[index + 1][column].parse::<f64>().unwrap().to_bits();
     let Values::Vector(positions) = &map.channel(&Quantity::Position).unwrap().values else { unreachable!() };
-    for index in 0..6 {
+    for (index, position) in positions.iter().enumerate() {
         assert_eq!(read(index, 6), map.scalar(&Quantity::Irradiance).unwrap()[index].to_bits());
-        assert_eq!(read(index, 8), positions[index][1].to_bits());
+        assert_eq!(read(index, 8), position[1].to_bits());
         assert_eq!(read(index, 13), map.scalar(&Quantity::Light("лампа".into())).unwrap()[index].to_bits());
     }
 }
