@@ -115,7 +115,7 @@ fn centre(edges: [f64; 2], index: usize, count: usize) -> f64 {
 }
 
 /// A number in the shortest form that reads back as the same one; with an exponent outside [1e-4, 1e16), as in Python.
-struct Number(f64);
+pub(super) struct Number(pub f64);
 
 impl Display for Number {
     fn fmt(&self, formatter: &mut Formatter) -> fmt::Result {

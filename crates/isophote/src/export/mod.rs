@@ -1,4 +1,4 @@
-//! Files: a [`Map`](crate::map::Map) as a picture, as layers, as arrays or as a table.
+//! Files: a [`Map`] as a picture, as layers, as arrays or as a table.
 //!
 //! Every writer takes the map and a place to write to, so that the caller decides on names, interrupts and progress;
 //! [`write_atomically`] puts the bytes under a name only when they are complete. Every file carries a

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek, Write};
 
-use super::{ExportError, FileMetadata, Format, PictureMetadata, channel, one_line, read::LONGEST_JSON};
+use super::{ExportError, FileMetadata, Format, PictureMetadata, channel, csv::Number, one_line, read::LONGEST_JSON};
 use crate::map::{Channel, Map, Quantity, Values};
 
 /// Writes the picture, row 0 on top; missed pixels are black, with a colour map too.
@@ -195,7 +195,7 @@ fn description(map: &Map, channel: &Channel, options: &PictureOptions, range: [f
     let level = if options.gamma == 1.0 {
         "level proportional to the value (linear, not gamma-encoded)".into()
     } else {
-        format!("level = share of the way from the first to the last ^ (1/{})", options.gamma)
+        format!("level = (share of the way between them)^(1/{})", options.gamma)
     };
     match options.color {
         None => format!("{quantity}, {convention}; black is {black}, white is {white}; {level}"),
@@ -209,7 +209,7 @@ fn description(map: &Map, channel: &Channel, options: &PictureOptions, range: [f
 }
 
 fn with_unit(value: f64, unit: &str) -> String {
-    if unit == "1" { value.to_string() } else { format!("{value} {unit}") }
+    if unit == "1" { Number(value).to_string() } else { format!("{} {unit}", Number(value)) }
 }
 
 fn from_png(error: png::EncodingError) -> ExportError {

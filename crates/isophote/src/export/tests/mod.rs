@@ -136,7 +136,9 @@ impl Seek for Disk {
 fn a_disk_that_fills_up_at_any_moment_is_an_error() {
     let map = sample();
     for format in Format::ALL {
-        for room in 0..encoded(&map, *format).unwrap().len() {
+        // The archive's writer goes back to fill in sizes: there every byte is another situation.
+        let step = if *format == Format::Npz { 1 } else { 29 };
+        for room in (0..encoded(&map, *format).unwrap().len()).step_by(step) {
             let error = encode(&map, *format, &mut Disk { file: Cursor::default(), room }).unwrap_err();
             assert_eq!(error.to_string(), "cannot write: disk full", "{} with room for {room}", format.name());
         }

@@ -123,3 +123,17 @@ fn the_texts_are_readable_and_say_what_white_is() {
     assert_eq!(texts[3].0, "isophote");
     assert!(reader.info().source_gamma.is_none());
 }
+
+#[test]
+fn the_description_of_a_coloured_picture_says_where_its_colours_begin_and_end() {
+    let mut bytes = Vec::new();
+    let color = Some(PictureColor { name: "viridis", color: &|_| [0; 3] });
+    let options = PictureOptions { color, gamma: 2.2, range: Some([1e-9, 1e300]), ..brightness() };
+    write(&sample(), &options, &mut bytes).unwrap();
+    let reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    assert_eq!(
+        reader.info().utf8_text[2].get_text().unwrap(),
+        "brightness, lab (3.3); colours viridis from 1e-9 W/m² to 1e300 W/m², missed pixels black; \
+         level = (share of the way between them)^(1/2.2)"
+    );
+}
