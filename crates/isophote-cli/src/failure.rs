@@ -36,7 +36,11 @@ pub fn report(error: &anyhow::Error) -> ExitCode {
     if let Some(scene_error) = find::<SceneError>(error) {
         eprintln!("{}", scene_error.report(use_color()));
         let count = scene_error.problems.len();
-        eprintln!("\n{count} problem{} in {}; nothing was written", if count == 1 { "" } else { "s" }, scene_error.name);
+        eprintln!(
+            "\n{count} problem{} in {}; nothing was written",
+            if count == 1 { "" } else { "s" },
+            scene_error.name
+        );
         return ExitCode::from(3);
     }
     if is_interruption(error) {

@@ -151,13 +151,7 @@ impl PreparedScene {
         let inside = self.shapes[located.shape].eye_inside;
         let normal = if inside { -nearest.outward_normal } else { nearest.outward_normal };
         let view = ((self.frame.eye - nearest.anchor) - nearest.offset).normalized();
-        SurfacePoint {
-            anchor: nearest.anchor,
-            offset: nearest.offset,
-            normal,
-            view,
-            cos_theta_o: normal.dot(view),
-        }
+        SurfacePoint { anchor: nearest.anchor, offset: nearest.offset, normal, view, cos_theta_o: normal.dot(view) }
     }
 }
 
@@ -174,7 +168,8 @@ fn doubtful_clearance(geometry: &Geometry, eye: Vector) -> f64 {
 
 impl Hit<DoubleDouble> {
     fn rounded(self) -> Hit {
-        let vector = |vector: Vector<DoubleDouble>| Vector::new(vector.x.rounded(), vector.y.rounded(), vector.z.rounded());
+        let vector =
+            |vector: Vector<DoubleDouble>| Vector::new(vector.x.rounded(), vector.y.rounded(), vector.z.rounded());
         let point = self.point;
         Hit {
             shape: self.shape,

@@ -8,12 +8,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Addition, subtraction, multiplication, division and the square root are correctly rounded in `f64`, and the
 /// transcendental functions come from one portable library: the same scene gives the same bytes on every machine.
 pub trait Real:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// The answer of a comparison.
     type Mask: Copy;

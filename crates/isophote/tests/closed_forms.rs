@@ -76,10 +76,14 @@ fn the_flux_on_a_sphere_is_that_of_the_closed_form() {
     for (file, key) in [("closed-form-5.1.toml", "flux_isotropic"), ("closed-form-5.2.toml", "flux_lambertian")] {
         let prepared = scene(file);
         let lowest = 0.25 / 1.6;
-        let flux = 2.0 * std::f64::consts::PI * 0.25 * 0.25 * integrate(lowest, 1.0, |cosine| {
-            let direction = Vector::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0);
-            prepared.probe(&Place::NearestTo(direction * 0.25)).expect("it is there").shading.irradiance
-        });
+        let flux = 2.0
+            * std::f64::consts::PI
+            * 0.25
+            * 0.25
+            * integrate(lowest, 1.0, |cosine| {
+                let direction = Vector::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0);
+                prepared.probe(&Place::NearestTo(direction * 0.25)).expect("it is there").shading.irradiance
+            });
         assert_relative(flux, number(&table["sphere_source"][key]), 1e-12, key);
     }
 }

@@ -113,7 +113,9 @@ fn json_has_the_same_keys_and_the_same_messages() {
 
 #[test]
 fn broken_json_is_reported_with_its_place() {
-    insta::assert_snapshot!(refused("scene.json", "{\n  \"version\": 1,\n  \"length\" \"m\"\n}", Syntax::Json).report(false));
+    insta::assert_snapshot!(
+        refused("scene.json", "{\n  \"version\": 1,\n  \"length\" \"m\"\n}", Syntax::Json).report(false)
+    );
     insta::assert_snapshot!(refused("scene.json", "[1, 2]", Syntax::Json).report(false));
 }
 

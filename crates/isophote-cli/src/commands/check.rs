@@ -105,9 +105,10 @@ fn lights(scene: &Scene) -> Option<String> {
 
 fn probes(scene: &Scene) -> Option<String> {
     let columns = [("name", Align::Left), ("at, m", Align::Left), ("published", Align::Right)];
-    let rows = scene.probes().iter().map(|probe| {
-        vec![probe.name.clone(), vector(probe.at), probe.published.map_or("–".into(), short)]
-    });
+    let rows = scene
+        .probes()
+        .iter()
+        .map(|probe| vec![probe.name.clone(), vector(probe.at), probe.published.map_or("–".into(), short)]);
     filled(&columns, rows.collect())
 }
 
@@ -128,32 +129,50 @@ fn vector(vector: Vector) -> String {
 fn to_json(scene: &Scene) -> Value {
     let camera = scene.camera();
     let frame = CameraFrame::<f64>::new(camera);
-    let materials: Vec<Value> = scene.materials().iter().map(|material| {
-        let reflectance = material.reflectance;
-        json!({"name": material.name, "diffuse": reflectance.diffuse, "specular": reflectance.specular,
+    let materials: Vec<Value> = scene
+        .materials()
+        .iter()
+        .map(|material| {
+            let reflectance = material.reflectance;
+            json!({"name": material.name, "diffuse": reflectance.diffuse, "specular": reflectance.specular,
             "shininess": reflectance.shininess})
-    }).collect();
-    let shapes: Vec<Value> = scene.shapes().iter().map(|shape| {
-        let Geometry::Sphere(sphere) = shape.geometry;
-        let material = shape.material.map(|index| scene.materials()[index].name.as_str());
-        json!({"name": shape.name, "shape": "sphere", "center": sphere.center.to_array(), "radius": sphere.radius,
+        })
+        .collect();
+    let shapes: Vec<Value> = scene
+        .shapes()
+        .iter()
+        .map(|shape| {
+            let Geometry::Sphere(sphere) = shape.geometry;
+            let material = shape.material.map(|index| scene.materials()[index].name.as_str());
+            json!({"name": shape.name, "shape": "sphere", "center": sphere.center.to_array(), "radius": sphere.radius,
             "material": material})
-    }).collect();
-    let lights: Vec<Value> = scene.lights().iter().map(|light| {
-        let (emission, axis) = match light.emission {
-            Emission::Isotropic => ("isotropic", None),
-            Emission::Lambertian { axis } => ("lambertian", Some(axis.to_array())),
-        };
-        json!({"name": light.name, "position": light.position.to_array(), "intensity": light.intensity,
+        })
+        .collect();
+    let lights: Vec<Value> = scene
+        .lights()
+        .iter()
+        .map(|light| {
+            let (emission, axis) = match light.emission {
+                Emission::Isotropic => ("isotropic", None),
+                Emission::Lambertian { axis } => ("lambertian", Some(axis.to_array())),
+            };
+            json!({"name": light.name, "position": light.position.to_array(), "intensity": light.intensity,
             "power": light.power(), "emission": emission, "axis": axis})
-    }).collect();
-    let probes: Vec<Value> = scene.probes().iter().map(|probe| {
-        json!({"name": probe.name, "at": probe.at.to_array(), "published": probe.published})
-    }).collect();
-    let warnings: Vec<Value> = scene.warnings().iter().map(|warning| {
-        json!({"path": warning.path, "message": warning.message, "help": warning.help,
+        })
+        .collect();
+    let probes: Vec<Value> = scene
+        .probes()
+        .iter()
+        .map(|probe| json!({"name": probe.name, "at": probe.at.to_array(), "published": probe.published}))
+        .collect();
+    let warnings: Vec<Value> = scene
+        .warnings()
+        .iter()
+        .map(|warning| {
+            json!({"path": warning.path, "message": warning.message, "help": warning.help,
             "line": warning.place.as_ref().map(|place| place.line)})
-    }).collect();
+        })
+        .collect();
     json!({
         "title": scene.title(), "length": "m", "length_in_file": scene.length().name(),
         "handedness": camera.handedness.name(), "convention": scene.convention().name(),

@@ -118,7 +118,9 @@ pub fn write_figure(svg: &str, path: &Path, format: FigureFormat, notes: &mut Ve
     const SCALE: f64 = 2.0;
     let bytes = match format {
         FigureFormat::Svg => svg.as_bytes().to_vec(),
-        FigureFormat::Png => figure::svg_to_png(svg, SCALE).map_err(|error| anyhow!("cannot draw the figure: {error}"))?,
+        FigureFormat::Png => {
+            figure::svg_to_png(svg, SCALE).map_err(|error| anyhow!("cannot draw the figure: {error}"))?
+        }
     };
     let written = write_atomically(path, |file| Ok(Interruptible(file).write_all(&bytes)?));
     crate::progress::check()?;

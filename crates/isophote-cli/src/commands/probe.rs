@@ -26,11 +26,13 @@ pub fn run(arguments: &ProbeArguments) -> Result<String> {
         readings.push((name.as_str(), reading, *published));
     }
     if arguments.json {
-        let probes = readings.iter().map(|(name, reading, published)| ProbeJson::new(name, reading, *published, &scene));
+        let probes =
+            readings.iter().map(|(name, reading, published)| ProbeJson::new(name, reading, *published, &scene));
         return numbers::json(&ProbesJson { length: scene.scene().length().name(), probes: probes.collect() });
     }
     if arguments.explain {
-        let explanations: Vec<String> = readings.iter().map(|(name, reading, _)| reading.explain(&scene, name)).collect();
+        let explanations: Vec<String> =
+            readings.iter().map(|(name, reading, _)| reading.explain(&scene, name)).collect();
         return Ok(explanations.join("\n"));
     }
     let rows: Vec<_> = readings.iter().map(|(name, reading, published)| (*name, reading, *published)).collect();
@@ -93,7 +95,10 @@ fn refusal(name: &str, error: &ProbeError, scene: &Scene) -> Usage {
     Usage(match error {
         ProbeError::OffSurface(miss) => {
             let shape = &scene.shapes()[miss.shape].name;
-            format!("the point {name} is on no surface: {}; --snap uses that point", miss.describe(shape, scene.length()))
+            format!(
+                "the point {name} is on no surface: {}; --snap uses that point",
+                miss.describe(shape, scene.length())
+            )
         }
         other => format!("{name}: {other}"),
     })

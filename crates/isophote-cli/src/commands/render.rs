@@ -140,7 +140,8 @@ pub fn channels(names: &[String], scene: &Scene) -> Result<Vec<Quantity>> {
     let known = |quantity: &Quantity| !matches!(quantity, Quantity::Light(_)) || lights.contains(quantity);
     let channel = |name: &String| {
         Quantity::from_name(name).filter(known).ok_or_else(|| {
-            let names: Vec<String> = Quantity::COMMON.iter().chain(lights.iter().take(20)).map(Quantity::name).collect();
+            let names: Vec<String> =
+                Quantity::COMMON.iter().chain(lights.iter().take(20)).map(Quantity::name).collect();
             Usage(format!("there is no channel `{name}`; allowed: {}", names.join(", "))).into()
         })
     };
@@ -200,14 +201,22 @@ impl Summary {
             Some(statistics) => {
                 row("maximum", extreme_text(&statistics.max, scene, job));
                 row("minimum", extreme_text(&statistics.min, scene, job));
-                row("mean", format!("{} {} over the visible pixels", significant(statistics.mean, 12), unit(&job.main, description)));
+                row(
+                    "mean",
+                    format!(
+                        "{} {} over the visible pixels",
+                        significant(statistics.mean, 12),
+                        unit(&job.main, description)
+                    ),
+                );
             }
             None if visible == 0 => row("", "no surface is seen".into()),
             None => row("", "this channel has no single number a pixel to sum up".into()),
         }
         let mut text = lines.join("\n") + "\n";
         if !self.probes.is_empty() {
-            let rows: Vec<_> = self.probes.iter().map(|(name, reading, published)| (name.as_str(), reading, *published)).collect();
+            let rows: Vec<_> =
+                self.probes.iter().map(|(name, reading, published)| (name.as_str(), reading, *published)).collect();
             text.push('\n');
             text.push_str(&probe::table_text(&rows, scene));
         }
@@ -224,9 +233,10 @@ impl Summary {
         SummaryJson {
             title: description.title().into(),
             resolution: [description.camera().resolution.width, description.camera().resolution.height],
-            region: job.arguments.region.map(|region| {
-                [region.corner.column, region.corner.row, region.size.width, region.size.height]
-            }),
+            region: job
+                .arguments
+                .region
+                .map(|region| [region.corner.column, region.corner.row, region.size.width, region.size.height]),
             length: description.length().name(),
             convention: description.convention().name(),
             formula: description.convention().formula_number(),

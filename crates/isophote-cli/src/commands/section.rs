@@ -149,9 +149,11 @@ impl Section<'_> {
         columns.extend(headings.iter().map(|heading| (heading.as_str(), Align::Right)));
         let row = |sample: &Sample| {
             let mut row: Vec<String> = self.screen(sample).map(|coordinate| significant(coordinate, 9)).into();
-            row.extend(self.quantities.iter().map(|quantity| {
-                self.value(sample, quantity).map_or("–".into(), |value| significant(value, 12))
-            }));
+            row.extend(
+                self.quantities
+                    .iter()
+                    .map(|quantity| self.value(sample, quantity).map_or("–".into(), |value| significant(value, 12))),
+            );
             row
         };
         table(&columns, &self.samples.iter().map(row).collect::<Vec<_>>())
@@ -210,7 +212,11 @@ impl Section<'_> {
     fn draw(&self, series: &[Series], x_label: &str, line: &str, y_label: &str, y_unit: &str) -> Result<String> {
         let title = self.scene.title();
         let options = SectionOptions {
-            title: if title.is_empty() { format!("Section along {line}") } else { format!("{title}: section along {line}") },
+            title: if title.is_empty() {
+                format!("Section along {line}")
+            } else {
+                format!("{title}: section along {line}")
+            },
             x_label: x_label.into(),
             x_unit: self.scene.length().name().into(),
             y_label: y_label.into(),

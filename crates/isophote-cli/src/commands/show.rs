@@ -49,7 +49,10 @@ fn to_text(metadata: &FileMetadata) -> String {
     }
     if let Some(picture) = &metadata.picture {
         let [black, white] = picture.range.map(|value| significant(value, 12));
-        row("picture", format!("{black} to {white} from black to white, {} bits, gamma {}", picture.depth, picture.gamma));
+        row(
+            "picture",
+            format!("{black} to {white} from black to white, {} bits, gamma {}", picture.depth, picture.gamma),
+        );
         if let Some(colormap) = &picture.colormap {
             row("colours", colormap.clone());
         }

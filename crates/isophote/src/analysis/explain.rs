@@ -33,7 +33,10 @@ impl ProbeReading {
         let point = &self.point;
         let from_inside = point.normal.dot(point.offset) < 0.0;
         line(text, format_args!("{name}: {}", description.title()));
-        line(text, format_args!("Convention {}: {}", description.convention().label(), description.convention().formula()));
+        line(
+            text,
+            format_args!("Convention {}: {}", description.convention().label(), description.convention().formula()),
+        );
         line(text, format_args!(""));
         line(text, format_args!("Geometry (2.2), lengths in {}", length.name()));
         line(text, format_args!("  P   = {}   on \"{}\"", vector_in(point.position(), length), shape.name));
@@ -46,7 +49,12 @@ impl ProbeReading {
         match self.visibility {
             Visibility::Seen => {}
             Visibility::FacesAway => {
-                line(text, format_args!("  θ_o ≥ 90°: the eye does not see this side, and B = 0 where B depends on the viewer"));
+                line(
+                    text,
+                    format_args!(
+                        "  θ_o ≥ 90°: the eye does not see this side, and B = 0 where B depends on the viewer"
+                    ),
+                );
             }
             Visibility::HiddenBy(other) => {
                 let other = &description.shapes()[other].name;
@@ -69,26 +77,36 @@ impl ProbeReading {
         line(text, format_args!("  cosθ_i = max(0, N·L) = max(0, {}) = {}", digits(cosine), digits(term.cos_theta_i)));
         let intensity_unit = description.quantities().intensity_unit();
         match light.emission {
-            Emission::Isotropic => line(text, format_args!("  I   = {} {intensity_unit}, isotropic", digits(term.intensity))),
+            Emission::Isotropic => {
+                line(text, format_args!("  I   = {} {intensity_unit}, isotropic", digits(term.intensity)))
+            }
             Emission::Lambertian { axis } => {
                 line(text, format_args!("  axis = {}", vector(axis)));
                 let cosine = axis.dot(-term.direction);
                 let (on_axis, intensity) = (digits(light.intensity), digits(term.intensity));
                 let cosine = digits(cosine);
-                line(text, format_args!("  I   = I₀ max(0, cosγ) = {on_axis} × max(0, {cosine}) = {intensity} {intensity_unit}"));
+                line(
+                    text,
+                    format_args!(
+                        "  I   = I₀ max(0, cosγ) = {on_axis} × max(0, {cosine}) = {intensity} {intensity_unit}"
+                    ),
+                );
             }
         }
         if term.visibility < 1.0 {
             line(text, format_args!("  v   = {}: the wall of the shape stands between", term.visibility));
         }
-        line(text, format_args!(
-            "  E   = v I cosθ_i / r² = {} × {} × {} / {}² = {} {unit}   (3.1)",
-            term.visibility,
-            digits(term.intensity),
-            digits(term.cos_theta_i),
-            digits(term.distance),
-            digits(term.irradiance)
-        ));
+        line(
+            text,
+            format_args!(
+                "  E   = v I cosθ_i / r² = {} × {} × {} / {}² = {} {unit}   (3.1)",
+                term.visibility,
+                digits(term.intensity),
+                digits(term.cos_theta_i),
+                digits(term.distance),
+                digits(term.irradiance)
+            ),
+        );
         self.explain_reflection(text, scene, term);
     }
 

@@ -73,9 +73,7 @@ impl PreparedScene {
     fn positions(&self, line: SectionLine) -> Result<Vec<ScreenPosition>, SectionError> {
         let size = self.scene().camera().resolution;
         match line {
-            SectionLine::Row(row) if row >= size.height => {
-                Err(SectionError::NoSuchRow { row, last: size.height - 1 })
-            }
+            SectionLine::Row(row) if row >= size.height => Err(SectionError::NoSuchRow { row, last: size.height - 1 }),
             SectionLine::Column(column) if column >= size.width => {
                 Err(SectionError::NoSuchColumn { column, last: size.width - 1 })
             }

@@ -7,11 +7,7 @@ use crate::scene::Scene;
 use crate::units::LengthUnit;
 
 /// A map of zeros (−1 for the shape), with every channel that the settings ask for.
-pub fn empty_map(
-    scene: &PreparedScene,
-    settings: &RenderSettings<'_>,
-    renderer: String,
-) -> Result<Map, RenderError> {
+pub fn empty_map(scene: &PreparedScene, settings: &RenderSettings<'_>, renderer: String) -> Result<Map, RenderError> {
     let description = scene.scene();
     let full = description.camera.resolution;
     let region = settings.region.unwrap_or(Region::all(full));
@@ -103,12 +99,7 @@ pub fn split<'m>(map: &'m mut Map, scene: &PreparedScene) -> Vec<Row<'m>> {
     let Region { corner, size } = map.region;
     let length = map.window.length;
     let mut rows: Vec<Row<'_>> = (corner.row..corner.row + size.height)
-        .map(|row| Row {
-            first: Pixel { column: corner.column, row },
-            width: size.width,
-            length,
-            channels: Vec::new(),
-        })
+        .map(|row| Row { first: Pixel { column: corner.column, row }, width: size.width, length, channels: Vec::new() })
         .collect();
     for channel in &mut map.channels {
         for (row, part) in rows.iter_mut().zip(parts(channel, size.width as usize, scene.scene())) {

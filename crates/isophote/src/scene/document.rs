@@ -190,7 +190,9 @@ fn parse_toml(text: &str) -> Document {
     let (root, errors) = DeTable::parse_recoverable(text);
     let syntax_problems = errors
         .iter()
-        .map(|error| Problem::at_span(ProblemKind::Syntax, error.span(), format!("not valid TOML: {}", error.message())))
+        .map(|error| {
+            Problem::at_span(ProblemKind::Syntax, error.span(), format!("not valid TOML: {}", error.message()))
+        })
         .collect();
     let span = root.span();
     Document { root: Node { value: Value::Table(toml_entries(root.into_inner())), span }, syntax_problems }
@@ -199,11 +201,7 @@ fn parse_toml(text: &str) -> Document {
 fn toml_entries(table: DeTable<'_>) -> Vec<Entry> {
     table
         .into_iter()
-        .map(|(key, value)| Entry {
-            key_span: key.span(),
-            key: key.into_inner().into_owned(),
-            node: toml_node(value),
-        })
+        .map(|(key, value)| Entry { key_span: key.span(), key: key.into_inner().into_owned(), node: toml_node(value) })
         .collect()
 }
 
@@ -267,12 +265,8 @@ fn json_node(value: jsonc_parser::ast::Value<'_>, problems: &mut Vec<Problem>) -
         Json::BooleanLit(_) => Value::Boolean,
         Json::NullKeyword(_) => Value::Other("null"),
         Json::StringLit(text) => Value::Text(text.value.into_owned()),
-        Json::NumberLit(literal) => {
-            literal.value.parse().map_or_else(|_| number(literal.value), Value::Integer)
-        }
-        Json::Array(array) => {
-            Value::Array(array.elements.into_iter().map(|item| json_node(item, problems)).collect())
-        }
+        Json::NumberLit(literal) => literal.value.parse().map_or_else(|_| number(literal.value), Value::Integer),
+        Json::Array(array) => Value::Array(array.elements.into_iter().map(|item| json_node(item, problems)).collect()),
         Json::Object(object) => Value::Table(json_entries(object, problems)),
     };
     Node { value, span }

@@ -137,7 +137,8 @@ impl Problem {
         let Some(place) = &self.place else {
             let place = if self.path.is_empty() { name.into() } else { format!("{name}: {}", self.path) };
             let title = level.primary_title(format!("{place}: {}", self.message));
-            return self.add_help(title.elements(Vec::<Snippet<'_, annotate_snippets::Annotation<'_>>>::new()), renderer);
+            return self
+                .add_help(title.elements(Vec::<Snippet<'_, annotate_snippets::Annotation<'_>>>::new()), renderer);
         };
         let snippet = Snippet::source(place.text.as_str())
             .path(name)

@@ -5,9 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
-use super::source::{
-    CameraSource, LightSource, MaterialSource, ProbeSource, SceneSource, ScreenSource, SphereSource,
-};
+use super::source::{CameraSource, LightSource, MaterialSource, ProbeSource, SceneSource, ScreenSource, SphereSource};
 use crate::units::Choice;
 
 /// Reads a scene out of a document. What cannot be read is reported and left out.

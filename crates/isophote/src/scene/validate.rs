@@ -131,8 +131,13 @@ impl Validator {
             let key = ["up", "target", "forward"];
             let written = [camera.up.is_some(), camera.target.is_some(), true];
             let key = key.into_iter().zip(written).find_map(|(key, written)| written.then_some(key)).unwrap_or("up");
-            let message = format!("`camera.up` is parallel to the direction of view {}", vector_text(forward.to_array()));
-            self.wrong(&path.key(key), message, "allowed: any other direction; it shows where the top of the picture is");
+            let message =
+                format!("`camera.up` is parallel to the direction of view {}", vector_text(forward.to_array()));
+            self.wrong(
+                &path.key(key),
+                message,
+                "allowed: any other direction; it shows where the top of the picture is",
+            );
         }
     }
 
@@ -171,11 +176,8 @@ impl Validator {
     }
 
     fn resolution(&mut self, path: &Path, [width, height]: [u64; 2]) -> Option<Resolution> {
-        let allowed = format!(
-            "allowed: width and height from 1 to {}, together at most {} pixels",
-            limits::SIDE,
-            limits::PIXELS
-        );
+        let allowed =
+            format!("allowed: width and height from 1 to {}, together at most {} pixels", limits::SIDE, limits::PIXELS);
         let side = |side: u64| u32::try_from(side).ok().filter(|side| (1..=limits::SIDE).contains(side));
         match (side(width), side(height)) {
             (Some(width), Some(height)) if u64::from(width) * u64::from(height) <= limits::PIXELS => {
@@ -351,9 +353,8 @@ impl Validator {
                 } else if distance < 0.0 && !eye_inside && camera.is_some() {
                     let message = format!("the light \"{}\" is inside \"{}\"", light.name, shape.name);
                     let depth = self.length_text(-distance);
-                    let help = format!(
-                        "its surface is {depth} away and lets no light out; move the light out, or the eye in"
-                    );
+                    let help =
+                        format!("its surface is {depth} away and lets no light out; move the light out, or the eye in");
                     self.wrong(&path, message, &help);
                 } else if distance > 0.0 && eye_inside {
                     let message = format!(

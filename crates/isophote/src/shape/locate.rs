@@ -50,7 +50,9 @@ impl Miss {
         let distance = length.from_metres(self.distance.abs());
         let [x, y, z] = self.point().map(|coordinate| length.from_metres(coordinate));
         let unit = length.name();
-        format!("it is {distance:.6} {unit} {side} the surface of \"{name}\"; the nearest point there is [{x}, {y}, {z}]")
+        format!(
+            "it is {distance:.6} {unit} {side} the surface of \"{name}\"; the nearest point there is [{x}, {y}, {z}]"
+        )
     }
 
     /// The nearest surface point, in metres.

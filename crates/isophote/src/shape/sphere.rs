@@ -39,11 +39,8 @@ impl Sphere {
             (offset, offset, along - half_chord)
         };
         // Seen from outside, a sphere behind the eye is a miss as clear as any.
-        let clearance = if from_inside {
-            clearance
-        } else {
-            T::select(T::zero().is_less(along), clearance, -T::from_f64(1.0))
-        };
+        let clearance =
+            if from_inside { clearance } else { T::select(T::zero().is_less(along), clearance, -T::from_f64(1.0)) };
         let normal = normal * (T::from_f64(1.0) / radius);
         Intersection {
             // A ray that touches at a single point sees no area: a miss.

@@ -1,0 +1,143 @@
+//! All channels as a table: for spreadsheets, pandas and eyes.
+
+use std::{
+    fmt::{self, Display, Formatter},
+    io::{BufRead, Read, Seek, Write},
+};
+
+use super::{ExportError, FileMetadata, names, one_line, read::LONGEST_JSON};
+use crate::{
+    map::{Channel, Map, Quantity, Values},
+    units::Choice,
+};
+
+/// Which pixels become rows of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rows {
+    /// Every pixel.
+    All,
+    /// Those where a surface is seen.
+    Visible,
+}
+
+/// Writes comment lines that begin with `#` (program, title, units, the metadata's JSON), a line of names
+/// (`column,row,x,y,shape,…`, vectors as `normal.x,normal.y,normal.z`) and a line per pixel, row by row from the top.
+/// Gives the number of pixels written.
+///
+/// `column` and `row` count in the full image; `x` and `y` are the pixel's centre on the screen. Every number reads
+/// back as exactly the same one. In a light's name commas, quotes, `#` and control characters become `_`.
+///
+/// # Errors
+/// An error of `out`.
+pub fn write(map: &Map, rows: Rows, out: &mut impl Write) -> Result<u64, ExportError> {
+    let columns = column_names(map);
+    write_comments(map, &columns, out)?;
+    let names: Vec<_> = columns.iter().flatten().map(String::as_str).collect();
+    writeln!(out, "column,row,x,y,shape{}{}", if names.is_empty() { "" } else { "," }, names.join(","))?;
+    let mut written = 0;
+    for index in 0..map.region.size.pixels() {
+        if rows == Rows::All || map.is_visible(index) {
+            write_row(map, index, out)?;
+            written += 1;
+        }
+    }
+    Ok(written)
+}
+
+/// The names of each channel's columns; none for the shape, which has its place in front.
+fn column_names(map: &Map) -> Vec<Vec<String>> {
+    let names = names::unique(map.channels(), |character| !character.is_control() && !",\"#".contains(character));
+    let columns = |(channel, name): (&Channel, String)| match (&channel.quantity, &channel.values) {
+        (Quantity::Shape, _) => vec![],
+        (_, Values::Vector(_)) => ["x", "y", "z"].map(|axis| format!("{name}.{axis}")).to_vec(),
+        (_, Values::Scalar(_) | Values::Index(_)) => vec![name],
+    };
+    map.channels().iter().zip(names).map(columns).collect()
+}
+
+fn write_comments(map: &Map, columns: &[Vec<String>], out: &mut impl Write) -> Result<(), ExportError> {
+    let provenance = &map.provenance;
+    let mut lines = vec![
+        format!("title: {}", one_line(&provenance.title)),
+        format!("convention: {}", one_line(&provenance.convention)),
+        format!(
+            "column, row: pixel of the full image, {} × {}, from 0 at the top left",
+            map.full.width, map.full.height
+        ),
+        format!("x, y: centre of the pixel on the screen, {}", map.window.length.name()),
+        "shape: index of the shape that is seen, -1 where none is".into(),
+    ];
+    for (channel, names) in map.channels().iter().zip(columns).filter(|(_, names)| !names.is_empty()) {
+        let unit = if channel.unit == "1" { "no unit" } else { &channel.unit };
+        lines.push(format!("{}: {unit}", names.join(", ")));
+    }
+    let stored_as = columns.iter().map(|names| if names.is_empty() { vec!["shape".into()] } else { names.clone() });
+    lines.push(format!("{KEY}{}", FileMetadata::of_stored(map, stored_as.collect()).to_json()));
+    // genfromtxt takes its names from the very first line, comment or not, unless told how many to skip.
+    let hint = format!("numpy.genfromtxt(…, delimiter=\",\", names=True, skip_header={})", lines.len() + 1);
+    writeln!(out, "# {}; pandas.read_csv(…, comment=\"#\") or {hint}", one_line(&provenance.program))?;
+    for line in lines {
+        writeln!(out, "# {line}")?;
+    }
+    Ok(())
+}
+
+const KEY: &str = "isophote: ";
+
+fn write_row(map: &Map, index: usize, out: &mut impl Write) -> Result<(), ExportError> {
+    let (region, window) = (map.region, map.window);
+    let width = region.size.width as usize;
+    let (column, row) = (index % width, index / width);
+    let x = centre(window.x, column, width);
+    let y = centre([window.y[1], window.y[0]], row, region.size.height as usize);
+    let (full_column, full_row) = (region.corner.column as usize + column, region.corner.row as usize + row);
+    write!(out, "{full_column},{full_row},{},{},{}", Number(x), Number(y), map.shapes()[index])?;
+    for channel in map.channels().iter().filter(|channel| channel.quantity != Quantity::Shape) {
+        match &channel.values {
+            Values::Scalar(values) => write!(out, ",{}", Number(values[index]))?,
+            Values::Vector(values) => {
+                let [x, y, z] = values[index].map(Number);
+                write!(out, ",{x},{y},{z}")?;
+            }
+            Values::Index(indices) => write!(out, ",{}", indices[index])?,
+        }
+    }
+    writeln!(out)?;
+    Ok(())
+}
+
+/// Centre of pixel `index` of `count` between two edges; weights from both ends, so that a window symmetric about 0
+/// gives coordinates that are symmetric to the last bit.
+#[expect(clippy::cast_precision_loss, reason = "counts of pixels are 32-bit")]
+fn centre(edges: [f64; 2], index: usize, count: usize) -> f64 {
+    let (before, after) = (index as f64 + 0.5, (count - index) as f64 - 0.5);
+    (edges[0] * after + edges[1] * before) / count as f64
+}
+
+/// A number in the shortest form that reads back as the same one; with an exponent outside [1e-4, 1e16), as in Python.
+pub(super) struct Number(pub f64);
+
+impl Display for Number {
+    fn fmt(&self, formatter: &mut Formatter) -> fmt::Result {
+        let Self(value) = self;
+        if *value == 0.0 || (1e-4..1e16).contains(&value.abs()) {
+            write!(formatter, "{value}")
+        } else {
+            write!(formatter, "{value:e}")
+        }
+    }
+}
+
+/// Looks through the comments at the beginning only.
+pub(super) fn read_json(file: &mut (impl BufRead + Seek)) -> Result<Option<Vec<u8>>, String> {
+    let mut comments = file.take(LONGEST_JSON);
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        comments.read_until(b'\n', &mut line).map_err(|error| error.to_string())?;
+        let Some(comment) = line.strip_prefix(b"# ") else { return Ok(None) };
+        if let Some(json) = comment.strip_prefix(KEY.as_bytes()) {
+            return Ok(Some(json.to_vec()));
+        }
+    }
+}
