@@ -62,6 +62,7 @@ pub struct SceneArgument {
 }
 
 #[derive(Args, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct RenderArguments {
     #[command(flatten)]
     pub scene: SceneArgument,
@@ -130,6 +131,7 @@ pub struct RenderArguments {
 }
 
 #[derive(Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct ProbeArguments {
     #[command(flatten)]
     pub scene: SceneArgument,

@@ -2,6 +2,7 @@
 
 pub mod analysis;
 pub mod camera;
+pub mod conformance;
 pub mod double_double;
 pub mod export;
 pub mod light;

@@ -223,4 +223,13 @@ impl Map {
     pub fn is_visible(&self, index: usize) -> bool {
         self.shapes()[index] >= 0
     }
+
+    /// The pixel of the full image with this index in the map's values.
+    #[must_use]
+    #[allow(clippy::cast_possible_truncation, reason = "an index of a map is below 2^27")]
+    pub fn pixel(&self, index: usize) -> Pixel {
+        let width = self.region.size.width as usize;
+        let corner = self.region.corner;
+        Pixel { column: corner.column + (index % width) as u32, row: corner.row + (index / width) as u32 }
+    }
 }

@@ -1,5 +1,7 @@
 //! A scene laid out for tracing and shading. It chooses no renderer.
 
+use std::ops::Range;
+
 use crate::camera::{CameraFrame, ScreenPosition};
 use crate::double_double::DoubleDouble;
 use crate::map::Pixel;
@@ -26,8 +28,8 @@ struct PreparedShape {
     eye_inside: bool,
     /// For each light, v_j of a point that is seen from inside; empty where the eye is outside.
     light_inside: Vec<bool>,
-    /// Rays that clear the silhouette by less are traced with 32 digits: see [`doubtful_clearance`].
-    doubtful_clearance: f64,
+    /// Rays whose clearance is between these are traced with 32 digits: see [`doubtful_clearance`].
+    doubtful_clearance: Range<f64>,
 }
 
 /// What a ray from the eye meets first.
@@ -53,12 +55,13 @@ impl PreparedScene {
             let inside = |light: &crate::light::Light| is_inside(light.position);
             let no_material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };
             let material = shape.material.map_or(no_material, |index| scene.materials[index].reflectance);
+            let formula = BrightnessFormula::new(scene.convention, &material);
             PreparedShape {
                 geometry,
-                formula: BrightnessFormula::new(scene.convention, &material),
+                formula,
                 eye_inside,
                 light_inside: if eye_inside { scene.lights.iter().map(inside).collect() } else { Vec::new() },
-                doubtful_clearance: doubtful_clearance(&geometry, frame.eye),
+                doubtful_clearance: doubtful_clearance(&geometry, &formula, frame.eye),
             }
         };
         let shapes = scene.shapes.iter().map(prepare).collect();
@@ -109,8 +112,9 @@ impl PreparedScene {
         let mut is_doubtful = false;
         for (index, shape) in self.shapes.iter().enumerate() {
             let found = shape.geometry.intersect(&ray, shape.eye_inside);
-            let doubtful = T::from_f64(shape.doubtful_clearance);
-            is_doubtful |= found.clearance.is_less(doubtful) && (-doubtful).is_less(found.clearance);
+            let doubtful = &shape.doubtful_clearance;
+            is_doubtful |= T::from_f64(doubtful.start).is_less(found.clearance)
+                && found.clearance.is_less(T::from_f64(doubtful.end));
             if found.is_hit && nearest.is_none_or(|nearest| found.distance.is_less(nearest.distance)) {
                 nearest = Some(Hit { shape: index, distance: found.distance, point: found.point });
             }
@@ -155,15 +159,22 @@ impl PreparedScene {
     }
 }
 
-/// Below which clearance cos²θ_o a ray is traced again with 32 digits.
+/// For which clearances cos²θ_o a ray is traced again with 32 digits: around zero, where hit and miss are told apart,
+/// and up to where a double is good enough.
 ///
-/// The clearance of a double is wrong by some 16 ε (1 + ‖C − O‖/R), and cosθ_o, its root, by that over 2 cosθ_o:
-/// to keep cosθ_o within 5e-13, cosθ_o itself must stay above 16 ε (1 + ‖C − O‖/R) / 1e-12.
-fn doubtful_clearance(geometry: &Geometry, eye: Vector) -> f64 {
+/// With ρ = ‖C − O‖/R, the clearance of a double is wrong by some 16 ε (1 + ρ), and cosθ_o, its root, by that over
+/// 2 cosθ_o: to keep cosθ_o within 5e-13, cosθ_o itself must stay above 16 ε (1 + ρ) / 1e-12. The normal is wrong by
+/// some 4 ε (1 + ρ) everywhere, and a highlight magnifies that: its relative error is n tanθ_h times as large, which is
+/// √(2 n ln 10⁶) = 5.3 √n where it has fallen to a millionth. Where that comes near the bound, every ray that hits is
+/// traced with 32 digits.
+fn doubtful_clearance(geometry: &Geometry, formula: &BrightnessFormula, eye: Vector) -> Range<f64> {
     let Geometry::Sphere(sphere) = geometry;
-    let distance = (sphere.center - eye).length() / sphere.radius;
-    let least_cosine = 16.0 * f64::EPSILON * (1.0 + distance) / 1e-12;
-    least_cosine * least_cosine
+    let magnified = f64::EPSILON * (1.0 + (sphere.center - eye).length() / sphere.radius);
+    let steepness = if formula.specular > 0.0 { (5.3 * formula.shininess.sqrt()).max(1.0) } else { 1.0 };
+    let least_cosine = 16.0 * magnified / 1e-12;
+    let is_too_steep = 4.0 * magnified * steepness > 2.5e-13;
+    let good_enough = if is_too_steep { f64::INFINITY } else { least_cosine * least_cosine };
+    -32.0 * magnified..good_enough
 }
 
 impl Hit<DoubleDouble> {

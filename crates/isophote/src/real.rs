@@ -17,6 +17,7 @@ pub trait Real:
     fn from_f64(value: f64) -> Self;
 
     /// The square root of a number that is not negative.
+    #[must_use]
     fn sqrt(self) -> Self;
 
     /// Whether `self < other`.
@@ -32,6 +33,7 @@ pub trait Real:
     fn cosine_power(cos_squared: Self, sin_squared: Self, exponent: f64) -> Self;
 
     /// The larger of two numbers.
+    #[must_use]
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self::select(self.is_less(other), other, self)
@@ -39,6 +41,7 @@ pub trait Real:
 
     /// Zero.
     #[inline(always)]
+    #[must_use]
     fn zero() -> Self {
         Self::from_f64(0.0)
     }

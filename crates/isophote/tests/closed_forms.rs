@@ -4,7 +4,7 @@ use isophote::analysis::probe::Place;
 use isophote::light::{Emission, Light};
 use isophote::prepare::PreparedScene;
 use isophote::reflectance::{BrightnessFormula, Convention, Reflectance};
-use isophote::scene::{Scene, Syntax};
+use isophote::scene::Scene;
 use isophote::shade::light_term;
 use isophote::shape::SurfacePoint;
 use isophote::vector::Vector;

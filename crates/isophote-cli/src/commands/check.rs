@@ -63,7 +63,7 @@ fn materials(scene: &Scene) -> Option<String> {
         let shininess = if specular == 0.0 { "–".into() } else { short(shininess) };
         vec![material.name.clone(), short(diffuse), short(specular), shininess]
     });
-    filled(&columns, rows.collect())
+    filled(&columns, &rows.collect::<Vec<_>>())
 }
 
 fn shapes(scene: &Scene) -> Option<String> {
@@ -79,7 +79,7 @@ fn shapes(scene: &Scene) -> Option<String> {
         let material = shape.material.map_or("–", |index| scene.materials()[index].name.as_str());
         vec![shape.name.clone(), "sphere".into(), vector(sphere.center), short(sphere.radius), material.to_owned()]
     });
-    filled(&columns, rows.collect())
+    filled(&columns, &rows.collect::<Vec<_>>())
 }
 
 fn lights(scene: &Scene) -> Option<String> {
@@ -100,7 +100,7 @@ fn lights(scene: &Scene) -> Option<String> {
         let position = vector(light.position);
         vec![light.name.clone(), position, short(light.intensity), short(light.power()), emission]
     });
-    filled(&columns, rows.collect())
+    filled(&columns, &rows.collect::<Vec<_>>())
 }
 
 fn probes(scene: &Scene) -> Option<String> {
@@ -109,11 +109,11 @@ fn probes(scene: &Scene) -> Option<String> {
         .probes()
         .iter()
         .map(|probe| vec![probe.name.clone(), vector(probe.at), probe.published.map_or("–".into(), short)]);
-    filled(&columns, rows.collect())
+    filled(&columns, &rows.collect::<Vec<_>>())
 }
 
-fn filled(columns: &[(&str, Align)], rows: Vec<Vec<String>>) -> Option<String> {
-    (!rows.is_empty()).then(|| table(columns, &rows))
+fn filled(columns: &[(&str, Align)], rows: &[Vec<String>]) -> Option<String> {
+    (!rows.is_empty()).then(|| table(columns, rows))
 }
 
 fn short(value: f64) -> String {

@@ -1,5 +1,6 @@
 //! Writing maps and figures to files.
 
+use std::fmt::Write as _;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -81,10 +82,11 @@ fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<S
     let report = export::png::write(map, &options, file)?;
     let unit = map.channel(&style.quantity).map_or("", |channel| &channel.unit);
     let [black, white] = report.range.map(|value| significant(value, 6));
-    let mut note = format!(": {} to {} {unit} from black to white", black, white);
+    let mut note = format!(": {black} to {white} {unit} from black to white");
     for (count, side) in [(report.clamped_below, "below"), (report.clamped_above, "above")] {
         if count > 0 {
-            note.push_str(&format!("; {count} pixels {side} are clipped"));
+            // Writing to a text cannot fail.
+            let _ = write!(note, "; {count} pixels {side} are clipped");
         }
     }
     Ok(note)

@@ -32,7 +32,9 @@ pub fn run(arguments: &RenderArguments) -> Result<String> {
     map.retain(|quantity| job.wanted.contains(quantity));
     let notes = job.write(&map, &scene)?;
     if !arguments.quiet {
-        notes.iter().for_each(|note| eprintln!("{note}"));
+        for note in &notes {
+            eprintln!("{note}");
+        }
     }
     if arguments.json { numbers::json(&summary.to_json(&scene, &job)) } else { Ok(summary.to_text(&scene, &job)) }
 }

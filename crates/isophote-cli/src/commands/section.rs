@@ -48,7 +48,9 @@ pub fn run(arguments: &SectionArguments) -> Result<String> {
         }
     }
     if !arguments.quiet {
-        notes.iter().for_each(|note| eprintln!("{note}"));
+        for note in &notes {
+            eprintln!("{note}");
+        }
     }
     if arguments.json { numbers::json(&section.to_json()) } else { Ok(String::new()) }
 }

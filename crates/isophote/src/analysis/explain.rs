@@ -78,7 +78,7 @@ impl ProbeReading {
         let intensity_unit = description.quantities().intensity_unit();
         match light.emission {
             Emission::Isotropic => {
-                line(text, format_args!("  I   = {} {intensity_unit}, isotropic", digits(term.intensity)))
+                line(text, format_args!("  I   = {} {intensity_unit}, isotropic", digits(term.intensity)));
             }
             Emission::Lambertian { axis } => {
                 line(text, format_args!("  axis = {}", vector(axis)));

@@ -53,7 +53,7 @@ pub fn statistics(map: &Map, quantity: &Quantity) -> Option<Statistics> {
         sum.add(value);
         count += 1.0;
     }
-    let extreme = |(index, value)| Extreme { value, pixel: pixel_at(map, index) };
+    let extreme = |(index, value)| Extreme { value, pixel: map.pixel(index) };
     Some(Statistics { max: extreme(max), min: extreme(min), mean: sum.value() / count })
 }
 
@@ -66,11 +66,4 @@ pub fn counts(map: &Map) -> Counts {
         visible: shapes.iter().filter(|&&shape| shape >= 0).count(),
         lit: map.scalar(&Quantity::Irradiance).map(|values| values.iter().filter(|&&value| value > 0.0).count()),
     }
-}
-
-#[allow(clippy::cast_possible_truncation, reason = "a map has at most 2^27 pixels")]
-fn pixel_at(map: &Map, index: usize) -> Pixel {
-    let width = map.region.size.width as usize;
-    let corner = map.region.corner;
-    Pixel { column: corner.column + (index % width) as u32, row: corner.row + (index / width) as u32 }
 }

@@ -146,7 +146,7 @@ impl Scene {
         }
         String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
-            let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
+            let line = String::from_utf8_lossy(&error.as_bytes()[..at]).matches('\n').count() + 1;
             let byte = error.as_bytes()[at];
             let message = format!("not a text in UTF-8: byte 0x{byte:02X} at offset {at}, line {line}");
             let help = "a scene is a TOML or JSON text; save it as UTF-8";

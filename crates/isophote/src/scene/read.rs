@@ -213,12 +213,11 @@ impl<'t> Table<'t> {
         let mut list = [T::default(); N];
         let mut complete = true;
         for (index, item) in items.iter().enumerate() {
-            match convert(&item.value) {
-                Some(value) => list[index] = value,
-                None => {
-                    self.wrong_type(&path.index(index), &item.value, &format!("`{key}` is {expected}"));
-                    complete = false;
-                }
+            if let Some(value) = convert(&item.value) {
+                list[index] = value;
+            } else {
+                self.wrong_type(&path.index(index), &item.value, &format!("`{key}` is {expected}"));
+                complete = false;
             }
         }
         // The whole key is then known to be wrong, and not to be missing.

@@ -121,7 +121,7 @@ pub struct MaterialSource {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub specular: Option<f64>,
     /// Shininess n, the exponent of the highlight. Must be given where `specular` is not 0.
-    #[schemars(extend("exclusiveMinimum" = 0), range(max = 100000.0))]
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 100_000.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shininess: Option<f64>,
 }

@@ -79,7 +79,7 @@ impl Geometry {
         }
     }
 
-    /// The surface point nearest to a point, as an offset from [`anchor`](Self::anchor), and the outward normal there.
+    /// The surface point nearest to a point.
     #[must_use]
     pub fn nearest(&self, point: Vector) -> NearestPoint {
         match self {

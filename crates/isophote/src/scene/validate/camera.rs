@@ -1,0 +1,99 @@
+//! The observer.
+
+use super::numbers::vector_text;
+use super::{Validator, limits};
+use crate::camera::{Camera, Handedness, Screen};
+use crate::map::Resolution;
+use crate::scene::document::Path;
+use crate::scene::source::{CameraSource, SceneSource, ScreenSource};
+use crate::vector::Vector;
+
+impl Validator {
+    pub(super) fn camera(&mut self, source: &SceneSource) -> Option<Camera> {
+        let path = Path::root().key("camera");
+        let Some(camera) = &source.camera else {
+            self.problems.missing(&Path::root(), "camera", "write a table [camera] with `eye`, `forward` and `screen`");
+            return None;
+        };
+        let eye = self.required_point(&path, "eye", camera.eye);
+        let forward = self.direction_or_target(&path, eye, ("forward", camera.forward), camera.target);
+        let up = self.direction(&path.key("up"), camera.up.unwrap_or([0.0, 1.0, 0.0]));
+        if let (Some(forward), Some(up)) = (forward, up) {
+            self.not_parallel(&path, camera, forward, up);
+        }
+        let screen = self.screen(&path, camera.screen.as_ref());
+        let resolution = self.resolution(&path.key("resolution"), camera.resolution.unwrap_or([800, 600]));
+        Some(Camera {
+            eye: eye?,
+            forward: forward?,
+            up: up?,
+            handedness: source.handedness.unwrap_or(Handedness::Right),
+            screen: screen?,
+            resolution: resolution?,
+        })
+    }
+
+    pub(super) fn not_parallel(&mut self, path: &Path, camera: &CameraSource, forward: Vector, up: Vector) {
+        if forward.normalized().cross(up.normalized()).length() < 1e-6 {
+            let key = ["up", "target", "forward"];
+            let written = [camera.up.is_some(), camera.target.is_some(), true];
+            let key = key.into_iter().zip(written).find_map(|(key, written)| written.then_some(key)).unwrap_or("up");
+            let message =
+                format!("`camera.up` is parallel to the direction of view {}", vector_text(forward.to_array()));
+            self.wrong(
+                &path.key(key),
+                message,
+                "allowed: any other direction; it shows where the top of the picture is",
+            );
+        }
+    }
+
+    pub(super) fn screen(&mut self, path: &Path, screen: Option<&ScreenSource>) -> Option<Screen> {
+        let Some(screen) = screen else {
+            let help = "write `screen = { distance = 5, x = [-4, 4], y = [-3, 3] }`";
+            self.problems.missing(path, "screen", help);
+            return None;
+        };
+        let path = path.key("screen");
+        let distance = self.required_size(&path, "distance", screen.distance);
+        let x = self.edges(&path, "x", screen.x, "left and right");
+        let y = self.edges(&path, "y", screen.y, "lower and upper");
+        Some(Screen { distance: distance?, x: x?, y: y? })
+    }
+
+    pub(super) fn edges(&mut self, path: &Path, key: &str, edges: Option<[f64; 2]>, which: &str) -> Option<[f64; 2]> {
+        let Some(edges) = edges else {
+            self.problems.missing(path, key, format!("write `{key} = [a, b]`: the {which} edge of the window"));
+            return None;
+        };
+        let path = path.key(key);
+        let metres = edges.map(|edge| self.length.to_metres(edge));
+        if metres.iter().any(|edge| edge.abs() > limits::COORDINATE) {
+            self.too_far(&path);
+            return None;
+        }
+        if metres[1] - metres[0] < limits::SMALLEST {
+            let [first, second] = edges;
+            let message = format!("`{path}` runs from {first} to {second}");
+            let help = format!("allowed: the {which} edge, the smaller one first; `handedness` mirrors the picture");
+            self.wrong(&path, message, &help);
+            return None;
+        }
+        Some(metres)
+    }
+
+    pub(super) fn resolution(&mut self, path: &Path, [width, height]: [u64; 2]) -> Option<Resolution> {
+        let allowed =
+            format!("allowed: width and height from 1 to {}, together at most {} pixels", limits::SIDE, limits::PIXELS);
+        let side = |side: u64| u32::try_from(side).ok().filter(|side| (1..=limits::SIDE).contains(side));
+        match (side(width), side(height)) {
+            (Some(width), Some(height)) if u64::from(width) * u64::from(height) <= limits::PIXELS => {
+                Some(Resolution { width, height })
+            }
+            _ => {
+                self.wrong(path, format!("the resolution is {width} × {height} pixels"), &allowed);
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! From what is written to what is valid: every check of a scene, once.
+
+mod camera;
+mod numbers;
+mod places;
+mod things;
+
+use std::collections::HashSet;
+
+use super::Scene;
+use super::document::Path;
+use super::error::{Problem, ProblemKind};
+use super::read::{Problems, short};
+use super::source::SceneSource;
+use crate::camera::Camera;
+use crate::reflectance::Convention;
+use crate::units::{LengthUnit, Quantities};
+
+/// What a scene may hold. The bounds on numbers keep every formula far from overflow.
+pub mod limits {
+    /// Size of a scene file in bytes.
+    pub const FILE_BYTES: u64 = 64 << 20;
+    /// Pixels in a row, and rows.
+    pub const SIDE: u32 = 65_536;
+    /// Pixels of an image: a channel of this many doubles takes 1 GiB.
+    pub const PIXELS: u64 = 1 << 27;
+    /// Lights in a scene.
+    pub const LIGHTS: usize = 100_000;
+    /// Shapes in a scene.
+    pub const SHAPES: usize = 100_000;
+    /// Probes in a scene.
+    pub const PROBES: usize = 100_000;
+    /// The largest coordinate, in metres: a tenth of a light year.
+    pub const COORDINATE: f64 = 1e15;
+    /// The smallest radius and screen, in metres.
+    pub const SMALLEST: f64 = 1e-12;
+    /// The largest intensity and power.
+    pub const INTENSITY: f64 = 1e30;
+    /// The largest shininess.
+    pub const SHININESS: f64 = 1e5;
+}
+
+/// Checks a scene, given what is already known to be wrong with it.
+pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene, Vec<Problem>> {
+    let mut validator = Validator {
+        length: source.length.unwrap_or(LengthUnit::Metre),
+        convention: source.convention.unwrap_or(Convention::Radiance),
+        problems,
+        warnings: Problems::default(),
+    };
+    validator.head(&source);
+    let camera = validator.camera(&source);
+    let materials = validator.materials(&source);
+    let shapes = validator.shapes(&source);
+    let lights = validator.lights(&source);
+    let probes = validator.probes(&source);
+    validator.eye_against_shapes(camera.as_ref(), &shapes);
+    validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
+    validator.probes_against_shapes(&probes, &shapes);
+    validator.words_of_advice(&source, camera.as_ref());
+    let Validator { length, convention, problems, warnings } = validator;
+    match camera {
+        Some(camera) if problems.is_empty() => Ok(Scene {
+            title: source.title.clone().unwrap_or_default(),
+            length,
+            convention,
+            quantities: source.quantities.unwrap_or(Quantities::Radiometric),
+            camera,
+            materials: materials.into_iter().flatten().collect(),
+            shapes: shapes.into_iter().flatten().collect(),
+            lights: lights.into_iter().flatten().collect(),
+            probes: probes.into_iter().flatten().collect(),
+            warnings: warnings.into_list(),
+            source,
+        }),
+        _ => Err(problems.into_list()),
+    }
+}
+
+/// Lists keep the places of items that are wrong, as `None`, so that indices stay those of the file.
+type Checked<T> = Vec<Option<T>>;
+
+struct Validator {
+    length: LengthUnit,
+    convention: Convention,
+    problems: Problems,
+    warnings: Problems,
+}
+
+impl Validator {
+    fn head(&mut self, source: &SceneSource) {
+        let root = Path::root();
+        match source.version {
+            None => self.problems.missing(&root, "version", "write `version = 1` on top"),
+            Some(1) => {}
+            Some(version) => self.wrong(&root.key("version"), format!("`version` is {version}"), "allowed: 1"),
+        }
+        if source.length.is_none() {
+            let help = "write `length = \"m\"`, \"cm\" or \"mm\": the unit of every length in the scene";
+            self.problems.missing(&root, "length", help);
+        }
+    }
+
+    fn words_of_advice(&mut self, source: &SceneSource, camera: Option<&Camera>) {
+        let root = Path::root();
+        if source.sphere.is_empty() {
+            self.warn(&root.key("sphere"), "the scene has no shapes".into(), "write a table [[sphere]]");
+        }
+        if source.light.is_empty() {
+            self.warn(&root.key("light"), "the scene has no lights: all is black".into(), "write a table [[light]]");
+        }
+        let used: HashSet<&String> = source.sphere.iter().filter_map(|sphere| sphere.material.as_ref()).collect();
+        for name in source.material.keys() {
+            if !used.contains(name) {
+                let message = format!("no shape is made of the material \"{}\"", short(name));
+                self.warn(&root.key("material").key(name), message, "leave it out, or use it");
+            }
+        }
+        if let Some(Camera { screen, resolution, .. }) = camera {
+            let width = (screen.x[1] - screen.x[0]) / f64::from(resolution.width);
+            let height = (screen.y[1] - screen.y[0]) / f64::from(resolution.height);
+            if (width / height - 1.0).abs() > 1e-9 {
+                let (width, height) = (self.length_text(width), self.length_text(height));
+                let message = format!("pixels are not square: {width} wide, {height} high");
+                let help = "pictures look stretched; give `resolution` the proportions of `screen`";
+                self.warn(&root.key("camera").key("resolution"), message, help);
+            }
+        }
+    }
+
+    fn few_enough(&mut self, key: &str, count: usize, limit: usize) -> bool {
+        if count > limit {
+            let path = Path::root().key(key).index(limit);
+            self.wrong(&path, format!("the scene has {count} tables [[{key}]]"), &format!("allowed: at most {limit}"));
+        }
+        count <= limit
+    }
+
+    fn wrong(&mut self, path: &Path, message: String, help: &str) {
+        self.problems.push(ProblemKind::Value, path, message, help);
+    }
+
+    fn warn(&mut self, path: &Path, message: String, help: &str) {
+        self.warnings.push(ProblemKind::Warning, path, message, help);
+    }
+
+    fn unit(&self) -> &'static str {
+        crate::units::Choice::name(self.length)
+    }
+
+    fn length_text(&self, metres: f64) -> String {
+        format!("{} {}", rounded(self.length.from_metres(metres)), self.unit())
+    }
+}
+
+/// A few digits, for messages.
+fn rounded(value: f64) -> String {
+    let text = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
+    format!("{text}")
+}

@@ -1,0 +1,73 @@
+//! Where things stand to each other.
+
+use super::{Checked, Validator};
+use crate::camera::Camera;
+use crate::light::Light;
+use crate::scene::document::Path;
+use crate::scene::{Probe, Shape};
+use crate::shape::surface_at;
+
+impl Validator {
+    pub(super) fn eye_against_shapes(&mut self, camera: Option<&Camera>, shapes: &Checked<Shape>) {
+        let Some(camera) = camera else { return };
+        for shape in shapes.iter().flatten() {
+            let distance = shape.geometry.signed_distance(camera.eye);
+            if distance.abs() <= shape.geometry.surface_tolerance() {
+                let message = format!("the eye is on the surface of \"{}\"", shape.name);
+                let path = Path::root().key("camera").key("eye");
+                self.wrong(&path, message, "allowed: outside or inside a shape, not on its surface");
+            }
+        }
+    }
+
+    pub(super) fn lights_against_shapes(
+        &mut self,
+        camera: Option<&Camera>,
+        lights: &Checked<Light>,
+        shapes: &Checked<Shape>,
+    ) {
+        for shape in shapes.iter().flatten() {
+            let eye_inside = camera.is_some_and(|camera| shape.geometry.signed_distance(camera.eye) < 0.0);
+            for (index, light) in lights.iter().enumerate() {
+                let Some(light) = light else { continue };
+                let distance = shape.geometry.signed_distance(light.position);
+                let path = Path::root().key("light").index(index).key("position");
+                if distance.abs() <= shape.geometry.surface_tolerance() {
+                    let message = format!("the light \"{}\" is on the surface of \"{}\"", light.name, shape.name);
+                    self.wrong(&path, message, "move it away: the irradiance next to a point light has no bound");
+                } else if distance < 0.0 && !eye_inside && camera.is_some() {
+                    let message = format!("the light \"{}\" is inside \"{}\"", light.name, shape.name);
+                    let depth = self.length_text(-distance);
+                    let help =
+                        format!("its surface is {depth} away and lets no light out; move the light out, or the eye in");
+                    self.wrong(&path, message, &help);
+                } else if distance > 0.0 && eye_inside {
+                    let message = format!(
+                        "the eye is inside \"{}\" and the light \"{}\" outside: it lights nothing there",
+                        shape.name, light.name
+                    );
+                    self.warn(&path, message, "move the light in, or the eye out");
+                }
+            }
+        }
+    }
+
+    pub(super) fn probes_against_shapes(&mut self, probes: &Checked<Probe>, shapes: &Checked<Shape>) {
+        // With a shape missing, its probes would be called wrong for nothing.
+        if shapes.iter().any(Option::is_none) || self.problems.has(&Path::root().key("sphere")) {
+            return;
+        }
+        for (index, probe) in probes.iter().enumerate() {
+            let Some(probe) = probe else { continue };
+            let path = Path::root().key("probe").index(index).key("at");
+            if let Err(miss) = surface_at(shapes.iter().flatten().map(|shape| &shape.geometry), probe.at) {
+                let message = format!("the probe \"{}\" is on no surface", probe.name);
+                let help = miss.map_or("the scene has no shapes".into(), |miss| {
+                    let name = shapes.iter().flatten().nth(miss.shape).map_or("", |shape| &shape.name);
+                    miss.describe(name, self.length)
+                });
+                self.wrong(&path, message, &help);
+            }
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Every renderer within its tolerance of exact arithmetic, on the scenes of the repository and on random ones.
+
+mod random;
+
+use isophote::analysis::probe::Place;
+use isophote::conformance::{DOUBLE, conforms};
+use isophote::map::{Pixel, Quantity, Region, Resolution};
+use isophote::prepare::PreparedScene;
+use isophote::render::{Reference, RenderSettings, Renderer, Threaded};
+use isophote::scene::{Scene, SceneSource, Syntax};
+use proptest::prelude::*;
+
+fn prepared(source: SceneSource) -> PreparedScene {
+    PreparedScene::new(&Scene::try_from(source).unwrap_or_else(|error| panic!("{error}")))
+}
+
+fn scene_file(name: &str) -> SceneSource {
+    let path = format!("{}/../../scenes/{name}", env!("CARGO_MANIFEST_DIR"));
+    Scene::from_file(path.as_ref()).unwrap_or_else(|error| panic!("{error}")).source().clone()
+}
+
+fn renderers() -> Vec<Box<dyn Renderer>> {
+    vec![Box::new(Reference), Box::new(Threaded::default())]
+}
+
+#[test]
+fn the_scenes_of_the_repository_are_rendered_within_tolerance() {
+    let names = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes")).expect("it is there");
+    let names: Vec<_> = names.map(|entry| entry.expect("it is readable").file_name()).collect();
+    assert!(names.len() >= 8);
+    for name in names {
+        let name = name.to_string_lossy();
+        let mut source = scene_file(&name);
+        // An odd size: no pixel centre on an axis, some rays close to the limb.
+        source.camera.get_or_insert_default().resolution = Some([163, 121]);
+        let scene = prepared(source);
+        for renderer in renderers() {
+            let deviation = conforms(renderer.as_ref(), &scene, &DOUBLE)
+                .unwrap_or_else(|error| panic!("{name}, {}: {error}", renderer.name()));
+            assert!(deviation.visible > 100, "{name}: {deviation:?}");
+        }
+    }
+}
+
+/// A window so narrow that every one of its pixels is within 1e-9 radii of the silhouette (5.6), where a plain double
+/// would be wrong in the fourth digit of cosθ_o.
+#[test]
+fn grazing_rays_keep_their_digits() {
+    let mut source = scene_file("closed-form-5.6.toml");
+    source.convention = Some(isophote::reflectance::Convention::Lab);
+    source.material = scene_file("lab.toml").material;
+    source.sphere[0].material = Some("clay".into());
+    source.light[0].position = Some([0.3, 0.0, 0.0]);
+    let limb = 0.289_804_351_502_968_3;
+    let camera = source.camera.get_or_insert_default();
+    camera.screen.get_or_insert_default().x = Some([limb - 2e-10, limb + 1e-10]);
+    camera.screen.get_or_insert_default().y = Some([-1e-10, 1e-10]);
+    camera.resolution = Some([90, 60]);
+    let scene = prepared(source);
+    for renderer in renderers() {
+        let deviation = conforms(renderer.as_ref(), &scene, &DOUBLE).unwrap_or_else(|error| panic!("{error}"));
+        assert!((3000..5400).contains(&deviation.visible), "the limb runs through the window: {deviation:?}");
+    }
+}
+
+/// The same picture from a hundred, ten thousand and a million radii away, through a screen that far away.
+#[test]
+fn distant_spheres_keep_their_digits() {
+    for distance in [1e2, 1e4, 1e6] {
+        let mut source = scene_file("closed-form-5.5.toml");
+        source.light[0].position = Some([3.0, 4.0, 5.0]);
+        source.light[0].intensity = Some(100.0);
+        let camera = source.camera.get_or_insert_default();
+        camera.eye = Some([0.3 * distance, 0.2 * distance, distance]);
+        camera.screen.get_or_insert_default().distance = Some(distance);
+        camera.resolution = Some([60, 60]);
+        let scene = prepared(source);
+        let deviation = conforms(&Reference, &scene, &DOUBLE).unwrap_or_else(|error| panic!("{distance}: {error}"));
+        assert!(deviation.visible > 1000);
+    }
+}
+
+/// From inside, the far wall is seen, with N towards the eye; a light inside lights it, one outside does not.
+#[test]
+fn the_inside_of_a_sphere_is_seen_and_lit_from_inside() {
+    let text = r#"
+        version = 1
+        length = "m"
+        convention = "lab"
+        camera = { eye = [0.2, 0.1, 0], forward = [0, 0, 1], screen = { distance = 1, x = [-3, 3], y = [-3, 3] }, resolution = [40, 40] }
+        material.wall = { diffuse = 0.5, specular = 0.3, shininess = 10 }
+        sphere = [{ name = "room", center = [0, 0, 0], radius = 2, material = "wall" }]
+        light = [
+            { name = "inside", position = [0, 1, 0.5], intensity = 10 },
+            { name = "outside", position = [0, 0, -9], intensity = 10 },
+        ]
+    "#;
+    let scene = Scene::from_text("room", text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(scene.warnings().len(), 1, "the light outside deserves a word");
+    let scene = PreparedScene::new(&scene);
+    let deviation = conforms(&Reference, &scene, &DOUBLE).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(deviation.visible, 1600, "the wall is everywhere");
+    let reading = scene.probe(&Place::Pixel(Pixel { column: 3, row: 30 })).expect("the wall is there");
+    assert!(reading.point.offset.dot(reading.point.normal) < 0.0, "N points inwards");
+    assert!((reading.point.offset.length() - 2.0).abs() < 1e-15);
+    assert!(reading.terms[0].irradiance > 0.0);
+    assert_eq!(reading.terms[1].irradiance, 0.0);
+    assert_eq!(reading.shading.irradiance, reading.terms[0].irradiance);
+}
+
+#[test]
+fn the_nearest_sphere_hides_the_others_and_spheres_behind_the_eye_are_not_seen() {
+    let mut source = scene_file("lab.toml");
+    source.probe.clear();
+    let ball = source.sphere[0].clone();
+    let mut at = |name: &str, z: f64| {
+        let mut sphere = ball.clone();
+        sphere.name = Some(name.into());
+        sphere.center = Some([0.0, 0.0, z]);
+        source.sphere.push(sphere);
+    };
+    at("behind", 9.0);
+    at("before", 3.0);
+    at("at the back", -5.0);
+    let scene = prepared(source);
+    let hit = scene.trace_pixel(Pixel { column: 400, row: 300 }).expect("a sphere is there");
+    assert_eq!(scene.scene().shapes()[hit.shape].name, "before");
+    assert!((hit.distance - 2.0).abs() < 1e-4);
+    let map = Reference.render(&scene, &RenderSettings::default()).expect("it renders");
+    let seen: std::collections::BTreeSet<i32> = map.shapes().iter().copied().collect();
+    assert_eq!(seen, [-1, 2].into(), "the one before covers those of the same size behind it");
+}
+
+proptest! {
+    #![proptest_config(random::config(128))]
+
+    #[test]
+    fn random_scenes_are_rendered_within_tolerance(source in random::scenes()) {
+        let scene = prepared(source);
+        for renderer in renderers() {
+            let result = conforms(renderer.as_ref(), &scene, &DOUBLE);
+            prop_assert!(result.is_ok(), "{}: {}", renderer.name(), result.unwrap_err());
+        }
+    }
+
+    /// Bytes do not depend on the number of threads, and a region is a part of the whole.
+    #[test]
+    fn threads_and_regions_change_nothing(
+        source in random::scenes(),
+        threads in 1_usize..5,
+        corner in (0_u32..32, 0_u32..24),
+        size in (1_u32..32, 1_u32..24),
+    ) {
+        let scene = prepared(source);
+        let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
+        let whole = Reference.render(&scene, &settings).expect("it renders");
+        let region = Region {
+            corner: Pixel { column: corner.0, row: corner.1 },
+            size: Resolution { width: size.0.min(32 - corner.0), height: size.1.min(24 - corner.1) },
+        };
+        let settings = RenderSettings { region: Some(region), ..settings };
+        let part = Threaded { threads: threads.try_into().ok() }.render(&scene, &settings).expect("it renders");
+        for quantity in [Quantity::Brightness, Quantity::Depth, Quantity::Specular] {
+            let (whole, part_values) = (whole.scalar(&quantity).expect("asked for"), part.scalar(&quantity).expect("asked for"));
+            for (index, value) in part_values.iter().enumerate() {
+                let Pixel { column, row } = part.pixel(index);
+                prop_assert_eq!(value.to_bits(), whole[row as usize * 32 + column as usize].to_bits());
+            }
+        }
+    }
+}

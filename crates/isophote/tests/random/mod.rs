@@ -1,0 +1,96 @@
+//! Random scenes for property tests.
+
+use isophote::camera::Handedness;
+use isophote::reflectance::Convention;
+use isophote::scene::source::{
+    CameraSource, EmissionName, LightSource, MaterialSource, SceneSource, ScreenSource, SphereSource,
+};
+use isophote::units::{Choice, LengthUnit};
+use proptest::prelude::*;
+
+/// So many cases, or as many as `PROPTEST_CASES` says. Failures print their scene; no file keeps them.
+pub fn config(cases: u32) -> ProptestConfig {
+    let default = ProptestConfig::default();
+    let cases = if std::env::var_os("PROPTEST_CASES").is_some() { default.cases } else { cases };
+    ProptestConfig { cases, failure_persistence: None, ..default }
+}
+
+/// Scenes of one to four spheres around the origin, seen from outside all of them, lit by one to five lights that stand
+/// outside too; in every convention, unit and handedness.
+pub fn scenes() -> impl Strategy<Value = SceneSource> {
+    let look = (
+        direction(),
+        5.0..40.0_f64,
+        direction(),
+        prop::sample::select(Convention::ALL),
+        prop::sample::select(LengthUnit::ALL),
+        prop::sample::select(Handedness::ALL),
+    );
+    let spheres = prop::collection::vec((point(1.0), 0.1..1.2_f64, 0_usize..2), 1..=4);
+    let lights = prop::collection::vec((direction(), 3.0..12.0_f64, 0.0..100.0_f64, any::<bool>(), point(2.0)), 1..=5);
+    let materials = [material(), material()];
+    (look, spheres, lights, materials)
+        .prop_map(|((from, distance, up, convention, length, handedness), spheres, lights, materials)| SceneSource {
+            version: Some(1),
+            length: Some(length),
+            convention: Some(convention),
+            handedness: Some(handedness),
+            camera: Some(CameraSource {
+                eye: Some(from.map(|component| component * distance)),
+                target: Some([0.1, -0.2, 0.05]),
+                up: Some(up),
+                screen: Some(ScreenSource { distance: Some(distance), x: Some([-2.0, 2.0]), y: Some([-1.5, 1.5]) }),
+                resolution: Some([32, 24]),
+                ..CameraSource::default()
+            }),
+            material: materials
+                .into_iter()
+                .enumerate()
+                .map(|(index, material)| (format!("m{index}"), material))
+                .collect(),
+            sphere: spheres
+                .into_iter()
+                .map(|(center, radius, material)| SphereSource {
+                    center: Some(center),
+                    radius: Some(radius),
+                    material: Some(format!("m{material}")),
+                    ..SphereSource::default()
+                })
+                .collect(),
+            light: lights.into_iter().map(light).collect(),
+            ..SceneSource::default()
+        })
+        .prop_filter("up is not along the view", |source| isophote::scene::Scene::try_from(source.clone()).is_ok())
+}
+
+fn light((from, distance, intensity, is_lambertian, target): ([f64; 3], f64, f64, bool, [f64; 3])) -> LightSource {
+    LightSource {
+        position: Some(from.map(|component| component * distance)),
+        intensity: Some(intensity),
+        emission: Some(if is_lambertian { EmissionName::Lambertian } else { EmissionName::Isotropic }),
+        target: is_lambertian.then_some(target),
+        ..LightSource::default()
+    }
+}
+
+fn material() -> impl Strategy<Value = MaterialSource> {
+    (0.0..=1.0_f64, 0.0..=1.0_f64, prop_oneof![(1_u8..100).prop_map(f64::from), 0.1..300.0_f64]).prop_map(
+        |(diffuse, specular, shininess)| MaterialSource {
+            diffuse: Some(diffuse),
+            specular: Some(specular),
+            shininess: Some(shininess),
+        },
+    )
+}
+
+fn point(size: f64) -> impl Strategy<Value = [f64; 3]> {
+    [-size..size, -size..size, -size..size]
+}
+
+/// Unit vectors.
+fn direction() -> impl Strategy<Value = [f64; 3]> {
+    point(1.0).prop_filter_map("not too short", |vector| {
+        let length = vector.iter().map(|component| component * component).sum::<f64>().sqrt();
+        (length > 0.1).then(|| vector.map(|component| component / length))
+    })
+}
