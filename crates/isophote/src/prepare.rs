@@ -111,11 +111,15 @@ impl PreparedScene {
         let mut nearest: Option<Hit<T>> = None;
         let mut is_doubtful = false;
         for (index, shape) in self.shapes.iter().enumerate() {
-            let found = shape.geometry.intersect(&ray, shape.eye_inside);
+            let approach = shape.geometry.approach(&ray, shape.eye_inside);
             let doubtful = &shape.doubtful_clearance;
-            is_doubtful |= T::from_f64(doubtful.start).is_less(found.clearance)
-                && found.clearance.is_less(T::from_f64(doubtful.end));
-            if found.is_hit && nearest.is_none_or(|nearest| found.distance.is_less(nearest.distance)) {
+            is_doubtful |= T::from_f64(doubtful.start).is_less(approach.clearance)
+                && approach.clearance.is_less(T::from_f64(doubtful.end));
+            if !T::zero().is_less(approach.clearance) {
+                continue;
+            }
+            let found = shape.geometry.intersection(&ray, shape.eye_inside, &approach);
+            if nearest.is_none_or(|nearest| found.distance.is_less(nearest.distance)) {
                 nearest = Some(Hit { shape: index, distance: found.distance, point: found.point });
             }
         }
@@ -163,18 +167,20 @@ impl PreparedScene {
 /// and up to where a double is good enough.
 ///
 /// With ρ = ‖C − O‖/R, the clearance of a double is wrong by some 16 ε (1 + ρ), and cosθ_o, its root, by that over
-/// 2 cosθ_o: to keep cosθ_o within 5e-13, cosθ_o itself must stay above 16 ε (1 + ρ) / 1e-12. The normal is wrong by
-/// some 4 ε (1 + ρ) everywhere, and a highlight magnifies that: its relative error is n tanθ_h times as large, which is
-/// √(2 n ln 10⁶) = 5.3 √n where it has fallen to a millionth. Where that comes near the bound, every ray that hits is
-/// traced with 32 digits.
+/// 2 cosθ_o: to keep cosθ_o within 5e-13, cosθ_o itself must stay above 16 ε (1 + ρ) / 1e-12.
+///
+/// The normal is wrong by some ε (1 + ρ) everywhere. A terminator magnifies that by 1/cosθ_i, 100 where the promise of
+/// [`conformance`](crate::conformance::DOUBLE) begins; a highlight by n tanθ_h, which is √(2 n ln 10⁶) = 5.3 √n where it
+/// has fallen to a millionth, and some four roundings go into it. Where that comes near the bound, every ray that hits
+/// is traced with 32 digits.
 fn doubtful_clearance(geometry: &Geometry, formula: &BrightnessFormula, eye: Vector) -> Range<f64> {
     let Geometry::Sphere(sphere) = geometry;
-    let magnified = f64::EPSILON * (1.0 + (sphere.center - eye).length() / sphere.radius);
-    let steepness = if formula.specular > 0.0 { (5.3 * formula.shininess.sqrt()).max(1.0) } else { 1.0 };
-    let least_cosine = 16.0 * magnified / 1e-12;
-    let is_too_steep = 4.0 * magnified * steepness > 2.5e-13;
-    let good_enough = if is_too_steep { f64::INFINITY } else { least_cosine * least_cosine };
-    -32.0 * magnified..good_enough
+    let error = f64::EPSILON * (1.0 + (sphere.center - eye).length() / sphere.radius);
+    let highlight = if formula.specular > 0.0 { 4.0 * 5.3 * formula.shininess.sqrt() } else { 0.0 };
+    let magnification = highlight.max(1.0 / crate::conformance::DOUBLE.peak_cosine);
+    let least_cosine = 16.0 * error / 1e-12;
+    let good_enough = if magnification * error > 2.5e-13 { f64::INFINITY } else { least_cosine * least_cosine };
+    -32.0 * error..good_enough
 }
 
 impl Hit<DoubleDouble> {

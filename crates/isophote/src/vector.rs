@@ -58,8 +58,7 @@ impl<T: Real> Vector<T> {
     #[must_use]
     #[inline(always)]
     pub fn normalized(self) -> Self {
-        let length = self.length();
-        Self::new(self.x / length, self.y / length, self.z / length)
+        self * (T::from_f64(1.0) / self.length())
     }
 }
 

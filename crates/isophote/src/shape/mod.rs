@@ -25,17 +25,23 @@ pub struct Ray<T = f64> {
     pub direction: Vector<T>,
 }
 
+/// How a ray passes a shape.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach<T = f64> {
+    /// How far the ray is from grazing the shape: cos²θ_o of a hit, which is positive; negative for a miss. A ray that
+    /// touches at a single point sees no area: a miss.
+    pub clearance: T,
+    pub(crate) along: T,
+    pub(crate) perpendicular: Vector<T>,
+}
+
 /// Where a ray meets a shape.
 #[derive(Clone, Copy, Debug)]
-pub struct Intersection<T: Real = f64> {
-    /// Whether it does; the other members mean nothing where it does not.
-    pub is_hit: T::Mask,
+pub struct Intersection<T = f64> {
     /// t, the distance from the eye in metres.
     pub distance: T,
     /// The point that was hit.
     pub point: SurfacePoint<T>,
-    /// How far the ray is from grazing the shape: cos²θ_o at the hit, negative for a miss.
-    pub clearance: T,
 }
 
 /// A point on a surface, as its shading needs it.
@@ -63,11 +69,19 @@ impl<T: Real> SurfacePoint<T> {
 }
 
 impl Geometry {
-    /// The nearest intersection with a ray (2.2). `from_inside` says that the ray starts inside the shape.
+    /// How a ray passes. `from_inside` says that it starts inside the shape.
     #[inline(always)]
-    pub fn intersect<T: Real>(&self, ray: &Ray<T>, from_inside: bool) -> Intersection<T> {
+    pub fn approach<T: Real>(&self, ray: &Ray<T>, from_inside: bool) -> Approach<T> {
         match self {
-            Self::Sphere(sphere) => sphere.intersect(ray, from_inside),
+            Self::Sphere(sphere) => sphere.approach(ray, from_inside),
+        }
+    }
+
+    /// The nearest intersection with a ray (2.2), of which the approach says that there is one.
+    #[inline(always)]
+    pub fn intersection<T: Real>(&self, ray: &Ray<T>, from_inside: bool, approach: &Approach<T>) -> Intersection<T> {
+        match self {
+            Self::Sphere(sphere) => sphere.intersection(ray, from_inside, approach),
         }
     }
 

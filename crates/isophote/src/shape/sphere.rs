@@ -1,6 +1,6 @@
 //! The sphere (2.2).
 
-use super::{Intersection, NearestPoint, Ray, SurfacePoint};
+use super::{Approach, Intersection, NearestPoint, Ray, SurfacePoint};
 use crate::real::Real;
 use crate::vector::Vector;
 
@@ -14,41 +14,39 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// The nearest root of ‖O + tD − C‖² = R² with t > 0: the near one from outside, the far one from inside, with N
-    /// turned to the viewer (2.2).
+    /// How a ray passes the sphere: all that tells a hit from a miss.
     ///
     /// Everything is built from the perpendicular from the centre to the ray, `l`, and the half chord
     /// h = √(R² − l²): P − C = l ∓ hD, and cosθ_o = h/R exactly. The textbook form b² − 4ac subtracts the squares of
     /// large distances and loses the limb; this one loses only what the ray itself has lost. (Haines, Günther and
     /// Akenine-Möller, "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019.)
     #[inline(always)]
-    pub fn intersect<T: Real>(&self, ray: &Ray<T>, from_inside: bool) -> Intersection<T> {
-        let center = Vector::from_f64(self.center);
+    pub fn approach<T: Real>(&self, ray: &Ray<T>, from_inside: bool) -> Approach<T> {
         let radius = T::from_f64(self.radius);
-        let to_center = center - ray.origin;
+        let to_center = Vector::from_f64(self.center) - ray.origin;
         let along = to_center.dot(ray.direction);
         let perpendicular = ray.direction * along - to_center;
         let clearance = (radius * radius - perpendicular.dot(perpendicular)) / (radius * radius);
-        let cos_theta_o = clearance.max(T::zero()).sqrt();
-        let half_chord = cos_theta_o * radius;
-        let (offset, normal, distance) = if from_inside {
-            let offset = perpendicular + ray.direction * half_chord;
-            (offset, -offset, along + half_chord)
-        } else {
-            let offset = perpendicular - ray.direction * half_chord;
-            (offset, offset, along - half_chord)
-        };
         // Seen from outside, a sphere behind the eye is a miss as clear as any.
-        let clearance =
-            if from_inside { clearance } else { T::select(T::zero().is_less(along), clearance, -T::from_f64(1.0)) };
-        let normal = normal * (T::from_f64(1.0) / radius);
-        Intersection {
-            // A ray that touches at a single point sees no area: a miss.
-            is_hit: T::zero().is_less(clearance),
-            distance,
-            point: SurfacePoint { anchor: center, offset, normal, view: -ray.direction, cos_theta_o },
-            clearance,
-        }
+        let is_ahead = if from_inside { T::zero().is_less(radius) } else { T::zero().is_less(along) };
+        Approach { clearance: T::select(is_ahead, clearance, -T::from_f64(1.0)), along, perpendicular }
+    }
+
+    /// The nearest root of ‖O + tD − C‖² = R² with t > 0: the near one from outside, the far one from inside, with N
+    /// turned to the viewer (2.2). Means something only where the approach is a hit.
+    #[inline(always)]
+    pub fn intersection<T: Real>(&self, ray: &Ray<T>, from_inside: bool, approach: &Approach<T>) -> Intersection<T> {
+        let Approach { clearance, along, perpendicular } = *approach;
+        let cos_theta_o = clearance.max(T::zero()).sqrt();
+        let half_chord = cos_theta_o * T::from_f64(self.radius);
+        let (offset, outwards, distance) = if from_inside {
+            (perpendicular + ray.direction * half_chord, -T::from_f64(1.0), along + half_chord)
+        } else {
+            (perpendicular - ray.direction * half_chord, T::from_f64(1.0), along - half_chord)
+        };
+        let normal = offset * (outwards / T::from_f64(self.radius));
+        let anchor = Vector::from_f64(self.center);
+        Intersection { distance, point: SurfacePoint { anchor, offset, normal, view: -ray.direction, cos_theta_o } }
     }
 
     /// ‖P − C‖ − R.

@@ -1,0 +1,89 @@
+//! One bench per stage of the way from a scene file to files.
+
+use std::hint::black_box;
+use std::io::Cursor;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use isophote::export::png::PictureOptions;
+use isophote::export::{exr, figure, npz, png};
+use isophote::map::{Map, Quantity};
+use isophote::prepare::PreparedScene;
+use isophote::render::{Reference, RenderSettings, Renderer, Threaded};
+use isophote::scene::library::Starter;
+use isophote::scene::{Scene, Syntax};
+
+fn lab() -> Scene {
+    Scene::from_text("lab", Starter::Lab.text(), Syntax::Toml).expect("the lab's scene is valid")
+}
+
+fn render(renderer: &dyn Renderer, scene: &PreparedScene, quantities: &[Quantity]) -> Map {
+    let settings = RenderSettings { quantities: quantities.to_vec(), ..RenderSettings::default() };
+    renderer.render(scene, &settings).expect("the lab's scene renders")
+}
+
+fn read(criterion: &mut Criterion) {
+    criterion.bench_function("read and check the lab's scene", |bencher| bencher.iter(|| black_box(lab())));
+}
+
+fn prepare(criterion: &mut Criterion) {
+    let scene = lab();
+    criterion.bench_function("prepare", |bencher| bencher.iter(|| black_box(PreparedScene::new(&scene))));
+}
+
+fn kernel(criterion: &mut Criterion) {
+    let scene = PreparedScene::new(&lab());
+    let brightness = [Quantity::Brightness];
+    criterion.bench_function("render 800×600, reference", |bencher| {
+        bencher.iter(|| black_box(render(&Reference, &scene, &brightness)));
+    });
+    criterion.bench_function("render 800×600, threads", |bencher| {
+        bencher.iter(|| black_box(render(&Threaded::default(), &scene, &brightness)));
+    });
+}
+
+fn many_lights(criterion: &mut Criterion) {
+    let mut source = lab().source().clone();
+    let light = source.light[0].clone();
+    source.light = (0..256)
+        .map(|index| {
+            let angle = f64::from(index) * 2.399_963;
+            let position = Some([10.0 * angle.cos(), 10.0 * angle.sin(), -f64::from(index % 16)]);
+            isophote::scene::source::LightSource { name: None, position, ..light.clone() }
+        })
+        .collect();
+    let scene = PreparedScene::new(&Scene::try_from(source).expect("lights outside the sphere"));
+    let mut group = criterion.benchmark_group("many lights");
+    group.sample_size(10);
+    group.bench_function("render 800×600, 256 lights, threads", |bencher| {
+        bencher.iter(|| black_box(render(&Threaded::default(), &scene, &[Quantity::Brightness])));
+    });
+    group.finish();
+}
+
+fn export(criterion: &mut Criterion) {
+    let scene = PreparedScene::new(&lab());
+    let map = render(&Threaded::default(), &scene, &Quantity::COMMON);
+    let mut group = criterion.benchmark_group("export 800×600");
+    group.sample_size(20);
+    group.bench_function("png", |bencher| {
+        let options = PictureOptions::new(Quantity::Brightness);
+        bencher.iter(|| png::write(&map, &options, &mut Vec::new()).expect("memory is there"));
+    });
+    group.bench_function("exr, all channels", |bencher| {
+        bencher.iter(|| exr::write(&map, &mut Cursor::new(Vec::new())).expect("memory is there"));
+    });
+    group.bench_function("npz, all channels", |bencher| {
+        bencher.iter(|| npz::write(&map, &mut Cursor::new(Vec::new())).expect("memory is there"));
+    });
+    group.bench_function("figure, svg and png", |bencher| {
+        let options = figure::FigureOptions::new(Quantity::Brightness, "brightness");
+        bencher.iter(|| {
+            let svg = figure::map_figure_svg(&map, &options).expect("it can be drawn");
+            figure::svg_to_png(&svg, 2.0).expect("it can be drawn")
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(stages, read, prepare, kernel, many_lights, export);
+criterion_main!(stages);
