@@ -148,11 +148,11 @@ pub struct ProbeArguments {
     pub angles: Vec<[f64; 2]>,
 
     /// The sphere that --angles means; not needed when there is only one
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "angles")]
     pub shape: Option<String>,
 
     /// Move points given by --at to the nearest surface
-    #[arg(long)]
+    #[arg(long, requires = "at")]
     pub snap: bool,
 
     /// Show every step of the calculation, with its numbers and formula numbers

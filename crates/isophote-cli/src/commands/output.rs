@@ -1,5 +1,6 @@
 //! Writing maps and figures to files.
 
+use std::collections::HashSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -39,6 +40,11 @@ impl MapFile {
         })?;
         atomic::check_target(path)?;
         Ok(Self { path: path.into(), format })
+    }
+
+    /// Whether it is a picture of one scalar channel.
+    pub fn is_picture(&self) -> bool {
+        self.format == Format::Png
     }
 
     /// Whether the format holds more than one channel.
@@ -88,6 +94,15 @@ fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<S
         }
     }
     Ok(note)
+}
+
+/// A file that is asked for twice would keep what is written last, and nobody would miss the other.
+pub fn refuse_twice<'p>(paths: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), Usage> {
+    let mut seen = HashSet::new();
+    match paths.into_iter().find(|path| !seen.insert(*path)) {
+        Some(path) => Err(Usage(format!("{} would be written twice", path.display()))),
+        None => Ok(()),
+    }
 }
 
 /// What a figure is written as.

@@ -16,10 +16,10 @@ use isophote::text::significant;
 use isophote::units::Choice;
 use serde::Serialize;
 
-use super::output::{FigureFormat, MapFile, MapStyle, figure_format, write_figure};
+use super::output::{FigureFormat, MapFile, MapStyle, figure_format, refuse_twice, write_figure};
 use super::probe::{self, ProbeJson};
 use crate::args::RenderArguments;
-use crate::failure::Usage;
+use crate::failure::{self, Usage};
 use crate::progress::Progress;
 use crate::{load, numbers};
 
@@ -32,7 +32,7 @@ pub fn run(arguments: &RenderArguments) -> Result<String> {
     map.retain(|quantity| job.wanted.contains(quantity));
     let notes = job.write(&map, &scene)?;
     if !arguments.quiet {
-        notes.iter().for_each(|note| eprintln!("{note}"));
+        notes.iter().for_each(|note| failure::note(note));
     }
     if arguments.json { numbers::json(&summary.to_json(&scene, &job)) } else { Ok(summary.to_text(&scene, &job)) }
 }
@@ -65,6 +65,7 @@ impl<'a> Job<'a> {
         } else {
             arguments.output.clone()
         };
+        refuse_twice(outputs.iter().chain(&arguments.figure))?;
         let files: Vec<MapFile> = outputs.iter().map(|path| MapFile::new(path)).collect::<Result<_>>()?;
         let figures = arguments.figure.iter().map(|path| Ok((path.clone(), figure_format(path)?)));
         let figures = figures.collect::<Result<Vec<_>>>()?;
@@ -86,7 +87,24 @@ impl<'a> Job<'a> {
             colormap: arguments.colormap,
             rows: if arguments.visible_only { Rows::Visible } else { Rows::All },
         };
-        Ok(Self { arguments, main, wanted, files, figures, style })
+        let job = Self { arguments, main, wanted, files, figures, style };
+        job.refuse_impossible_pictures()?;
+        Ok(job)
+    }
+
+    /// Known before anything is computed.
+    fn refuse_impossible_pictures(&self) -> Result<(), Usage> {
+        let has_picture = self.files.iter().any(MapFile::is_picture);
+        let is_scalar = !matches!(self.main, Quantity::Position | Quantity::Normal | Quantity::Shape);
+        if !is_scalar && (has_picture || !self.figures.is_empty()) {
+            let message = "cannot be a picture: it is not one quantity a pixel; put another --channel first";
+            return Err(Usage(format!("the channel `{}` {message}", self.main.name())));
+        }
+        if has_picture && self.style.depth == Depth::Sixteen && self.style.colormap.is_some() {
+            let message = "--depth 16 does not go with --colormap: colours have 8 bits, only grey pictures have 16";
+            return Err(Usage(message.into()));
+        }
+        Ok(())
     }
 
     fn render(&self, scene: &PreparedScene) -> Result<Map> {

@@ -15,10 +15,10 @@ use isophote::text::significant;
 use isophote::units::Choice;
 use serde::Serialize;
 
-use super::output::{FigureFormat, figure_format, write_figure};
+use super::output::{FigureFormat, figure_format, refuse_twice, write_figure};
 use super::render::{channels, unit};
 use crate::args::SectionArguments;
-use crate::failure::Usage;
+use crate::failure::{self, Usage};
 use crate::progress::Interruptible;
 use crate::table::{Align, table};
 use crate::{load, numbers};
@@ -28,12 +28,17 @@ pub fn run(arguments: &SectionArguments) -> Result<String> {
     let scene = PreparedScene::new(&load::scene(&arguments.scene, None, arguments.quiet)?);
     let line = line(arguments, scene.scene());
     let quantities = quantities(arguments, scene.scene())?;
+    refuse_twice(&arguments.output)?;
     let outputs: Vec<(&Path, Output)> = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<_>>()?;
     let samples = scene.section(line).map_err(|error| Usage(error.to_string()))?;
     let section = Section { scene: scene.scene(), line, quantities, samples };
     if outputs.is_empty() {
         return if arguments.json { numbers::json(&section.to_json()) } else { Ok(section.to_table()) };
     }
+    // What cannot be drawn is found before anything is written.
+    let has_figure = outputs.iter().any(|(_, output)| matches!(output, Output::Figure(_)));
+    let svg = if has_figure { section.to_svg()? } else { String::new() };
+    crate::progress::end_in_order();
     let mut notes = Vec::new();
     for (path, output) in outputs {
         match output {
@@ -44,11 +49,11 @@ pub fn run(arguments: &SectionArguments) -> Result<String> {
                 written?;
                 notes.push(format!("wrote {}", path.display()));
             }
-            Output::Figure(format) => write_figure(&section.to_svg()?, path, format, &mut notes)?,
+            Output::Figure(format) => write_figure(&svg, path, format, &mut notes)?,
         }
     }
     if !arguments.quiet {
-        notes.iter().for_each(|note| eprintln!("{note}"));
+        notes.iter().for_each(|note| failure::note(note));
     }
     if arguments.json { numbers::json(&section.to_json()) } else { Ok(String::new()) }
 }
