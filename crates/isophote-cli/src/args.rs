@@ -117,7 +117,7 @@ pub struct RenderArguments {
     pub visible_only: bool,
 
     /// How many threads compute; as many as there are processors by default
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", value_parser = parse_threads)]
     pub threads: Option<NonZeroUsize>,
 
     /// Print the results as JSON
@@ -278,6 +278,12 @@ fn parse_line(text: &str) -> Result<[f64; 4], String> {
 fn parse_range(text: &str) -> Result<[f64; 2], String> {
     let range: [f64; 2] = numbers::finite(text, "MIN,MAX, such as 0,0.5")?;
     if range[0] < range[1] { Ok(range) } else { Err("MIN must be smaller than MAX".into()) }
+}
+
+/// Tens of thousands of threads would bring the machine to a standstill before the system refuses the next one.
+fn parse_threads(text: &str) -> Result<NonZeroUsize, String> {
+    let threads = text.parse().ok().filter(|threads: &NonZeroUsize| threads.get() <= 1024);
+    threads.ok_or_else(|| "allowed: 1 to 1024".into())
 }
 
 fn parse_gamma(text: &str) -> Result<f64, String> {

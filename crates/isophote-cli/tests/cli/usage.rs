@@ -58,7 +58,8 @@ fn numbers_that_mean_nothing_are_refused() {
     refused("render --range 0,inf", &["inf is not a finite number"]);
     refused("render --gamma 0", &["allowed: 0.1 to 10"]);
     refused("render --depth 12", &["8, 16"]);
-    refused("render --threads 0", &["--threads"]);
+    refused("render --threads 0", &["--threads", "allowed: 1 to 1024"]);
+    refused("render --threads 99999", &["--threads", "allowed: 1 to 1024"]);
     refused("render --colormap jet", &["viridis"]);
     refused("probe --at 0,0", &["expected X,Y,Z"]);
     refused("probe --at 0,0,nan", &["NaN is not a finite number"]);
