@@ -43,6 +43,7 @@ fn the_figure_of_the_lab_has_title_unit_axes_and_probes() {
 }
 
 #[test]
+#[expect(clippy::float_cmp, reason = "whole numbers")]
 fn the_png_figure_is_the_svg_figure_at_twice_its_size() {
     let folder = Folder::new();
     folder.ok("render --size 80x60 --figure lab.svg --figure lab.png");

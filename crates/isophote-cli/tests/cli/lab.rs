@@ -38,6 +38,7 @@ fn render_without_a_scene_does_the_same_as_the_bare_command() {
 }
 
 #[test]
+#[expect(clippy::float_cmp, reason = "whole numbers")]
 fn every_pixel_of_the_labs_picture_is_its_brightness_scaled_to_255() {
     let folder = Folder::new();
     folder.ok("");

@@ -79,6 +79,7 @@ fn a_colormap_begins_and_ends_with_its_published_colours() {
 }
 
 #[test]
+#[expect(clippy::float_cmp, reason = "whole numbers")]
 fn the_gray_colormap_shows_what_the_grey_picture_shows() {
     let folder = Folder::new();
     let grey = levels(&folder, "");
