@@ -67,7 +67,8 @@ pub struct RenderArguments {
     #[command(flatten)]
     pub scene: SceneArgument,
 
-    /// Write the map to FILE: .png, .exr, .npy, .npz or .csv; may be given several times
+    /// Write the map to FILE: .png, .exr, .npy, .npz or .csv; may be given several times. Without SCENE, -o and
+    /// --figure: lab.png
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
 
@@ -97,7 +98,8 @@ pub struct RenderArguments {
     #[arg(long, value_name = "NAME", value_parser = choice::<Colormap>())]
     pub colormap: Option<Colormap>,
 
-    /// The values that become black and white (by default 0 and the maximum)
+    /// The values that become the first and the last colour (by default 0 and the maximum; in figures the minimum and
+    /// the maximum)
     #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = parse_range)]
     pub range: Option<[f64; 2]>,
 
@@ -118,7 +120,7 @@ pub struct RenderArguments {
     pub visible_only: bool,
 
     /// How many threads compute; as many as there are processors by default
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", value_parser = parse_threads)]
     pub threads: Option<NonZeroUsize>,
 
     /// Print the results as JSON
@@ -141,7 +143,7 @@ pub struct ProbeArguments {
     pub at: Vec<[f64; 3]>,
 
     /// What the centre of a pixel sees; may be given several times
-    #[arg(long, value_name = "COLUMN,ROW", value_parser = numbers::pixel)]
+    #[arg(long, value_name = "COLUMN,ROW", allow_hyphen_values = true, value_parser = numbers::pixel)]
     pub pixel: Vec<Pixel>,
 
     /// A point of a sphere in degrees: THETA from the direction towards the viewer, PHI from the screen's x towards its
@@ -150,11 +152,11 @@ pub struct ProbeArguments {
     pub angles: Vec<[f64; 2]>,
 
     /// The sphere that --angles means; not needed when there is only one
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "angles")]
     pub shape: Option<String>,
 
     /// Move points given by --at to the nearest surface
-    #[arg(long)]
+    #[arg(long, requires = "at")]
     pub snap: bool,
 
     /// Show every step of the calculation, with its numbers and formula numbers
@@ -178,9 +180,9 @@ pub struct SectionArguments {
     #[command(flatten)]
     pub line: LineArgument,
 
-    /// How many points a --line has
-    #[arg(long, value_name = "COUNT", default_value_t = 513, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
-    pub samples: u32,
+    /// How many points a --line has (by default 513)
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    pub samples: Option<u32>,
 
     /// Channel: brightness, irradiance, diffuse, specular or depth; may be given several times (by default the
     /// brightness)
@@ -280,6 +282,12 @@ fn parse_line(text: &str) -> Result<[f64; 4], String> {
 fn parse_range(text: &str) -> Result<[f64; 2], String> {
     let range: [f64; 2] = numbers::finite(text, "MIN,MAX, such as 0,0.5")?;
     if range[0] < range[1] { Ok(range) } else { Err("MIN must be smaller than MAX".into()) }
+}
+
+/// Tens of thousands of threads would bring the machine to a standstill before the system refuses the next one.
+fn parse_threads(text: &str) -> Result<NonZeroUsize, String> {
+    let threads = text.parse().ok().filter(|threads: &NonZeroUsize| threads.get() <= 1024);
+    threads.ok_or_else(|| "allowed: 1 to 1024".into())
 }
 
 fn parse_gamma(text: &str) -> Result<f64, String> {

@@ -1,7 +1,7 @@
 //! Failures, and the exit codes that tell them apart.
 
 use std::fmt;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
 use isophote::render::RenderError;
@@ -34,21 +34,23 @@ impl std::error::Error for Interrupted {}
 /// Writes an error to standard error and chooses the exit code.
 pub fn report(error: &anyhow::Error) -> ExitCode {
     if let Some(scene_error) = find::<SceneError>(error) {
-        eprintln!("{}", scene_error.report(use_color()));
         let count = scene_error.problems.len();
-        eprintln!(
-            "\n{count} problem{} in {}; nothing was written",
-            if count == 1 { "" } else { "s" },
-            scene_error.name
-        );
+        let plural = if count == 1 { "" } else { "s" };
+        let report = scene_error.report(use_color());
+        note(&format!("{report}\n\n{count} problem{plural} in {}; nothing was written", scene_error.name));
         return ExitCode::from(3);
     }
     if is_interruption(error) {
-        eprintln!("interrupted; nothing was left half-written");
+        note("interrupted; nothing was left half-written");
         return ExitCode::from(130);
     }
-    eprintln!("error: {error:#}");
+    note(&format!("error: {error:#}"));
     ExitCode::from(if find::<Usage>(error).is_some() { 2 } else { 1 })
+}
+
+/// Writes a line to standard error. Whoever reads it may stop listening at any time, and `eprintln!` would panic then.
+pub fn note(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// Whether standard error is a terminal that wants colours (<https://no-color.org>).

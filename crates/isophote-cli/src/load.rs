@@ -2,23 +2,23 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use isophote::export::{Format, read_metadata};
 use isophote::map::Resolution;
 use isophote::scene::library::Starter;
-use isophote::scene::{Scene, Syntax, error};
+use isophote::scene::{Scene, SceneError, Syntax, error};
 
 use crate::args::SceneArgument;
-use crate::failure;
+use crate::failure::{self, Usage};
 
 /// Reads the scene and says what it warns of.
 pub fn scene(argument: &SceneArgument, size: Option<Resolution>, quiet: bool) -> Result<Scene> {
     let (name, mut scene) = read(argument)?;
     if let Some(size) = size {
-        scene = scene.with_resolution(size)?;
+        scene = scene.with_resolution(size).map_err(|error| wrong_size(&error))?;
     }
     if !quiet && !scene.warnings().is_empty() {
-        eprintln!("{}", error::report(&name, scene.warnings(), failure::use_color()));
+        failure::note(&error::report(&name, scene.warnings(), failure::use_color()));
     }
     Ok(scene)
 }
@@ -36,10 +36,20 @@ fn read(argument: &SceneArgument) -> Result<(String, Scene)> {
         let syntax = if text.trim_start().starts_with('{') { Syntax::Json } else { Syntax::Toml };
         Scene::from_text(name, &text, syntax)?
     } else if Format::from_path(path).is_some() {
-        let metadata = read_metadata(path).with_context(|| format!("cannot take a scene out of {name}"))?;
+        let no_scene = |error| SceneError::unreadable(&name, format!("no scene can be taken out of it: {error}"), None);
+        let metadata = read_metadata(path).map_err(no_scene)?;
         Scene::from_text(&name, &metadata.scene, Syntax::Toml)?
     } else {
         Scene::from_file(path)?
     };
     Ok((name, scene))
+}
+
+/// The scene is valid: it is the argument that is wrong.
+fn wrong_size(error: &SceneError) -> Usage {
+    let reasons = error.problems.iter().map(|problem| match &problem.help {
+        Some(help) => format!("{}; {help}", problem.message),
+        None => problem.message.clone(),
+    });
+    Usage(format!("--size: {}", reasons.collect::<Vec<_>>().join("; ")))
 }

@@ -8,14 +8,27 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use isophote::render::Observer;
 
-use crate::failure::Interrupted;
+use crate::failure::{self, Interrupted};
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+static ENDS_IN_ORDER: AtomicBool = AtomicBool::new(false);
 
-/// From now on Ctrl-C ends the work at the next row, with everything cleaned up.
+/// From now on Ctrl-C ends the program with exit code 130: at once, for it may be waiting for its input or be far from
+/// the next [`check`], until [`end_in_order`] is called.
 pub fn watch_for_interrupts() {
     // Without the handler Ctrl-C ends the program at once, which leaves a temporary file at worst.
-    let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+    let _ = ctrlc::set_handler(|| {
+        INTERRUPTED.store(true, Ordering::Relaxed);
+        if !ENDS_IN_ORDER.load(Ordering::Relaxed) {
+            failure::note("interrupted; nothing was written");
+            std::process::exit(130);
+        }
+    });
+}
+
+/// From now on Ctrl-C ends the work at the next row or block, with everything cleaned up.
+pub fn end_in_order() {
+    ENDS_IN_ORDER.store(true, Ordering::Relaxed);
 }
 
 /// Whether Ctrl-C was pressed.
@@ -32,6 +45,7 @@ pub struct Progress {
 
 impl Progress {
     pub fn new(pixels: u64, quiet: bool) -> Self {
+        end_in_order();
         let bar = ProgressBar::with_draw_target(Some(pixels), ProgressDrawTarget::hidden());
         let style = "{bar:40} {percent}%  {per_sec} pixels  {eta} left";
         bar.set_style(ProgressStyle::with_template(style).unwrap_or_else(|_| ProgressStyle::default_bar()));

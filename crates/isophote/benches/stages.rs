@@ -79,7 +79,7 @@ fn export(criterion: &mut Criterion) {
         let options = figure::FigureOptions::new(Quantity::Brightness, "brightness");
         bencher.iter(|| {
             let svg = figure::map_figure_svg(&map, &options).expect("it can be drawn");
-            figure::svg_to_png(&svg, 2.0).expect("it can be drawn")
+            figure::svg_to_png(&svg, 2.0, None).expect("it can be drawn")
         });
     });
     group.finish();

@@ -7,6 +7,7 @@ mod probe;
 mod render;
 mod section;
 mod show;
+mod summary;
 
 use anyhow::Result;
 use clap::CommandFactory;

@@ -1,5 +1,6 @@
 //! Writing maps and figures to files.
 
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -7,7 +8,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, anyhow};
 use isophote::export::colormap::Colormap;
 use isophote::export::png::{Depth, PictureColor, PictureOptions};
-use isophote::export::{self, Format, atomic, csv, figure, write_atomically};
+use isophote::export::{self, FileMetadata, Format, atomic, csv, figure, write_atomically};
 use isophote::map::{Map, Quantity};
 use isophote::text::significant;
 use isophote::units::Choice;
@@ -40,6 +41,16 @@ impl MapFile {
         })?;
         atomic::check_target(path)?;
         Ok(Self { path: path.into(), format })
+    }
+
+    /// Whether it is a picture of one scalar channel.
+    pub fn is_picture(&self) -> bool {
+        self.format == Format::Png
+    }
+
+    /// Whether it is a table with a row for each pixel.
+    pub fn is_table(&self) -> bool {
+        self.format == Format::Csv
     }
 
     /// Whether the format holds more than one channel.
@@ -92,6 +103,15 @@ fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<S
     Ok(note)
 }
 
+/// A file that is asked for twice would keep what is written last, and nobody would miss the other.
+pub fn refuse_twice<'p>(paths: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), Usage> {
+    let mut seen = HashSet::new();
+    match paths.into_iter().find(|path| !seen.insert(*path)) {
+        Some(path) => Err(Usage(format!("{} would be written twice", path.display()))),
+        None => Ok(()),
+    }
+}
+
 /// What a figure is written as.
 #[derive(Clone, Copy)]
 pub enum FigureFormat {
@@ -115,13 +135,23 @@ pub fn figure_format(path: &Path) -> Result<FigureFormat> {
 }
 
 /// Writes a figure.
-pub fn write_figure(svg: &str, path: &Path, format: FigureFormat, notes: &mut Vec<String>) -> Result<()> {
+///
+/// A PNG carries the metadata, if there are any; an SVG has no place for them that other programs would keep.
+pub fn write_figure(
+    svg: &str,
+    metadata: Option<&FileMetadata>,
+    path: &Path,
+    format: FigureFormat,
+    notes: &mut Vec<String>,
+) -> Result<()> {
     /// Dots per unit of the drawing: sharp on paper and on dense screens.
     const SCALE: f64 = 2.0;
     let bytes = match format {
         FigureFormat::Svg => svg.as_bytes().to_vec(),
         FigureFormat::Png => {
-            figure::svg_to_png(svg, SCALE).map_err(|error| anyhow!("cannot draw the figure: {error}"))?
+            let metadata = metadata.map(FileMetadata::to_json);
+            figure::svg_to_png(svg, SCALE, metadata.as_deref())
+                .map_err(|error| anyhow!("cannot draw the figure: {error}"))?
         }
     };
     let written = write_atomically(path, |file| Ok(Interruptible(file).write_all(&bytes)?));

@@ -5,14 +5,14 @@ use std::fmt::Write;
 use anyhow::Result;
 use isophote::analysis::probe::{Place, ProbeError, ProbeReading, Visibility};
 use isophote::prepare::PreparedScene;
-use isophote::scene::Scene;
+use isophote::scene::{Scene, limits};
 use isophote::text::significant;
 use isophote::units::Choice;
 use isophote::vector::Vector;
 use serde::Serialize;
 
 use crate::args::ProbeArguments;
-use crate::failure::Usage;
+use crate::failure::{self, Usage};
 use crate::table::{Align, table};
 use crate::{load, numbers};
 
@@ -21,9 +21,20 @@ pub fn run(arguments: &ProbeArguments) -> Result<String> {
     let scene = PreparedScene::new(&load::scene(&arguments.scene, None, arguments.quiet)?);
     let requests = requests(arguments, scene.scene())?;
     let mut readings = Vec::new();
+    let mut refusals = Vec::new();
     for Request { name, place, published } in &requests {
-        let reading = scene.probe(place).map_err(|error| refusal(name, &error, scene.scene()))?;
-        readings.push((name.as_str(), reading, *published));
+        match scene.probe(place) {
+            Ok(reading) => {
+                if let Some(note) = snapped(name, place, &reading, scene.scene()).filter(|_| !arguments.quiet) {
+                    failure::note(&note);
+                }
+                readings.push((name.as_str(), reading, *published));
+            }
+            Err(error) => refusals.push(refusal(name, &error, scene.scene())),
+        }
+    }
+    if !refusals.is_empty() {
+        return Err(Usage(refusals.join("\nerror: ")).into());
     }
     if arguments.json {
         let probes =
@@ -51,8 +62,14 @@ fn requests(arguments: &ProbeArguments, scene: &Scene) -> Result<Vec<Request>> {
     let mut requests = Vec::new();
     let mut push = |name: String, place| requests.push(Request { name, place, published: None });
     for at in &arguments.at {
-        let point = Vector::from(at.map(|coordinate| length.to_metres(coordinate)));
+        let metres = at.map(|coordinate| length.to_metres(coordinate));
         let [x, y, z] = at;
+        if metres.iter().any(|coordinate| coordinate.abs() > limits::COORDINATE) {
+            let bound = length.from_metres(limits::COORDINATE);
+            let message = format!("--at {x:e},{y:e},{z:e} is too far away; allowed: up to {bound:e} {}", length.name());
+            return Err(Usage(message).into());
+        }
+        let point = Vector::from(metres);
         push(format!("({x}, {y}, {z})"), if arguments.snap { Place::NearestTo(point) } else { Place::Point(point) });
     }
     for pixel in &arguments.pixel {
@@ -86,13 +103,15 @@ fn sphere(arguments: &ProbeArguments, scene: &Scene) -> Result<usize> {
     };
     index.ok_or_else(|| {
         let shown: Vec<&str> = names.iter().copied().take(20).collect();
-        Usage(format!("--angles needs --shape with the name of a sphere; there are: {}", shown.join(", "))).into()
+        let there_are =
+            if shown.is_empty() { "the scene has none".into() } else { format!("there are: {}", shown.join(", ")) };
+        Usage(format!("--angles needs --shape with the name of a sphere; {there_are}")).into()
     })
 }
 
 /// Why there is no value, and what to do about it.
-fn refusal(name: &str, error: &ProbeError, scene: &Scene) -> Usage {
-    Usage(match error {
+fn refusal(name: &str, error: &ProbeError, scene: &Scene) -> String {
+    match error {
         ProbeError::OffSurface(miss) => {
             let shape = &scene.shapes()[miss.shape].name;
             format!(
@@ -101,6 +120,19 @@ fn refusal(name: &str, error: &ProbeError, scene: &Scene) -> Usage {
             )
         }
         other => format!("{name}: {other}"),
+    }
+}
+
+/// How far --snap moved a point, when it did.
+fn snapped(name: &str, place: &Place, reading: &ProbeReading, scene: &Scene) -> Option<String> {
+    let Place::NearestTo(asked) = place else { return None };
+    let moved = (reading.point.position() - *asked).length();
+    let geometry = &scene.shapes()[reading.shape].geometry;
+    (moved > geometry.surface_tolerance()).then(|| {
+        let length = scene.length();
+        let moved = significant(length.from_metres(moved), 6);
+        let [x, y, z] = reading.position(length);
+        format!("{name} was moved by {moved} {} to [{x}, {y}, {z}]", length.name())
     })
 }
 

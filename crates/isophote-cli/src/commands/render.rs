@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use isophote::analysis::probe::{Place, ProbeReading};
-use isophote::analysis::statistics::{Counts, Extreme, Statistics, counts, statistics};
+use isophote::analysis::probe::Place;
+use isophote::export::FileMetadata;
 use isophote::export::csv::Rows;
 use isophote::export::figure::{self, FigureOptions, Mark};
 use isophote::export::png::Depth;
@@ -12,14 +12,11 @@ use isophote::map::{Map, Quantity, Region};
 use isophote::prepare::PreparedScene;
 use isophote::render::{RenderSettings, Renderer, Threaded};
 use isophote::scene::Scene;
-use isophote::text::significant;
-use isophote::units::Choice;
-use serde::Serialize;
 
-use super::output::{FigureFormat, MapFile, MapStyle, figure_format, write_figure};
-use super::probe::{self, ProbeJson};
+use super::output::{FigureFormat, MapFile, MapStyle, figure_format, refuse_twice, write_figure};
+use super::summary::Summary;
 use crate::args::RenderArguments;
-use crate::failure::Usage;
+use crate::failure::{self, Usage};
 use crate::progress::Progress;
 use crate::{load, numbers};
 
@@ -28,15 +25,15 @@ pub fn run(arguments: &RenderArguments) -> Result<String> {
     let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.size, arguments.quiet)?);
     let job = Job::new(arguments, scene.scene())?;
     let mut map = job.render(&scene)?;
-    let summary = Summary::new(&map, &scene, &job);
+    let summary = Summary::new(&map, &job.main, &scene);
     map.retain(|quantity| job.wanted.contains(quantity));
     let notes = job.write(&map, &scene)?;
     if !arguments.quiet {
         for note in &notes {
-            eprintln!("{note}");
+            failure::note(note);
         }
     }
-    if arguments.json { numbers::json(&summary.to_json(&scene, &job)) } else { Ok(summary.to_text(&scene, &job)) }
+    if arguments.json { numbers::json(&summary.to_json(&scene)) } else { Ok(summary.to_text(&scene)) }
 }
 
 impl RenderArguments {
@@ -67,6 +64,7 @@ impl<'a> Job<'a> {
         } else {
             arguments.output.clone()
         };
+        refuse_twice(outputs.iter().chain(&arguments.figure))?;
         let files: Vec<MapFile> = outputs.iter().map(|path| MapFile::new(path)).collect::<Result<_>>()?;
         let figures = arguments.figure.iter().map(|path| Ok((path.clone(), figure_format(path)?)));
         let figures = figures.collect::<Result<Vec<_>>>()?;
@@ -88,7 +86,24 @@ impl<'a> Job<'a> {
             colormap: arguments.colormap,
             rows: if arguments.visible_only { Rows::Visible } else { Rows::All },
         };
-        Ok(Self { arguments, main, wanted, files, figures, style })
+        let job = Self { arguments, main, wanted, files, figures, style };
+        job.refuse_impossible_pictures()?;
+        Ok(job)
+    }
+
+    /// Known before anything is computed.
+    fn refuse_impossible_pictures(&self) -> Result<(), Usage> {
+        let has_picture = self.files.iter().any(MapFile::is_picture);
+        let is_scalar = !matches!(self.main, Quantity::Position | Quantity::Normal | Quantity::Shape);
+        if !is_scalar && (has_picture || !self.figures.is_empty()) {
+            let message = "cannot be a picture: it is not one quantity a pixel; put another --channel first";
+            return Err(Usage(format!("the channel `{}` {message}", self.main.name())));
+        }
+        if has_picture && self.style.depth == Depth::Sixteen && self.style.colormap.is_some() {
+            let message = "--depth 16 does not go with --colormap: colours have 8 bits, only grey pictures have 16";
+            return Err(Usage(message.into()));
+        }
+        Ok(())
     }
 
     fn render(&self, scene: &PreparedScene) -> Result<Map> {
@@ -107,17 +122,37 @@ impl<'a> Job<'a> {
     }
 
     fn write(&self, map: &Map, scene: &PreparedScene) -> Result<Vec<String>> {
-        let mut notes = Vec::new();
+        // A figure that cannot be drawn is known before anything is written.
+        let svg = if self.figures.is_empty() {
+            String::new()
+        } else {
+            figure::map_figure_svg(map, &self.figure_options(map, scene))?
+        };
+        let mut notes = self.options_without_effect();
         for file in &self.files {
             file.write(map, &self.style, &mut notes)?;
         }
-        if !self.figures.is_empty() {
-            let svg = figure::map_figure_svg(map, &self.figure_options(map, scene))?;
-            for (path, format) in &self.figures {
-                write_figure(&svg, path, *format, &mut notes)?;
-            }
+        let metadata = map.channel(&self.main).map(|channel| FileMetadata::of_channel(map, channel));
+        for (path, format) in &self.figures {
+            write_figure(&svg, metadata.as_ref(), path, *format, &mut notes)?;
         }
         Ok(notes)
+    }
+
+    fn options_without_effect(&self) -> Vec<String> {
+        let has_picture = self.files.iter().any(MapFile::is_picture);
+        let arguments = self.arguments;
+        let note = |is_given: bool, option: &str, file: &str| {
+            is_given.then(|| format!("{option} has no effect: no {file} file is written"))
+        };
+        [
+            note(!has_picture && arguments.gamma != 1.0, "--gamma", ".png"),
+            note(!has_picture && self.style.depth == Depth::Sixteen, "--depth", ".png"),
+            note(arguments.visible_only && !self.files.iter().any(MapFile::is_table), "--visible-only", ".csv"),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
     }
 
     fn figure_options(&self, map: &Map, scene: &PreparedScene) -> FigureOptions {
@@ -162,155 +197,7 @@ fn marks(map: &Map, scene: &PreparedScene) -> Vec<Mark> {
     scene.scene().probes().iter().filter_map(mark).collect()
 }
 
-/// The numbers of a map.
-struct Summary {
-    counts: Counts,
-    statistics: Option<Statistics>,
-    probes: Vec<(String, ProbeReading, Option<f64>)>,
-}
-
-impl Summary {
-    fn new(map: &Map, scene: &PreparedScene, job: &Job<'_>) -> Self {
-        let reading = |probe: &isophote::scene::Probe| {
-            let reading = scene.probe(&Place::Point(probe.at)).ok()?;
-            Some((probe.name.clone(), reading, probe.published))
-        };
-        Self {
-            counts: counts(map),
-            statistics: statistics(map, &job.main),
-            probes: scene.scene().probes().iter().filter_map(reading).collect(),
-        }
-    }
-
-    fn to_text(&self, scene: &PreparedScene, job: &Job<'_>) -> String {
-        let description = scene.scene();
-        let resolution = description.camera().resolution;
-        let Counts { pixels, visible, lit } = self.counts;
-        let mut lines = Vec::new();
-        if !description.title().is_empty() {
-            lines.extend([description.title().to_owned(), String::new()]);
-        }
-        let mut row = |name: &str, value: String| lines.push(format!("  {name:<12}{value}"));
-        row("image", format!("{} × {} pixels{}", resolution.width, resolution.height, region_text(job)));
-        #[allow(clippy::cast_precision_loss, reason = "fewer than 2^53 pixels")]
-        let share = 100.0 * visible as f64 / pixels as f64;
-        row("visible", format!("{visible} of {pixels} pixels ({} %)", significant(share, 4)));
-        row("lit", format!("{} pixels", lit.unwrap_or(0)));
-        let convention = description.convention();
-        row("channel", format!("{}, {}", job.main.name(), unit(&job.main, description)));
-        row("convention", format!("{}: {}", convention.label(), convention.formula()));
-        match &self.statistics {
-            Some(statistics) => {
-                row("maximum", extreme_text(&statistics.max, scene, job));
-                row("minimum", extreme_text(&statistics.min, scene, job));
-                row(
-                    "mean",
-                    format!(
-                        "{} {} over the visible pixels",
-                        significant(statistics.mean, 12),
-                        unit(&job.main, description)
-                    ),
-                );
-            }
-            None if visible == 0 => row("", "no surface is seen".into()),
-            None => row("", "this channel has no single number a pixel to sum up".into()),
-        }
-        let mut text = lines.join("\n") + "\n";
-        if !self.probes.is_empty() {
-            let rows: Vec<_> =
-                self.probes.iter().map(|(name, reading, published)| (name.as_str(), reading, *published)).collect();
-            text.push('\n');
-            text.push_str(&probe::table_text(&rows, scene));
-        }
-        text
-    }
-
-    fn to_json(&self, scene: &PreparedScene, job: &Job<'_>) -> SummaryJson {
-        let description = scene.scene();
-        let extreme = |extreme: &Extreme| ExtremeJson {
-            value: extreme.value,
-            pixel: [extreme.pixel.column, extreme.pixel.row],
-            point: point_at(extreme, scene),
-        };
-        SummaryJson {
-            title: description.title().into(),
-            resolution: [description.camera().resolution.width, description.camera().resolution.height],
-            region: job
-                .arguments
-                .region
-                .map(|region| [region.corner.column, region.corner.row, region.size.width, region.size.height]),
-            length: description.length().name(),
-            convention: description.convention().name(),
-            formula: description.convention().formula_number(),
-            channel: job.main.name(),
-            unit: unit(&job.main, description),
-            pixels: self.counts.pixels,
-            visible_pixels: self.counts.visible,
-            lit_pixels: self.counts.lit,
-            max: self.statistics.map(|statistics| extreme(&statistics.max)),
-            min: self.statistics.map(|statistics| extreme(&statistics.min)),
-            mean: self.statistics.map(|statistics| statistics.mean),
-            probes: self
-                .probes
-                .iter()
-                .map(|(name, reading, published)| ProbeJson::new(name, reading, *published, scene))
-                .collect(),
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct SummaryJson {
-    title: String,
-    resolution: [u32; 2],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    region: Option<[u32; 4]>,
-    length: &'static str,
-    convention: &'static str,
-    formula: &'static str,
-    channel: String,
-    unit: String,
-    pixels: usize,
-    visible_pixels: usize,
-    lit_pixels: Option<usize>,
-    max: Option<ExtremeJson>,
-    min: Option<ExtremeJson>,
-    mean: Option<f64>,
-    probes: Vec<ProbeJson>,
-}
-
-#[derive(Serialize)]
-struct ExtremeJson {
-    value: f64,
-    pixel: [u32; 2],
-    point: Option<[f64; 3]>,
-}
-
 /// The unit of a quantity in a scene.
 pub fn unit(quantity: &Quantity, scene: &Scene) -> String {
     quantity.unit(scene.convention(), scene.quantities(), scene.length()).to_owned()
-}
-
-fn region_text(job: &Job<'_>) -> String {
-    job.arguments.region.map_or(String::new(), |region| {
-        let Region { corner, size } = region;
-        format!("; of these {} × {} from column {}, row {}", size.width, size.height, corner.column, corner.row)
-    })
-}
-
-fn point_at(extreme: &Extreme, scene: &PreparedScene) -> Option<[f64; 3]> {
-    let length = scene.scene().length();
-    let hit = scene.trace_pixel(extreme.pixel)?;
-    Some(hit.point.position().to_array().map(|metres| length.from_metres(metres)))
-}
-
-fn extreme_text(extreme: &Extreme, scene: &PreparedScene, job: &Job<'_>) -> String {
-    let unit = unit(&job.main, scene.scene());
-    let Extreme { value, pixel } = extreme;
-    let value = significant(*value, 12);
-    let point = point_at(extreme, scene).map_or(String::new(), |point| {
-        let [x, y, z] = point.map(|coordinate| significant(coordinate, 6));
-        format!(", point ({x}, {y}, {z}) {}", scene.scene().length().name())
-    });
-    format!("{value} {unit} at column {}, row {}{point}", pixel.column, pixel.row)
 }

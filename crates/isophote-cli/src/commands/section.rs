@@ -15,25 +15,36 @@ use isophote::text::significant;
 use isophote::units::Choice;
 use serde::Serialize;
 
-use super::output::{FigureFormat, figure_format, write_figure};
+use super::output::{FigureFormat, figure_format, refuse_twice, write_figure};
 use super::render::{channels, unit};
 use crate::args::SectionArguments;
-use crate::failure::Usage;
+use crate::failure::{self, Usage};
 use crate::progress::Interruptible;
 use crate::table::{Align, table};
 use crate::{load, numbers};
+
+/// Points of a line that is not told how many.
+const DEFAULT_SAMPLES: u32 = 513;
 
 /// Computes a section and prints or writes it.
 pub fn run(arguments: &SectionArguments) -> Result<String> {
     let scene = PreparedScene::new(&load::scene(&arguments.scene, None, arguments.quiet)?);
     let line = line(arguments, scene.scene());
+    if arguments.samples.is_some() && arguments.line.line.is_none() {
+        return Err(Usage("--samples goes with --line: a row or a column has a sample for each pixel".into()).into());
+    }
     let quantities = quantities(arguments, scene.scene())?;
+    refuse_twice(&arguments.output)?;
     let outputs: Vec<(&Path, Output)> = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<_>>()?;
     let samples = scene.section(line).map_err(|error| Usage(error.to_string()))?;
     let section = Section { scene: scene.scene(), line, quantities, samples };
     if outputs.is_empty() {
         return if arguments.json { numbers::json(&section.to_json()) } else { Ok(section.to_table()) };
     }
+    // What cannot be drawn is found before anything is written.
+    let has_figure = outputs.iter().any(|(_, output)| matches!(output, Output::Figure(_)));
+    let svg = if has_figure { section.to_svg()? } else { String::new() };
+    crate::progress::end_in_order();
     let mut notes = Vec::new();
     for (path, output) in outputs {
         match output {
@@ -44,12 +55,12 @@ pub fn run(arguments: &SectionArguments) -> Result<String> {
                 written?;
                 notes.push(format!("wrote {}", path.display()));
             }
-            Output::Figure(format) => write_figure(&section.to_svg()?, path, format, &mut notes)?,
+            Output::Figure(format) => write_figure(&svg, None, path, format, &mut notes)?,
         }
     }
     if !arguments.quiet {
         for note in &notes {
-            eprintln!("{note}");
+            failure::note(note);
         }
     }
     if arguments.json { numbers::json(&section.to_json()) } else { Ok(String::new()) }
@@ -85,7 +96,7 @@ fn line(arguments: &SectionArguments, scene: &Scene) -> SectionLine {
         (_, Some(column), _) => SectionLine::Column(column),
         (_, _, line) => {
             let [x0, y0, x1, y1] = line.unwrap_or_default().map(|length| scene.length().to_metres(length));
-            SectionLine::Between { from: [x0, y0], to: [x1, y1], samples: arguments.samples }
+            SectionLine::Between { from: [x0, y0], to: [x1, y1], samples: arguments.samples.unwrap_or(DEFAULT_SAMPLES) }
         }
     }
 }
@@ -196,9 +207,10 @@ impl Section<'_> {
                 .collect(),
         };
         let series: Vec<Series> = self.quantities.iter().map(series).collect();
-        let units: Vec<String> = self.quantities.iter().map(|quantity| unit(quantity, self.scene)).collect();
-        if units.iter().any(|unit| *unit != units[0]) {
-            return Err(Usage(format!("one plot cannot show different units: {}", units.join(", "))).into());
+        let y_unit = unit(&self.quantities[0], self.scene);
+        if self.quantities.iter().any(|quantity| unit(quantity, self.scene) != y_unit) {
+            let channels: Vec<String> = self.quantities.iter().map(|quantity| self.heading(quantity)).collect();
+            return Err(Usage(format!("one plot cannot show different units: {}", channels.join("; "))).into());
         }
         let (x_label, title) = match self.line {
             SectionLine::Row(row) => ("x", format!("row {row}")),
@@ -206,9 +218,9 @@ impl Section<'_> {
             SectionLine::Between { .. } => ("distance along the line", "a line".into()),
         };
         let [only] = self.quantities.as_slice() else {
-            return self.draw(&series, x_label, &title, "values", &units[0]);
+            return self.draw(&series, x_label, &title, "values", &y_unit);
         };
-        self.draw(&series, x_label, &title, &only.name(), &units[0])
+        self.draw(&series, x_label, &title, &only.name(), &y_unit)
     }
 
     fn draw(&self, series: &[Series], x_label: &str, line: &str, y_label: &str, y_unit: &str) -> Result<String> {

@@ -32,7 +32,8 @@ impl ProbeReading {
         let shape = &description.shapes()[self.shape];
         let point = &self.point;
         let from_inside = point.normal.dot(point.offset) < 0.0;
-        line(text, format_args!("{name}: {}", description.title()));
+        let title = description.title();
+        line(text, format_args!("{name}{}{title}", if title.is_empty() { "" } else { ": " }));
         line(
             text,
             format_args!("Convention {}: {}", description.convention().label(), description.convention().formula()),
@@ -71,7 +72,13 @@ impl ProbeReading {
         line(text, format_args!(""));
         line(text, format_args!("Light {} \"{}\"", index + 1, light.name));
         line(text, format_args!("  S   = {} {}", vector_in(light.position, length), length.name()));
-        line(text, format_args!("  r   = ‖S − P‖ = {} m", digits(term.distance)));
+        let metres = digits(term.distance);
+        if length == LengthUnit::Metre {
+            line(text, format_args!("  r   = ‖S − P‖ = {metres} m"));
+        } else {
+            let distance = digits(length.from_metres(term.distance));
+            line(text, format_args!("  r   = ‖S − P‖ = {distance} {} = {metres} m", length.name()));
+        }
         line(text, format_args!("  L   = (S − P)/r = {}", vector(term.direction)));
         let cosine = self.point.normal.dot(term.direction);
         line(text, format_args!("  cosθ_i = max(0, N·L) = max(0, {}) = {}", digits(cosine), digits(term.cos_theta_i)));
@@ -81,8 +88,9 @@ impl ProbeReading {
                 line(text, format_args!("  I   = {} {intensity_unit}, isotropic", digits(term.intensity)));
             }
             Emission::Lambertian { axis } => {
-                line(text, format_args!("  axis = {}", vector(axis)));
                 let cosine = axis.dot(-term.direction);
+                line(text, format_args!("  A   = {}   axis of the light", vector(axis)));
+                line(text, format_args!("  cosγ = A·(−L) = {}", digits(cosine)));
                 let (on_axis, intensity) = (digits(light.intensity), digits(term.intensity));
                 let cosine = digits(cosine);
                 line(
@@ -130,7 +138,7 @@ impl ProbeReading {
         let (k_d, k_s) = (diffuse, specular);
         let how = match convention {
             Convention::Irradiance | Convention::Lambert | Convention::Course => format!("E k_d = E × {k_d}"),
-            Convention::Lab => format!("E k_d cosθ_o = E × {k_d} × {}", digits(self.point.cos_theta_o)),
+            Convention::Lab => format!("E k_d cosθ_o = E × {k_d} × {}", digits(self.point.cos_theta_o.max(0.0))),
             Convention::CoursePi | Convention::Radiance => format!("E k_d/π = E × {k_d}/π"),
         };
         line(text, format_args!("  diffuse  = {how} = {} {unit}   ({number})", digits(term.diffuse)));

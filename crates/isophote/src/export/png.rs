@@ -5,6 +5,9 @@ use std::io::{BufRead, Seek, Write};
 use super::{ExportError, FileMetadata, Format, PictureMetadata, channel, csv::Number, one_line, read::LONGEST_JSON};
 use crate::map::{Channel, Map, Quantity, Values};
 
+/// Keyword of the text chunk that holds a picture's metadata.
+pub(super) const METADATA_KEYWORD: &str = "isophote";
+
 /// Writes the picture, row 0 on top; missed pixels are black, with a colour map too.
 ///
 /// A value v becomes ((v − black)/(white − black))^(1/gamma), times 255 or 65535, rounded to nearest.
@@ -172,7 +175,7 @@ fn texts(map: &Map, channel: &Channel, options: &PictureOptions, range: [f64; 2]
         ("Title", one_line(&map.provenance.title)),
         ("Software", one_line(&map.provenance.program)),
         ("Description", one_line(&description(map, channel, options, range))),
-        ("isophote", metadata.to_json()),
+        (METADATA_KEYWORD, metadata.to_json()),
     ]
 }
 
@@ -225,7 +228,7 @@ pub(super) fn read_json(file: &mut (impl BufRead + Seek)) -> Result<Option<Vec<u
     let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
     let found = |reader: &png::Reader<_>| {
         let chunks = &reader.info().utf8_text;
-        chunks.iter().find(|chunk| chunk.keyword == "isophote").map(png::text_metadata::ITXtChunk::get_text)
+        chunks.iter().find(|chunk| chunk.keyword == METADATA_KEYWORD).map(png::text_metadata::ITXtChunk::get_text)
     };
     // Other programs that save the picture again may put the texts after the pixels.
     let mut text = found(&reader);

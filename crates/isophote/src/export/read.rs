@@ -92,7 +92,7 @@ fn format_of(file: &mut (impl Read + Seek)) -> io::Result<Option<Format>> {
         (b"\x76\x2f\x31\x01", Format::Exr),
         (npy::MAGIC, Format::Npy),
         (b"PK\x03\x04", Format::Npz),
-        (b"#", Format::Csv),
+        (b"# isopho", Format::Csv),
     ];
     Ok(magic.into_iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, format)| format))
 }

@@ -10,7 +10,7 @@ pub struct Reference;
 
 impl Renderer for Reference {
     fn name(&self) -> String {
-        "reference, double".into()
+        "double precision, reference".into()
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {

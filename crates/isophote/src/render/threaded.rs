@@ -16,7 +16,7 @@ pub struct Threaded {
 
 impl Renderer for Threaded {
     fn name(&self) -> String {
-        "threads, double".into()
+        "double precision, threaded".into()
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {

@@ -53,7 +53,7 @@ impl Value {
         match self {
             Self::Boolean => "true or false".into(),
             Self::Integer(number) => format!("the number {number}"),
-            Self::Float(number) => format!("the number {number}"),
+            Self::Float(number) => format!("the number {number:?}"),
             Self::Text(_) => "a text".into(),
             Self::Array(items) => format!("a list of {}", items.len()),
             Self::Table(_) => "a table".into(),

@@ -142,7 +142,7 @@ impl Scene {
             .read_to_end(&mut bytes)
             .map_err(|error| SceneError::unreadable(name, describe(&error), None))?;
         if bytes.len() as u64 > limits::FILE_BYTES {
-            return Err(too_large(name, "more bytes"));
+            return Err(too_large(name, &format!("more than {} bytes", limits::FILE_BYTES)));
         }
         String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();

@@ -45,19 +45,19 @@ pub struct SceneSource {
     pub camera: Option<CameraSource>,
     /// The materials by name.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    #[schemars(extend("default" = {}))]
+    #[schemars(default, extend("default" = {}))]
     pub material: BTreeMap<String, MaterialSource>,
     /// The spheres.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    #[schemars(extend("default" = []))]
+    #[schemars(default, extend("default" = []))]
     pub sphere: Vec<SphereSource>,
     /// The lights.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    #[schemars(extend("default" = []))]
+    #[schemars(default, extend("default" = []))]
     pub light: Vec<LightSource>,
     /// Points whose values are reported.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    #[schemars(extend("default" = []))]
+    #[schemars(default, extend("default" = []))]
     pub probe: Vec<ProbeSource>,
 }
 

@@ -1,6 +1,7 @@
 //! Which surface a point lies on.
 
 use super::{Geometry, NearestPoint};
+use crate::text::significant;
 use crate::units::{Choice, LengthUnit};
 use crate::vector::Vector;
 
@@ -49,10 +50,9 @@ impl Miss {
         let side = if self.distance < 0.0 { "inside" } else { "outside" };
         let distance = length.from_metres(self.distance.abs());
         let [x, y, z] = self.point().map(|coordinate| length.from_metres(coordinate));
+        let distance = significant(distance, 6);
         let unit = length.name();
-        format!(
-            "it is {distance:.6} {unit} {side} the surface of \"{name}\"; the nearest point there is [{x}, {y}, {z}]"
-        )
+        format!("it is {distance} {unit} {side} the surface of \"{name}\"; the nearest point there is [{x}, {y}, {z}]")
     }
 
     /// The nearest surface point, in metres.

@@ -9,7 +9,7 @@ pub enum FigureError {
     #[error(transparent)]
     Channel(#[from] IsophoteError),
     /// No pixel shows a surface, so the colour bar has no ends.
-    #[error("no surface is seen in the map, so its values have no range; give `range`")]
+    #[error("no surface is seen in the map, so its values have no range of their own; give one")]
     NothingSeen,
     /// A value to be drawn is infinite or not a number.
     #[error("{name} is {value}, which has no place in a figure")]

@@ -7,16 +7,18 @@ use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb};
 
 use crate::export::figure::FigureError;
 use crate::export::figure::text::FONT;
+use crate::export::png::METADATA_KEYWORD;
 
 const LARGEST_SIDE: f64 = 16384.0;
 
 /// Draws an SVG as a PNG file with `scale` pixels a px.
 ///
-/// Every text is set in the embedded font, whatever fonts the system has, and no file is read.
+/// Every text is set in the embedded font, whatever fonts the system has, and no file is read. The file carries the
+/// metadata, a [`FileMetadata`](crate::export::FileMetadata) as JSON, where there are any.
 ///
 /// # Errors
 /// [`FigureError`]: the text is no SVG, or the picture would have no pixels or too many.
-pub fn svg_to_png(svg: &str, scale: f64) -> Result<Vec<u8>, FigureError> {
+pub fn svg_to_png(svg: &str, scale: f64, metadata: Option<&str>) -> Result<Vec<u8>, FigureError> {
     let tree = Tree::from_str(svg, &options()).map_err(|error| FigureError::Svg(error.to_string()))?;
     let [width, height] = [tree.size().width(), tree.size().height()].map(|side| (f64::from(side) * scale).round());
     let is_possible = |side: f64| (1.0..=LARGEST_SIDE).contains(&side);
@@ -29,7 +31,21 @@ pub fn svg_to_png(svg: &str, scale: f64) -> Result<Vec<u8>, FigureError> {
     #[expect(clippy::cast_possible_truncation, reason = "the renderer works in single precision")]
     let transform = Transform::from_scale(scale as f32, scale as f32);
     resvg::render(&tree, transform, &mut pixmap.as_mut());
-    pixmap.encode_png().map_err(|error| FigureError::Png(error.to_string()))
+    encode(pixmap, metadata).map_err(|error| FigureError::Png(error.to_string()))
+}
+
+fn encode(pixmap: Pixmap, metadata: Option<&str>) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    if let Some(metadata) = metadata {
+        encoder.add_itxt_chunk(METADATA_KEYWORD.into(), metadata.into())?;
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&pixmap.take_demultiplied())?;
+    writer.finish()?;
+    Ok(bytes)
 }
 
 fn options() -> Options<'static> {
@@ -67,7 +83,7 @@ mod tests {
                 "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"20\" height=\"20\" font-family=\"{family}\">\
                  <rect width=\"20\" height=\"20\" fill=\"#fff\"/><text x=\"3\" y=\"16\" font-size=\"16\">{letter}</text></svg>"
             );
-            let (size, rgba) = decode(&svg_to_png(&svg, 2.0).unwrap());
+            let (size, rgba) = decode(&svg_to_png(&svg, 2.0, None).unwrap());
             assert_eq!(size, [40, 40]);
             rgba.chunks_exact(4).filter(|pixel| pixel[0] < 128).count()
         }).to_vec()
@@ -84,10 +100,10 @@ mod tests {
     #[test]
     fn what_is_no_picture_is_refused() {
         let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"20\" height=\"10\"/>";
-        assert_eq!(decode(&svg_to_png(svg, 1.5).unwrap()).0, [30, 15]);
+        assert_eq!(decode(&svg_to_png(svg, 1.5, None).unwrap()).0, [30, 15]);
         for scale in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e4] {
-            assert!(matches!(svg_to_png(svg, scale), Err(FigureError::PictureSize { .. })), "{scale}");
+            assert!(matches!(svg_to_png(svg, scale, None), Err(FigureError::PictureSize { .. })), "{scale}");
         }
-        assert!(matches!(svg_to_png("<svg", 1.0), Err(FigureError::Svg(_))));
+        assert!(matches!(svg_to_png("<svg", 1.0, None), Err(FigureError::Svg(_))));
     }
 }

@@ -69,7 +69,8 @@ fn another_programs_file_is_told_from_a_damaged_one() {
 
     let sphere = encoded(&sample(), Format::Npy).unwrap();
     assert!(matches!(read_bytes(&sphere[..200]), Err(ReadError::NoMetadata { format: Format::Npy, .. })));
-    assert!(matches!(read_bytes(b"# a,b\n1,2\n"), Err(ReadError::NoMetadata { format: Format::Csv, .. })));
+    assert!(matches!(read_bytes(b"# isophote\nx\n1\n"), Err(ReadError::NoMetadata { format: Format::Csv, .. })));
+    assert!(matches!(read_bytes(b"# a,b\n1,2\n"), Err(ReadError::Foreign { .. })), "as are TOML and shell scripts");
     assert!(matches!(read_bytes(b"a,b\n1,2\n"), Err(ReadError::Foreign { .. })));
     assert!(matches!(read_bytes(b""), Err(ReadError::Foreign { .. })));
     assert!(matches!(read_bytes(b"\x89PNG\r\n\x1a\n"), Err(ReadError::Damaged { format: Format::Png, .. })));

@@ -109,6 +109,10 @@ impl Validator {
         if source.light.is_empty() {
             self.warn(&root.key("light"), "the scene has no lights: all is black".into(), "write a table [[light]]");
         }
+        if source.sphere.len() > 1 && !source.light.is_empty() {
+            let message = "the spheres cast no shadows on each other: this version cannot do that yet";
+            self.warn(&root.key("sphere").index(1), message.into(), "each is lit as if it were alone");
+        }
         let used: HashSet<&String> = source.sphere.iter().filter_map(|sphere| sphere.material.as_ref()).collect();
         for name in source.material.keys() {
             if !used.contains(name) {

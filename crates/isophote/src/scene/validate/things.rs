@@ -184,5 +184,5 @@ impl Names {
 }
 
 fn listed(known: &[&str]) -> String {
-    if known.is_empty() { String::new() } else { format!(": {}", known.join(", ")) }
+    if known.is_empty() { ", and a table [material.NAME] for it".into() } else { format!(": {}", known.join(", ")) }
 }

@@ -202,7 +202,7 @@ fn what_cannot_be_drawn_is_refused_by_name() {
     let refuse = |map: &Map, options: FigureOptions| map_figure_svg(map, &options).unwrap_err().to_string();
     let map = ball(20);
     let nothing = square_map(8, 1.0, |_, _| None);
-    assert!(refuse(&nothing, options()).contains("give `range`"));
+    assert!(refuse(&nothing, options()).contains("give one"));
     assert!(map_figure_svg(&nothing, &FigureOptions { range: Some([0.0, 1.0]), ..options() }).is_ok());
     for range in [[1.0, 1.0], [2.0, 1.0], [0.0, f64::INFINITY], [f64::NAN, 1.0]] {
         assert!(refuse(&map, FigureOptions { range: Some(range), ..options() }).starts_with("`range` is"));
@@ -218,7 +218,7 @@ fn what_cannot_be_drawn_is_refused_by_name() {
 #[test]
 fn the_png_shows_the_colours_and_the_texts_of_the_svg() {
     let svg = map_figure_svg(&ball(20), &FigureOptions { isophotes: 0, ..options() }).unwrap();
-    let (size, rgba) = decode(&svg_to_png(&svg, 0.5).unwrap());
+    let (size, rgba) = decode(&svg_to_png(&svg, 0.5, None).unwrap());
     let page = page(&svg);
     let sides = [(size[0], page.width), (size[1], page.height)];
     assert!(sides.iter().all(|(pixels, side)| (f64::from(*pixels) - 0.5 * side).abs() <= 0.5), "{size:?}");

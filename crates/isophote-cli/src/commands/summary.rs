@@ -1,0 +1,156 @@
+//! The numbers of a map, for people and for programs.
+
+use isophote::analysis::probe::{Place, ProbeReading};
+use isophote::analysis::statistics::{Counts, Extreme, Statistics, counts, statistics};
+use isophote::map::{Map, Quantity, Region};
+use isophote::prepare::PreparedScene;
+use isophote::text::significant;
+use isophote::units::Choice;
+use serde::Serialize;
+
+use super::probe::{self, ProbeJson};
+use super::render::unit;
+
+/// The numbers of a map.
+pub struct Summary {
+    /// The channel that is summed up.
+    main: Quantity,
+    /// The part of the image, where it is not all of it.
+    region: Option<Region>,
+    counts: Counts,
+    statistics: Option<Statistics>,
+    probes: Vec<(String, ProbeReading, Option<f64>)>,
+}
+
+impl Summary {
+    pub fn new(map: &Map, main: &Quantity, scene: &PreparedScene) -> Self {
+        let reading = |probe: &isophote::scene::Probe| {
+            let reading = scene.probe(&Place::Point(probe.at)).ok()?;
+            Some((probe.name.clone(), reading, probe.published))
+        };
+        Self {
+            main: main.clone(),
+            region: (map.region.size != map.full).then_some(map.region),
+            counts: counts(map),
+            statistics: statistics(map, main),
+            probes: scene.scene().probes().iter().filter_map(reading).collect(),
+        }
+    }
+
+    pub fn to_text(&self, scene: &PreparedScene) -> String {
+        let description = scene.scene();
+        let resolution = description.camera().resolution;
+        let Counts { pixels, visible, lit } = self.counts;
+        let unit = unit(&self.main, description);
+        let mut lines = Vec::new();
+        if !description.title().is_empty() {
+            lines.extend([description.title().to_owned(), String::new()]);
+        }
+        let mut row = |name: &str, value: String| lines.push(format!("  {name:<12}{value}"));
+        row("image", format!("{} × {} pixels{}", resolution.width, resolution.height, self.region_text()));
+        #[allow(clippy::cast_precision_loss, reason = "fewer than 2^53 pixels")]
+        let share = 100.0 * visible as f64 / pixels as f64;
+        row("visible", format!("{visible} of {pixels} pixels ({} %)", significant(share, 4)));
+        row("lit", format!("{} pixels", lit.unwrap_or(0)));
+        let convention = description.convention();
+        row("channel", format!("{}, {unit}", self.main.name()));
+        row("convention", format!("{}: {}", convention.label(), convention.formula()));
+        match &self.statistics {
+            Some(statistics) => {
+                row("maximum", extreme_text(&statistics.max, &unit, scene));
+                row("minimum", extreme_text(&statistics.min, &unit, scene));
+                row("mean", format!("{} {unit} over the visible pixels", significant(statistics.mean, 12)));
+            }
+            None if visible == 0 => row("", "no surface is seen".into()),
+            None => row("", "no extremes: this channel is not one quantity a pixel".into()),
+        }
+        let mut text = lines.join("\n") + "\n";
+        if !self.probes.is_empty() {
+            let rows: Vec<_> =
+                self.probes.iter().map(|(name, reading, published)| (name.as_str(), reading, *published)).collect();
+            text.push('\n');
+            text.push_str(&probe::table_text(&rows, scene));
+        }
+        text
+    }
+
+    fn region_text(&self) -> String {
+        self.region.map_or(String::new(), |Region { corner, size }| {
+            format!("; of these {} × {} from column {}, row {}", size.width, size.height, corner.column, corner.row)
+        })
+    }
+
+    pub fn to_json(&self, scene: &PreparedScene) -> SummaryJson {
+        let description = scene.scene();
+        let extreme = |extreme: &Extreme| ExtremeJson {
+            value: extreme.value,
+            pixel: [extreme.pixel.column, extreme.pixel.row],
+            point: point_at(extreme, scene),
+        };
+        SummaryJson {
+            title: description.title().into(),
+            resolution: [description.camera().resolution.width, description.camera().resolution.height],
+            region: self.region.map(|Region { corner, size }| [corner.column, corner.row, size.width, size.height]),
+            length: description.length().name(),
+            convention: description.convention().name(),
+            formula: description.convention().formula_number(),
+            channel: self.main.name(),
+            unit: unit(&self.main, description),
+            pixels: self.counts.pixels,
+            visible_pixels: self.counts.visible,
+            lit_pixels: self.counts.lit,
+            max: self.statistics.map(|statistics| extreme(&statistics.max)),
+            min: self.statistics.map(|statistics| extreme(&statistics.min)),
+            mean: self.statistics.map(|statistics| statistics.mean),
+            probes: self
+                .probes
+                .iter()
+                .map(|(name, reading, published)| ProbeJson::new(name, reading, *published, scene))
+                .collect(),
+        }
+    }
+}
+
+/// The same for programs; lengths in the scene's unit.
+#[derive(Serialize)]
+pub struct SummaryJson {
+    title: String,
+    resolution: [u32; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    region: Option<[u32; 4]>,
+    length: &'static str,
+    convention: &'static str,
+    formula: &'static str,
+    channel: String,
+    unit: String,
+    pixels: usize,
+    visible_pixels: usize,
+    lit_pixels: Option<usize>,
+    max: Option<ExtremeJson>,
+    min: Option<ExtremeJson>,
+    mean: Option<f64>,
+    probes: Vec<ProbeJson>,
+}
+
+#[derive(Serialize)]
+struct ExtremeJson {
+    value: f64,
+    pixel: [u32; 2],
+    point: Option<[f64; 3]>,
+}
+
+fn point_at(extreme: &Extreme, scene: &PreparedScene) -> Option<[f64; 3]> {
+    let length = scene.scene().length();
+    let hit = scene.trace_pixel(extreme.pixel)?;
+    Some(hit.point.position().to_array().map(|metres| length.from_metres(metres)))
+}
+
+fn extreme_text(extreme: &Extreme, unit: &str, scene: &PreparedScene) -> String {
+    let Extreme { value, pixel } = extreme;
+    let value = significant(*value, 12);
+    let point = point_at(extreme, scene).map_or(String::new(), |point| {
+        let [x, y, z] = point.map(|coordinate| significant(coordinate, 6));
+        format!(", point ({x}, {y}, {z}) {}", scene.scene().length().name())
+    });
+    format!("{value} {unit} at column {}, row {}{point}", pixel.column, pixel.row)
+}

@@ -1,0 +1,20 @@
+//! The command as its user meets it: every test runs the real program in a folder of its own.
+
+mod carried;
+mod check;
+mod common;
+mod explain;
+mod figures;
+mod files;
+mod help;
+mod interruption;
+mod lab;
+mod mistakes;
+mod nasty;
+mod options;
+mod pictures;
+mod probe;
+mod schema;
+mod section;
+mod starters;
+mod usage;
