@@ -109,10 +109,10 @@ pub struct RenderArguments {
 
     /// Bits of a grey .png picture
     #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
-    pub depth: String,
+    pub bits: String,
 
     /// About how many isophotes a figure shows; 0 for none
-    #[arg(long, value_name = "COUNT", default_value_t = 6, value_parser = clap::value_parser!(u8).range(0..=50))]
+    #[arg(long, value_name = "COUNT", default_value_t = crate::commands::DEFAULT_ISOPHOTES, value_parser = clap::value_parser!(u8).range(0..=50))]
     pub isophotes: u8,
 
     /// Leave pixels without a surface out of .csv files

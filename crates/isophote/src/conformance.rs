@@ -1,31 +1,12 @@
-//! The one suite that every renderer passes, and the one table of tolerances that tests read.
+//! The one suite that every renderer passes.
 
 use crate::double_double::DoubleDouble;
-use crate::map::{Pixel, Quantity, Region};
+use crate::map::{Channel, Map, Pixel, Quantity, Region, Values};
 use crate::prepare::PreparedScene;
 use crate::real::Real;
 use crate::render::{RenderError, RenderSettings, Renderer};
-
-/// How far a value may be from that of exact arithmetic.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
-    /// At every visible pixel, limb included, as a part of the map's peak.
-    pub of_peak: f64,
-    /// Where even the brightest pixel has a cosine below this, the picture shows nothing but the neighbourhood of the
-    /// terminator or of the limb: all of it is then as uncertain as that cosine, and `of_peak` grows as 1/cosine.
-    pub peak_cosine: f64,
-    /// Relative, wherever both cosθ_i of every lit light and cosθ_o exceed [`above_cosine`](Self::above_cosine).
-    pub relative: f64,
-    /// Towards the limb and the terminator the problem itself loses digits, as 1/cosine.
-    pub above_cosine: f64,
-}
-
-/// Maps in double precision. Holds while every light is at least a thousandth of a shape's size away from its
-/// surface: next to a light, E ∝ 1/r² loses the digits that r has lost, whatever the arithmetic.
-pub const DOUBLE: Tolerance = Tolerance { of_peak: 1e-12, peak_cosine: 1e-2, relative: 1e-12, above_cosine: 0.1 };
-
-/// Values at a given point: nothing is lost in finding the point, so the cosines may be smaller.
-pub const PROBE: Tolerance = Tolerance { above_cosine: 1e-3, ..DOUBLE };
+use crate::tolerance::Tolerance;
+use crate::vector::Vector;
 
 /// What was found when a renderer was held against exact arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,18 +61,19 @@ pub enum NonConformance {
         expected: f64,
         /// How far off it is.
         error: f64,
-        /// `of the peak` or `relative`.
+        /// `of the peak`, `relative` or `absolutely`.
         of: &'static str,
         /// How far off it may be.
         allowed: f64,
     },
 }
 
-/// The channels that are compared.
+/// The channels whose error is measured.
 const COMPARED: [Quantity; 4] = [Quantity::Brightness, Quantity::Irradiance, Quantity::Diffuse, Quantity::Specular];
+const IRRADIANCE: usize = 1;
 
-/// Holds a renderer against the same formulas in 32 digits, pixel by pixel: brightness, irradiance and its parts, what
-/// is seen, and that nothing is where no surface is.
+/// Holds a renderer against the same formulas in 32 digits, pixel by pixel: what is seen and that nothing is where no
+/// surface is; brightness, irradiance and its parts, by light too; depth, position and normal.
 ///
 /// # Errors
 /// The first pixel that is out of tolerance.
@@ -100,7 +82,10 @@ pub fn conforms(
     scene: &PreparedScene,
     tolerance: &Tolerance,
 ) -> Result<Deviation, NonConformance> {
-    let settings = RenderSettings { quantities: COMPARED.to_vec(), ..RenderSettings::default() };
+    let lights = scene.scene().lights().iter().map(|light| Quantity::Light(light.name.clone()));
+    let geometry = [Quantity::Depth, Quantity::Position, Quantity::Normal];
+    let quantities = COMPARED.into_iter().chain(geometry).chain(lights).collect();
+    let settings = RenderSettings { quantities, ..RenderSettings::default() };
     let map = renderer.render(scene, &settings)?;
     let exact = Exact::new(scene, map.region);
     let mut deviation = Deviation { of_peak: 0.0, relative: 0.0, visible: 0 };
@@ -122,7 +107,11 @@ pub fn conforms(
                 }
             }
         }
-        deviation.visible += usize::from(expected.is_some());
+        if let Some(expected) = expected {
+            compare_geometry(&map, index, expected, tolerance)?;
+            compare_lights(&map, index, expected, &exact.peaks[IRRADIANCE], tolerance)?;
+            deviation.visible += 1;
+        }
     }
     Ok(deviation)
 }
@@ -143,8 +132,17 @@ struct Peak {
 struct ExactPixel {
     shape: i32,
     values: [f64; 4],
-    /// The smallest of cosθ_o and the lit lights' cosθ_i.
+    /// The smallest of cosθ_o, the lit lights' cosθ_i and the Lambertian ones' cosγ.
     least_cosine: f64,
+    /// In metres.
+    distance: f64,
+    /// In metres.
+    position: Vector,
+    normal: Vector,
+    /// R, in metres.
+    size: f64,
+    /// The irradiance from each light.
+    by_light: Vec<f64>,
 }
 
 impl Exact {
@@ -171,10 +169,15 @@ impl Exact {
 fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     let hit = scene.trace_precisely(crate::camera::ScreenPosition::PixelCenter(pixel))?;
     let mut least_cosine = hit.point.cos_theta_o;
-    let shading = scene.shade(hit.shape, &hit.point, |_, term| {
-        let is_lit = DoubleDouble::zero().is_less(term.irradiance);
-        if is_lit && term.cos_theta_i.is_less(least_cosine) {
-            least_cosine = term.cos_theta_i;
+    let mut by_light = Vec::with_capacity(scene.scene().lights().len());
+    let shading = scene.shade(hit.shape, &hit.point, |light, term| {
+        by_light.push(term.irradiance.rounded());
+        if DoubleDouble::zero().is_less(term.irradiance) {
+            // cosγ of a Lambertian light, 1 of an isotropic one.
+            let cos_gamma = term.intensity / DoubleDouble::from_f64(scene.scene().lights()[light].intensity);
+            for cosine in [term.cos_theta_i, cos_gamma] {
+                least_cosine = DoubleDouble::select(cosine.is_less(least_cosine), cosine, least_cosine);
+            }
         }
     });
     let values = [shading.brightness(), shading.irradiance, shading.diffuse, shading.specular];
@@ -182,7 +185,79 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
         shape: i32::try_from(hit.shape).unwrap_or(i32::MAX),
         values: values.map(DoubleDouble::rounded),
         least_cosine: least_cosine.rounded(),
+        distance: hit.distance.rounded(),
+        position: rounded(hit.point.position()),
+        normal: rounded(hit.point.normal),
+        size: hit.point.offset.length().rounded(),
+        by_light,
     })
+}
+
+fn rounded(vector: Vector<DoubleDouble>) -> Vector {
+    Vector::new(vector.x.rounded(), vector.y.rounded(), vector.z.rounded())
+}
+
+/// Lengths as parts of themselves and of the shape's size, the normal as part of its length, which is 1.
+fn compare_geometry(
+    map: &Map,
+    index: usize,
+    expected: &ExactPixel,
+    tolerance: &Tolerance,
+) -> Result<(), NonConformance> {
+    let pixel = map.pixel(index);
+    let length = map.window.length;
+    let allowed = |size: f64| tolerance.of_peak * length.from_metres(size + expected.size);
+    let depth = map.scalar(&Quantity::Depth).map_or(f64::NAN, |values| values[index]);
+    let exact_depth = length.from_metres(expected.distance);
+    within(pixel, &Quantity::Depth, depth, exact_depth, allowed(expected.distance))?;
+    let position = expected.position.to_array().map(|coordinate| length.from_metres(coordinate));
+    let of_position = allowed(expected.position.length());
+    for (quantity, expected, allowed) in
+        [(Quantity::Position, position, of_position), (Quantity::Normal, expected.normal.to_array(), tolerance.of_peak)]
+    {
+        let found = match map.channel(&quantity).map(|channel| &channel.values) {
+            Some(Values::Vector(values)) => values[index],
+            _ => [f64::NAN; 3],
+        };
+        for (found, expected) in found.into_iter().zip(expected) {
+            within(pixel, &quantity, found, expected, allowed)?;
+        }
+    }
+    Ok(())
+}
+
+/// Each light's share as a part of the brightest irradiance of all lights.
+fn compare_lights(
+    map: &Map,
+    index: usize,
+    expected: &ExactPixel,
+    peak: &Peak,
+    tolerance: &Tolerance,
+) -> Result<(), NonConformance> {
+    let mut lights = map.channels().iter().filter(|channel| matches!(channel.quantity, Quantity::Light(_)));
+    for expected in &expected.by_light {
+        let Some(Channel { quantity, values: Values::Scalar(values), .. }) = lights.next() else {
+            return within(map.pixel(index), &Quantity::Irradiance, f64::NAN, *expected, 0.0);
+        };
+        within(
+            map.pixel(index),
+            quantity,
+            values[index],
+            *expected,
+            tolerance.at_peak(peak.least_cosine) * peak.value,
+        )?;
+    }
+    Ok(())
+}
+
+fn within(pixel: Pixel, quantity: &Quantity, found: f64, expected: f64, allowed: f64) -> Result<(), NonConformance> {
+    let error = (found - expected).abs();
+    // Written so that NaN fails.
+    if !(error <= allowed) {
+        let channel = quantity.name();
+        return Err(NonConformance::Value { pixel, channel, found, expected, error, of: "absolutely", allowed });
+    }
+    Ok(())
 }
 
 struct Compared<'q> {
@@ -204,7 +279,7 @@ impl Compared<'_> {
         let peak = self.peak.value;
         let of_peak = if peak > 0.0 { difference / peak } else { difference };
         deviation.of_peak = deviation.of_peak.max(of_peak);
-        let allowed = tolerance.of_peak * (tolerance.peak_cosine / self.peak.least_cosine).max(1.0);
+        let allowed = tolerance.at_peak(self.peak.least_cosine);
         // Written so that NaN fails.
         if !(of_peak <= allowed) {
             return Err(self.off(expected, of_peak, "of the peak", allowed));

@@ -72,7 +72,7 @@ impl DoubleDouble {
     #[must_use]
     pub fn ln(self) -> Self {
         let one = Self::from_f64(1.0);
-        let mut logarithm = Self::from_f64(self.high.ln());
+        let mut logarithm = Self::from_f64(libm::log(self.high));
         for _ in 0..2 {
             logarithm = logarithm + self * (-logarithm).exp() - one;
         }

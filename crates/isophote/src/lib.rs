@@ -17,5 +17,6 @@ pub mod scene;
 pub mod shade;
 pub mod shape;
 pub mod text;
+pub mod tolerance;
 pub mod units;
 pub mod vector;

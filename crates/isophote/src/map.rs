@@ -75,24 +75,6 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// The channel's name in outputs: `brightness`, `normal`, `light.lamp`, …
-    #[must_use]
-    pub fn name(&self) -> String {
-        match self {
-            Self::Brightness => "brightness".into(),
-            Self::Irradiance => "irradiance".into(),
-            Self::Diffuse => "diffuse".into(),
-            Self::Specular => "specular".into(),
-            Self::Depth => "depth".into(),
-            Self::Position => "position".into(),
-            Self::Normal => "normal".into(),
-            Self::Shape => "shape".into(),
-            Self::Light(light) => format!("light.{light}"),
-        }
-    }
-}
-
-impl Quantity {
     /// The quantities that every map can hold, whatever the lights are called.
     pub const COMMON: [Self; 8] = [
         Self::Brightness,
@@ -123,6 +105,22 @@ impl Quantity {
         match name.strip_prefix("light.") {
             Some(light) => Some(Self::Light(light.into())),
             None => Self::COMMON.into_iter().find(|quantity| quantity.name() == name),
+        }
+    }
+
+    /// The channel's name in outputs: `brightness`, `normal`, `light.lamp`, …
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self {
+            Self::Brightness => "brightness".into(),
+            Self::Irradiance => "irradiance".into(),
+            Self::Diffuse => "diffuse".into(),
+            Self::Specular => "specular".into(),
+            Self::Depth => "depth".into(),
+            Self::Position => "position".into(),
+            Self::Normal => "normal".into(),
+            Self::Shape => "shape".into(),
+            Self::Light(light) => format!("light.{light}"),
         }
     }
 }

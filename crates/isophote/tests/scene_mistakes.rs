@@ -1,5 +1,8 @@
 //! Every mistake that a scene file can have is reported with its place, the line, what is allowed; and all at once.
 
+use isophote::map::{Quantity, Resolution, Values};
+use isophote::prepare::PreparedScene;
+use isophote::render::{Reference, RenderSettings, Renderer};
 use isophote::scene::{ProblemKind, Scene, SceneError, Syntax};
 use proptest::prelude::*;
 
@@ -181,9 +184,21 @@ proptest! {
             let end = text.ceil_char_boundary((start + removed).min(text.len()));
             text.replace_range(start..end, &inserted);
         }
-        if let Err(error) = Scene::from_text("mutated", &text, syntax) {
-            prop_assert!(!error.problems.is_empty());
-            prop_assert!(!error.report(true).is_empty());
+        match Scene::from_text("mutated", &text, syntax) {
+            Err(error) => {
+                prop_assert!(!error.problems.is_empty());
+                prop_assert!(!error.report(true).is_empty());
+            }
+            Ok(scene) => {
+                let small = scene.with_resolution(Resolution { width: 8, height: 6 }).expect("it was valid");
+                let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
+                let map = Reference.render(&PreparedScene::new(&small), &settings).expect("a valid scene renders");
+                for channel in map.channels() {
+                    if let Values::Scalar(values) = &channel.values {
+                        prop_assert!(values.iter().all(|value| value.is_finite()), "{}", channel.quantity.name());
+                    }
+                }
+            }
         }
     }
 }

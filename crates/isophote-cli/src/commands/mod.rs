@@ -11,6 +11,7 @@ mod summary;
 
 use anyhow::Result;
 use clap::CommandFactory;
+pub use render::DEFAULT_ISOPHOTES;
 
 use crate::args::{Arguments, Command, RenderArguments};
 use crate::failure::Usage;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use isophote::analysis::probe::{Place, ProbeError, ProbeReading, Visibility};
+use isophote::analysis::probe::{Place, ProbeError, ProbeReading, SeenFromEye};
 use isophote::prepare::PreparedScene;
 use isophote::scene::{Scene, limits};
 use isophote::text::significant;
@@ -170,7 +170,7 @@ pub fn table_text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &Prepa
     };
     let mut text = table(&columns, &readings.iter().map(row).collect::<Vec<_>>());
     for (name, reading, _) in readings {
-        if let Some(note) = visibility_note(reading, description) {
+        if let Some(note) = unseen_note(reading, description) {
             // Writing to a text cannot fail.
             let _ = writeln!(text, "  {name} is not seen from the eye: {note}");
         }
@@ -178,11 +178,11 @@ pub fn table_text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &Prepa
     text
 }
 
-fn visibility_note(reading: &ProbeReading, scene: &Scene) -> Option<String> {
-    match reading.visibility {
-        Visibility::Seen => None,
-        Visibility::FacesAway => Some("the surface faces away there (θ_o ≥ 90°)".into()),
-        Visibility::HiddenBy(shape) => Some(format!("\"{}\" stands before it", scene.shapes()[shape].name)),
+fn unseen_note(reading: &ProbeReading, scene: &Scene) -> Option<String> {
+    match reading.seen {
+        SeenFromEye::Seen => None,
+        SeenFromEye::FacesAway => Some("the surface faces away there (θ_o ≥ 90°)".into()),
+        SeenFromEye::HiddenBy(shape) => Some(format!("\"{}\" stands before it", scene.shapes()[shape].name)),
     }
 }
 

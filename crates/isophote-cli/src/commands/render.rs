@@ -36,10 +36,13 @@ pub fn run(arguments: &RenderArguments) -> Result<String> {
     if arguments.json { numbers::json(&summary.to_json(&scene)) } else { Ok(summary.to_text(&scene)) }
 }
 
+/// About how many isophotes a figure shows that is not told.
+pub const DEFAULT_ISOPHOTES: u8 = 6;
+
 impl RenderArguments {
     /// What the bare command does: the lab's scene and its picture.
     pub fn lab() -> Self {
-        Self { depth: "8".into(), gamma: 1.0, isophotes: 6, ..Self::default() }
+        Self { bits: "8".into(), gamma: 1.0, isophotes: DEFAULT_ISOPHOTES, ..Self::default() }
     }
 }
 
@@ -77,7 +80,7 @@ impl<'a> Job<'a> {
         if arguments.lights {
             wanted.extend(scene.lights().iter().map(|light| Quantity::Light(light.name.clone())));
         }
-        let depth = if arguments.depth == "16" { Depth::Sixteen } else { Depth::Eight };
+        let depth = if arguments.bits == "16" { Depth::Sixteen } else { Depth::Eight };
         let style = MapStyle {
             quantity: main.clone(),
             range: arguments.range,
@@ -100,7 +103,7 @@ impl<'a> Job<'a> {
             return Err(Usage(format!("the channel `{}` {message}", self.main.name())));
         }
         if has_picture && self.style.depth == Depth::Sixteen && self.style.colormap.is_some() {
-            let message = "--depth 16 does not go with --colormap: colours have 8 bits, only grey pictures have 16";
+            let message = "--bits 16 does not go with --colormap: colours have 8 bits, only grey pictures have 16";
             return Err(Usage(message.into()));
         }
         Ok(())
@@ -145,9 +148,14 @@ impl<'a> Job<'a> {
         let note = |is_given: bool, option: &str, file: &str| {
             is_given.then(|| format!("{option} has no effect: no {file} file is written"))
         };
+        let has_figure = !self.figures.is_empty();
+        let has_either = has_picture || has_figure;
         [
+            note(!has_either && arguments.range.is_some(), "--range", ".png or figure"),
+            note(!has_either && arguments.colormap.is_some(), "--colormap", ".png or figure"),
+            note(!has_figure && arguments.isophotes != DEFAULT_ISOPHOTES, "--isophotes", "figure"),
             note(!has_picture && arguments.gamma != 1.0, "--gamma", ".png"),
-            note(!has_picture && self.style.depth == Depth::Sixteen, "--depth", ".png"),
+            note(!has_picture && self.style.depth == Depth::Sixteen, "--bits", ".png"),
             note(arguments.visible_only && !self.files.iter().any(MapFile::is_table), "--visible-only", ".csv"),
         ]
         .into_iter()

@@ -53,7 +53,8 @@ impl Summary {
         row("visible", format!("{visible} of {pixels} pixels ({} %)", significant(share, 4)));
         row("lit", format!("{} pixels", lit.unwrap_or(0)));
         let convention = description.convention();
-        row("channel", format!("{}, {unit}", self.main.name()));
+        let separator = if unit.is_empty() { "" } else { ", " };
+        row("channel", format!("{}{separator}{unit}", self.main.name()));
         row("convention", format!("{}: {}", convention.label(), convention.formula()));
         match &self.statistics {
             Some(statistics) => {

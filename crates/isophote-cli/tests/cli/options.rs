@@ -149,8 +149,8 @@ fn a_scene_without_anything_to_see_says_so_and_makes_a_black_picture() {
 #[test]
 fn options_that_do_nothing_are_named() {
     let folder = Folder::new();
-    let notes = folder.ok("render --size 8x6 --gamma 2 --depth 16 --visible-only -o map.npy").stderr;
-    for option in ["--gamma", "--depth", "--visible-only"] {
+    let notes = folder.ok("render --size 8x6 --gamma 2 --bits 16 --visible-only -o map.npy").stderr;
+    for option in ["--gamma", "--bits", "--visible-only"] {
         assert!(notes.contains(&format!("{option} has no effect")), "{notes}");
     }
     assert!(!folder.ok("render --size 8x6 --gamma 2 --visible-only -o map.png -o map.csv").stderr.contains("effect"));

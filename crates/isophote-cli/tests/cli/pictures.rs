@@ -49,7 +49,7 @@ fn gamma_brightens_the_middle_tones_and_keeps_black_and_white() {
 fn depth_16_keeps_sixteen_bits_of_the_map() {
     let folder = Folder::new();
     let (values, maximum) = brightness(&folder);
-    folder.ok("render --size 80x60 --depth 16 -o map.png");
+    folder.ok("render --size 80x60 --bits 16 -o map.png");
     let picture = image::open(folder.path("map.png")).unwrap();
     assert_eq!(picture.color(), image::ColorType::L16);
     let levels: Vec<f64> = picture.into_luma16().as_raw().iter().map(|&level| f64::from(level)).collect();

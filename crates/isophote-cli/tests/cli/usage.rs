@@ -57,7 +57,7 @@ fn numbers_that_mean_nothing_are_refused() {
     refused("render --range 1", &["expected MIN,MAX"]);
     refused("render --range 0,inf", &["inf is not a finite number"]);
     refused("render --gamma 0", &["allowed: 0.1 to 10"]);
-    refused("render --depth 12", &["8, 16"]);
+    refused("render --bits 12", &["8, 16"]);
     refused("render --threads 0", &["--threads", "allowed: 1 to 1024"]);
     refused("render --threads 99999", &["--threads", "allowed: 1 to 1024"]);
     refused("render --colormap jet", &["viridis"]);
@@ -72,7 +72,7 @@ fn numbers_that_mean_nothing_are_refused() {
 fn what_cannot_be_a_picture_is_refused_before_anything_is_computed() {
     let slow = "render --size 11000x11000 --threads 1";
     let since = Instant::now();
-    refused(&format!("{slow} --depth 16 --colormap viridis -o map.npy -o map.png"), &["--depth 16", "--colormap"]);
+    refused(&format!("{slow} --bits 16 --colormap viridis -o map.npy -o map.png"), &["--bits 16", "--colormap"]);
     refused(&format!("{slow} --channel position -o map.png"), &["`position` cannot be a picture"]);
     refused(&format!("{slow} --channel shape --figure map.svg"), &["`shape` cannot be a picture"]);
     refused(&format!("{slow} -o map.png -o map.csv --figure map.png"), &["map.png would be written twice"]);

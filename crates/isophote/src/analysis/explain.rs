@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::probe::{ProbeReading, Visibility};
+use super::probe::{ProbeReading, SeenFromEye};
 use crate::light::Emission;
 use crate::prepare::PreparedScene;
 use crate::real::Real;
@@ -47,9 +47,9 @@ impl ProbeReading {
         line(text, format_args!("  O   = {}   eye", vector_in(scene.frame().eye, length)));
         line(text, format_args!("  V   = {}   (O − P)/‖O − P‖", vector(point.view)));
         line(text, format_args!("  cosθ_o = N·V = {}", digits(point.cos_theta_o)));
-        match self.visibility {
-            Visibility::Seen => {}
-            Visibility::FacesAway => {
+        match self.seen {
+            SeenFromEye::Seen => {}
+            SeenFromEye::FacesAway => {
                 line(
                     text,
                     format_args!(
@@ -57,7 +57,7 @@ impl ProbeReading {
                     ),
                 );
             }
-            Visibility::HiddenBy(other) => {
+            SeenFromEye::HiddenBy(other) => {
                 let other = &description.shapes()[other].name;
                 line(text, format_args!("  The eye does not see the point: \"{other}\" stands before it."));
             }
@@ -124,35 +124,41 @@ impl ProbeReading {
         if !convention.uses_material() {
             return;
         }
-        let material = &scene.scene().materials()[material];
-        let Reflectance { diffuse, specular, shininess } = material.reflectance;
-        if convention.has_specular_part() && specular > 0.0 {
-            let half = if term.half.length() > 0.0 { term.half.normalized() } else { term.half };
-            line(text, format_args!("  H   = (L + V)/‖L + V‖ = {}", vector(half)));
-            let cosine = term.cos_squared_theta_h.sqrt();
-            let lobe = f64::cosine_power(term.cos_squared_theta_h, term.sin_squared_theta_h, shininess);
-            line(text, format_args!("  cosθ_h = N·H = {},  (N·H)^{shininess} = {}", digits(cosine), digits(lobe)));
+        let Reflectance { diffuse: k_d, specular: k_s, shininess: n } = scene.scene().materials()[material].reflectance;
+        let irradiance = digits(term.irradiance);
+        let end = format!("{}   ({})", convention.unit(scene.scene().quantities()), convention.formula_number());
+        if self.point.cos_theta_o <= 0.0 {
+            line(text, format_args!("  diffuse = specular = 0 {end}, since θ_o ≥ 90°"));
+            return;
         }
-        let unit = convention.unit(scene.scene().quantities());
-        let number = convention.formula_number();
-        let (k_d, k_s) = (diffuse, specular);
-        let how = match convention {
-            Convention::Irradiance | Convention::Lambert | Convention::Course => format!("E k_d = E × {k_d}"),
-            Convention::Lab => format!("E k_d cosθ_o = E × {k_d} × {}", digits(self.point.cos_theta_o.max(0.0))),
-            Convention::CoursePi | Convention::Radiance => format!("E k_d/π = E × {k_d}/π"),
+        let diffuse = match convention {
+            Convention::Irradiance | Convention::Lambert | Convention::Course => {
+                format!("E k_d = {irradiance} × {k_d}")
+            }
+            Convention::Lab => {
+                format!("E k_d cosθ_o = {irradiance} × {k_d} × {}", digits(self.point.cos_theta_o))
+            }
+            Convention::CoursePi | Convention::Radiance => format!("E k_d/π = {irradiance} × {k_d}/π"),
         };
-        line(text, format_args!("  diffuse  = {how} = {} {unit}   ({number})", digits(term.diffuse)));
-        if convention.has_specular_part() {
-            let how = match convention {
-                Convention::CoursePi => format!("E k_s/π (N·H)^n = E × {k_s}/π × (N·H)^{shininess}"),
-                Convention::Radiance => {
-                    let constant = digits(lobe_constant(shininess));
-                    format!("E k_s c(n) (N·H)^n = E × {k_s} × {constant} × (N·H)^{shininess}")
-                }
-                _ => format!("E k_s (N·H)^n = E × {k_s} × (N·H)^{shininess}"),
-            };
-            line(text, format_args!("  specular = {how} = {} {unit}   ({number})", digits(term.specular)));
+        line(text, format_args!("  diffuse  = {diffuse} = {} {end}", digits(term.diffuse)));
+        if !convention.has_specular_part() || k_s == 0.0 {
+            return;
         }
+        let half = if term.half.length() > 0.0 { term.half.normalized() } else { term.half };
+        line(text, format_args!("  H   = (L + V)/‖L + V‖ = {}", vector(half)));
+        let cosine = digits(term.cos_squared_theta_h.sqrt());
+        let lobe = digits(f64::cosine_power(term.cos_squared_theta_h, term.sin_squared_theta_h, n));
+        line(text, format_args!("  cosθ_h = max(0, N·H) = {cosine},  cosθ_h^n = {cosine}^{n} = {lobe}"));
+        let specular = match convention {
+            Convention::CoursePi => format!("E k_s/π (N·H)^n = {irradiance} × {k_s}/π × {lobe}"),
+            Convention::Radiance => {
+                let constant = digits(lobe_constant(n));
+                line(text, format_args!("  c(n) = (n+2)(n+4)/(8π(n + 2^(−n/2))) = {constant}   (3.6)"));
+                format!("E k_s c(n) (N·H)^n = {irradiance} × {k_s} × {constant} × {lobe}")
+            }
+            _ => format!("E k_s (N·H)^n = {irradiance} × {k_s} × {lobe}"),
+        };
+        line(text, format_args!("  specular = {specular} = {} {end}", digits(term.specular)));
     }
 
     fn explain_sum(&self, text: &mut String, scene: &PreparedScene) {

@@ -1,6 +1,5 @@
 //! Exact values at a point.
 
-use crate::camera::ScreenPosition;
 use crate::map::Pixel;
 use crate::prepare::PreparedScene;
 use crate::shade::{LightTerm, Shading};
@@ -41,12 +40,12 @@ pub struct ProbeReading {
     /// Each light's term, in the order of the scene.
     pub terms: Vec<LightTerm>,
     /// Whether the eye sees the point.
-    pub visibility: Visibility,
+    pub seen: SeenFromEye,
 }
 
-/// Whether the eye sees a point.
+/// Whether the eye would see a point if it looked there, in the picture or not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Visibility {
+pub enum SeenFromEye {
     /// It does.
     Seen,
     /// The surface faces away from the eye there: θ_o ≥ 90°.
@@ -65,7 +64,7 @@ impl ProbeReading {
     /// Whether the eye sees the point.
     #[must_use]
     pub fn is_seen(&self) -> bool {
-        self.visibility == Visibility::Seen
+        self.seen == SeenFromEye::Seen
     }
 }
 
@@ -113,8 +112,8 @@ impl PreparedScene {
             Place::Pixel(pixel) => self.probe_pixel(pixel),
             Place::Angles { shape, theta, phi } => {
                 let frame = self.frame();
-                let ring = frame.right * phi.cos() + frame.up * phi.sin();
-                let direction = ring * theta.sin() - frame.forward * theta.cos();
+                let ring = frame.right * libm::cos(phi) + frame.up * libm::sin(phi);
+                let direction = ring * libm::sin(theta) - frame.forward * libm::cos(theta);
                 let geometry = self.scene().shapes().get(shape).ok_or(ProbeError::NoShapes)?.geometry;
                 Ok(self.reading_at(&Located { shape, nearest: geometry.in_direction(direction) }))
             }
@@ -127,31 +126,27 @@ impl PreparedScene {
             return Err(ProbeError::NoSuchPixel { pixel });
         }
         let hit = self.trace_pixel(pixel).ok_or(ProbeError::NothingSeen { pixel })?;
-        Ok(self.reading(hit.shape, hit.point, Visibility::Seen))
+        Ok(self.reading(hit.shape, hit.point, SeenFromEye::Seen))
     }
 
     fn reading_at(&self, located: &Located) -> ProbeReading {
         let point = self.surface_point(located);
-        self.reading(located.shape, point, self.visibility_from_eye(located.shape, &point))
+        self.reading(located.shape, point, self.seen_from_eye(located.shape, &point))
     }
 
-    fn reading(&self, shape: usize, point: SurfacePoint, visibility: Visibility) -> ProbeReading {
+    fn reading(&self, shape: usize, point: SurfacePoint, seen: SeenFromEye) -> ProbeReading {
         let mut terms = Vec::with_capacity(self.scene().lights().len());
         let shading = self.shade(shape, &point, |_, term| terms.push(*term));
-        ProbeReading { shape, point, shading, terms, visibility }
+        ProbeReading { shape, point, shading, terms, seen }
     }
 
-    fn visibility_from_eye(&self, shape: usize, point: &SurfacePoint) -> Visibility {
+    fn seen_from_eye(&self, shape: usize, point: &SurfacePoint) -> SeenFromEye {
         if point.cos_theta_o <= 0.0 {
-            return Visibility::FacesAway;
+            return SeenFromEye::FacesAway;
         }
-        let Some([x, y]) = self.frame().project(point.position()) else {
-            // Behind the camera: no ray of the picture goes there, though nothing hides the point.
-            return Visibility::Seen;
-        };
-        match self.trace(ScreenPosition::Point { x, y }) {
-            Some(hit) if hit.shape != shape => Visibility::HiddenBy(hit.shape),
-            _ => Visibility::Seen,
+        match self.first_shape_towards(point.position()) {
+            Some(first) if first != shape => SeenFromEye::HiddenBy(first),
+            _ => SeenFromEye::Seen,
         }
     }
 }

@@ -111,25 +111,34 @@ pub fn split<'m>(map: &'m mut Map, scene: &PreparedScene) -> Vec<Row<'m>> {
 
 /// A channel cut into rows.
 fn parts<'m>(channel: &'m mut Channel, width: usize, scene: &Scene) -> Vec<RowChannel<'m>> {
-    let scalar = match &channel.quantity {
-        Quantity::Brightness => Scalar::Brightness,
-        Quantity::Irradiance => Scalar::Irradiance,
-        Quantity::Diffuse => Scalar::Diffuse,
-        Quantity::Specular => Scalar::Specular,
-        Quantity::Light(name) => {
-            // The map was made for this scene, so the light is there.
-            Scalar::Light(scene.lights.iter().position(|light| light.name == *name).unwrap_or_default())
+    let Channel { quantity, values, .. } = channel;
+    match values {
+        Values::Scalar(values) => {
+            let scalar = Scalar::of(quantity, scene);
+            values.chunks_mut(width).map(|row| RowChannel::Scalar(scalar, row)).collect()
         }
-        Quantity::Depth | Quantity::Position | Quantity::Normal | Quantity::Shape => Scalar::Depth,
-    };
-    let is_normal = channel.quantity == Quantity::Normal;
-    match &mut channel.values {
-        Values::Scalar(values) => values.chunks_mut(width).map(|row| RowChannel::Scalar(scalar, row)).collect(),
         Values::Vector(values) => {
-            let row = if is_normal { RowChannel::Normal } else { RowChannel::Position };
+            let row = if *quantity == Quantity::Normal { RowChannel::Normal } else { RowChannel::Position };
             values.chunks_mut(width).map(row).collect()
         }
         Values::Index(values) => values.chunks_mut(width).map(RowChannel::Shape).collect(),
+    }
+}
+
+impl Scalar {
+    fn of(quantity: &Quantity, scene: &Scene) -> Self {
+        let light = |name: &String| scene.lights.iter().position(|light| light.name == *name);
+        match quantity {
+            Quantity::Brightness => Self::Brightness,
+            Quantity::Irradiance => Self::Irradiance,
+            Quantity::Diffuse => Self::Diffuse,
+            Quantity::Specular => Self::Specular,
+            Quantity::Depth => Self::Depth,
+            Quantity::Light(name) => Self::Light(light(name).expect("the map was made for this scene")),
+            Quantity::Position | Quantity::Normal | Quantity::Shape => {
+                unreachable!("`empty_channel` gives it other values")
+            }
+        }
     }
 }
 

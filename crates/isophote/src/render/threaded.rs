@@ -21,7 +21,9 @@ impl Renderer for Threaded {
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
         let mut map = rows::empty_map(scene, settings, self.name())?;
-        let threads = self.threads.map_or(0, std::num::NonZeroUsize::get);
+        // Told outright: the pool would otherwise take its size from an environment variable.
+        let available = std::thread::available_parallelism();
+        let threads = self.threads.or(available.ok()).map_or(1, std::num::NonZeroUsize::get);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()

@@ -109,8 +109,16 @@ impl Geometry {
         }
     }
 
+    /// How far away a point is from the shape, in sizes of the shape.
+    #[must_use]
+    pub fn remoteness(&self, point: Vector) -> f64 {
+        match self {
+            Self::Sphere(sphere) => (sphere.center - point).length() / sphere.radius,
+        }
+    }
+
     /// How near a place must be to the surface to count as on it: a billionth of the shape's size, in metres. Ten
-    /// typed digits are enough for that, and no value moves by more than the ninth digit.
+    /// typed digits are enough for that.
     #[must_use]
     pub fn surface_tolerance(&self) -> f64 {
         match self {

@@ -28,8 +28,9 @@ impl Sphere {
         let perpendicular = ray.direction * along - to_center;
         let clearance = (radius * radius - perpendicular.dot(perpendicular)) / (radius * radius);
         // Seen from outside, a sphere behind the eye is a miss as clear as any.
-        let is_ahead = if from_inside { T::zero().is_less(radius) } else { T::zero().is_less(along) };
-        Approach { clearance: T::select(is_ahead, clearance, -T::from_f64(1.0)), along, perpendicular }
+        let clearance =
+            if from_inside { clearance } else { T::select(T::zero().is_less(along), clearance, -T::from_f64(1.0)) };
+        Approach { clearance, along, perpendicular }
     }
 
     /// The nearest root of ‖O + tD − C‖² = R² with t > 0: the near one from outside, the far one from inside, with N

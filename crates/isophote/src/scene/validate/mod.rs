@@ -36,6 +36,8 @@ pub mod limits {
     pub const SMALLEST: f64 = 1e-12;
     /// The largest intensity and power.
     pub const INTENSITY: f64 = 1e30;
+    /// How many sizes of a shape the eye may be away before a warning says that the promised digits are not kept.
+    pub const REMOTENESS: f64 = 1e9;
     /// The largest shininess.
     pub const SHININESS: f64 = 1e5;
 }

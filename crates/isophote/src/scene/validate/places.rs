@@ -1,6 +1,6 @@
 //! Where things stand to each other.
 
-use super::{Checked, Validator};
+use super::{Checked, Validator, limits};
 use crate::camera::Camera;
 use crate::light::Light;
 use crate::scene::document::Path;
@@ -16,6 +16,11 @@ impl Validator {
                 let message = format!("the eye is on the surface of \"{}\"", shape.name);
                 let path = Path::root().key("camera").key("eye");
                 self.wrong(&path, message, "allowed: outside or inside a shape, not on its surface");
+            }
+            if shape.geometry.remoteness(camera.eye) > limits::REMOTENESS {
+                let message = format!("\"{}\" is too far from the eye for the promised digits", shape.name);
+                let path = Path::root().key("camera").key("eye");
+                self.warn(&path, message, "they are kept up to a billion times the shape's size");
             }
         }
     }

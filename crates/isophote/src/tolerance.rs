@@ -1,0 +1,33 @@
+//! The one table of tolerances: what is promised, and what tests read.
+
+/// How far a value may be from that of exact arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// At every visible pixel, limb included, as a part of the map's peak.
+    pub of_peak: f64,
+    /// Where even the brightest pixel has a cosine below this, the picture shows nothing but the neighbourhood of the
+    /// terminator or of the limb: all of it is then as uncertain as that cosine, and `of_peak` grows as 1/cosine.
+    pub peak_cosine: f64,
+    /// Relative, wherever cosθ_o, cosθ_i of every lit light and cosγ of every Lambertian one exceed
+    /// [`above_cosine`](Self::above_cosine), for values above a millionth of the peak.
+    pub relative: f64,
+    /// Towards the limb and the terminator the problem itself loses digits, as 1/cosine.
+    pub above_cosine: f64,
+}
+
+/// Maps in double precision, against exact arithmetic on the scene in metres as it is stored.
+///
+/// It holds while every light is at least a thousandth of a shape's size away from its surface (next to a light,
+/// E ∝ 1/r² loses the digits that r has lost, whatever the arithmetic), and the eye within 1e9 sizes of every shape.
+pub const DOUBLE: Tolerance = Tolerance { of_peak: 1e-12, peak_cosine: 1e-2, relative: 1e-12, above_cosine: 0.1 };
+
+/// Values at a given point: nothing is lost in finding the point, so the cosines may be smaller.
+pub const PROBE: Tolerance = Tolerance { above_cosine: 1e-3, ..DOUBLE };
+
+impl Tolerance {
+    /// [`of_peak`](Self::of_peak) in a picture whose brightest pixel has this cosine.
+    #[must_use]
+    pub fn at_peak(&self, least_cosine: f64) -> f64 {
+        self.of_peak * (self.peak_cosine / least_cosine).max(1.0)
+    }
+}
