@@ -14,8 +14,8 @@ help: ## List the targets
 demo: ## Render the lab's scene: its numbers, lab.png, and lab-figure.png with axes and isophotes
 	$(ISOPHOTE) render -o lab.png --figure lab-figure.png
 
-test: $(PYTHON_ENV)/ready ## Run every test (with NumPy as a foreign reader, where Python 3 is there)
-	@if [ -x $(PYTHON_ENV)/bin/python ]; then export ISOPHOTE_PYTHON="$$PWD/$(PYTHON_ENV)/bin/python"; fi; \
+test: python-env ## Run every test (with NumPy as a foreign reader, where Python 3 can have it)
+	@if [ -e $(PYTHON_ENV)/ready ]; then export ISOPHOTE_PYTHON="$$PWD/$(PYTHON_ENV)/bin/python"; fi; \
 	$(CARGO) test --workspace
 
 check: generated-is-current ## Formatting, lints, documentation without warnings, generated files up to date
@@ -52,12 +52,11 @@ $(GENERATED):
 	$(CARGO) run --quiet -- section --quiet --row 300 -c brightness -c diffuse -c specular \
 		-o $@/docs/images/lab-section.png
 
-# NumPy reads what we write for it. Without Python 3 that one test says that it is skipped.
-$(PYTHON_ENV)/ready:
-	@mkdir -p $(PYTHON_ENV)
-	@if command -v python3 >/dev/null; then \
-		python3 -m venv $(PYTHON_ENV) && $(PYTHON_ENV)/bin/python -m pip install --quiet --disable-pip-version-check numpy; \
-	else \
-		echo "python3 is not there: the test with NumPy will be skipped"; \
-	fi
-	@touch $@
+# NumPy reads what we write for it. Without it that one test says that it is skipped, and all others run.
+.PHONY: python-env
+python-env:
+	@[ -e $(PYTHON_ENV)/ready ] || { \
+		rm -rf $(PYTHON_ENV) && mkdir -p target && python3 -m venv $(PYTHON_ENV) && \
+		$(PYTHON_ENV)/bin/python -m pip install --quiet --disable-pip-version-check numpy && \
+		touch $(PYTHON_ENV)/ready; \
+	} || { rm -rf $(PYTHON_ENV); echo "no Python with NumPy here: the test that needs it is skipped"; }
