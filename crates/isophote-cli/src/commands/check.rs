@@ -3,10 +3,11 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use isophote::camera::CameraFrame;
-use isophote::light::Emission;
-use isophote::scene::Scene;
-use isophote::shape::Geometry;
+use isophote::camera::{Camera, CameraFrame, Screen};
+use isophote::light::{Emission, Light};
+use isophote::reflectance::Reflectance;
+use isophote::scene::{Material, Probe, Problem, Scene, Shape};
+use isophote::shape::{Geometry, Sphere};
 use isophote::text::significant;
 use isophote::units::Choice;
 use isophote::vector::Vector;
@@ -59,7 +60,7 @@ fn to_text(scene: &Scene) -> String {
 fn materials(scene: &Scene) -> Option<String> {
     let columns = [("name", Align::Left), ("k_d", Align::Right), ("k_s", Align::Right), ("n", Align::Right)];
     let rows = scene.materials().iter().map(|material| {
-        let isophote::reflectance::Reflectance { diffuse, specular, shininess } = material.reflectance;
+        let Reflectance { diffuse, specular, shininess } = material.reflectance;
         let shininess = if specular == 0.0 { "–".into() } else { short(shininess) };
         vec![material.name.clone(), short(diffuse), short(specular), shininess]
     });
@@ -127,63 +128,66 @@ fn vector(vector: Vector) -> String {
 
 /// The same in SI units, for programs.
 fn to_json(scene: &Scene) -> Value {
-    let camera = scene.camera();
-    let frame = CameraFrame::<f64>::new(camera);
-    let materials: Vec<Value> = scene
-        .materials()
-        .iter()
-        .map(|material| {
-            let reflectance = material.reflectance;
-            json!({"name": material.name, "diffuse": reflectance.diffuse, "specular": reflectance.specular,
-            "shininess": reflectance.shininess})
-        })
-        .collect();
-    let shapes: Vec<Value> = scene
-        .shapes()
-        .iter()
-        .map(|shape| {
-            let Geometry::Sphere(sphere) = shape.geometry;
-            let material = shape.material.map(|index| scene.materials()[index].name.as_str());
-            json!({"name": shape.name, "shape": "sphere", "center": sphere.center.to_array(), "radius": sphere.radius,
-            "material": material})
-        })
-        .collect();
-    let lights: Vec<Value> = scene
-        .lights()
-        .iter()
-        .map(|light| {
-            let (emission, axis) = match light.emission {
-                Emission::Isotropic => ("isotropic", None),
-                Emission::Lambertian { axis } => ("lambertian", Some(axis.to_array())),
-            };
-            json!({"name": light.name, "position": light.position.to_array(), "intensity": light.intensity,
-            "power": light.power(), "emission": emission, "axis": axis})
-        })
-        .collect();
-    let probes: Vec<Value> = scene
-        .probes()
-        .iter()
-        .map(|probe| json!({"name": probe.name, "at": probe.at.to_array(), "published": probe.published}))
-        .collect();
-    let warnings: Vec<Value> = scene
-        .warnings()
-        .iter()
-        .map(|warning| {
-            json!({"path": warning.path, "message": warning.message, "help": warning.help,
-            "line": warning.place.as_ref().map(|place| place.line)})
-        })
-        .collect();
     json!({
-        "title": scene.title(), "length": "m", "length_in_file": scene.length().name(),
-        "handedness": camera.handedness.name(), "convention": scene.convention().name(),
-        "formula": scene.convention().formula_number(), "quantities": scene.quantities().name(),
+        "title": scene.title(),
+        "length": "m",
+        "length_in_file": scene.length().name(),
+        "handedness": scene.camera().handedness.name(),
+        "convention": scene.convention().name(),
+        "formula": scene.convention().formula_number(),
+        "quantities": scene.quantities().name(),
         "unit": scene.convention().unit(scene.quantities()),
-        "camera": {
-            "eye": camera.eye.to_array(), "forward": frame.forward.to_array(), "up": frame.up.to_array(),
-            "right": frame.right.to_array(),
-            "screen": {"distance": camera.screen.distance, "x": camera.screen.x, "y": camera.screen.y},
-            "resolution": [camera.resolution.width, camera.resolution.height],
-        },
-        "materials": materials, "shapes": shapes, "lights": lights, "probes": probes, "warnings": warnings,
+        "camera": camera_json(scene.camera()),
+        "materials": scene.materials().iter().map(material_json).collect::<Vec<_>>(),
+        "shapes": scene.shapes().iter().map(|shape| shape_json(shape, scene)).collect::<Vec<_>>(),
+        "lights": scene.lights().iter().map(light_json).collect::<Vec<_>>(),
+        "probes": scene.probes().iter().map(probe_json).collect::<Vec<_>>(),
+        "warnings": scene.warnings().iter().map(warning_json).collect::<Vec<_>>(),
     })
+}
+
+fn camera_json(camera: &Camera) -> Value {
+    let frame = CameraFrame::<f64>::new(camera);
+    let Screen { distance, x, y } = camera.screen;
+    json!({
+        "eye": camera.eye.to_array(),
+        "forward": frame.forward.to_array(),
+        "up": frame.up.to_array(),
+        "right": frame.right.to_array(),
+        "screen": {"distance": distance, "x": x, "y": y},
+        "resolution": [camera.resolution.width, camera.resolution.height],
+    })
+}
+
+fn material_json(material: &Material) -> Value {
+    let Reflectance { diffuse, specular, shininess } = material.reflectance;
+    json!({"name": material.name, "diffuse": diffuse, "specular": specular, "shininess": shininess})
+}
+
+fn shape_json(shape: &Shape, scene: &Scene) -> Value {
+    let Geometry::Sphere(Sphere { center, radius }) = shape.geometry;
+    let material = shape.material.map(|index| scene.materials()[index].name.as_str());
+    json!({
+        "name": shape.name, "shape": "sphere", "center": center.to_array(), "radius": radius, "material": material,
+    })
+}
+
+fn light_json(light: &Light) -> Value {
+    let (emission, axis) = match light.emission {
+        Emission::Isotropic => ("isotropic", None),
+        Emission::Lambertian { axis } => ("lambertian", Some(axis.to_array())),
+    };
+    json!({
+        "name": light.name, "position": light.position.to_array(), "intensity": light.intensity,
+        "power": light.power(), "emission": emission, "axis": axis,
+    })
+}
+
+fn probe_json(probe: &Probe) -> Value {
+    json!({"name": probe.name, "at": probe.at.to_array(), "published": probe.published})
+}
+
+fn warning_json(warning: &Problem) -> Value {
+    let line = warning.place.as_ref().map(|place| place.line);
+    json!({"path": warning.path, "message": warning.message, "help": warning.help, "line": line})
 }

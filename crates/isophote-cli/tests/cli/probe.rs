@@ -203,7 +203,7 @@ fn explain_and_json_exclude_each_other() {
 fn a_point_behind_the_camera_is_hidden_by_what_stands_before_it() {
     let cover = "[[sphere]]\nname = \"cover\"\ncenter = [0, 0, -3]\nradius = 0.5\nmaterial = \"clay\"\n\n";
     let back = "[[sphere]]\nname = \"back\"\ncenter = [0, 0, -5]\nradius = 1\nmaterial = \"clay\"\n\n";
-    let folder = Folder::with("behind.toml", &LAB.replacen("[[light]]", &format!("{cover}{back}[[light]]"), 1));
+    let folder = Folder::with("behind.toml", LAB.replacen("[[light]]", &format!("{cover}{back}[[light]]"), 1));
     let table = folder.ok("probe behind.toml --at 0,0,-4 --at 0,0,-2.5").stdout;
     assert!(table.contains("(0, 0, -4) is not seen from the eye: \"cover\" stands before it"), "{table}");
     assert_eq!(table.matches("is not seen").count(), 1, "nothing stands before the cover: {table}");
