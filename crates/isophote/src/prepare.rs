@@ -153,12 +153,6 @@ impl PreparedScene {
         if shape.eye_inside && !shape.light_inside[light] { 0.0 } else { 1.0 }
     }
 
-    /// The convention applied to a shape's material.
-    #[must_use]
-    pub fn formula(&self, shape: usize) -> &BrightnessFormula {
-        &self.shapes[shape].formula
-    }
-
     /// A point of a surface as the eye sees it, also where the eye cannot: cosθ_o is then negative.
     #[must_use]
     pub fn surface_point(&self, located: &Located) -> SurfacePoint {

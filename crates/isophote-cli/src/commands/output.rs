@@ -154,7 +154,12 @@ pub fn write_figure(
                 .map_err(|error| anyhow!("cannot draw the figure: {error}"))?
         }
     };
-    let written = write_atomically(path, |file| Ok(Interruptible(file).write_all(&bytes)?));
+    write_bytes(&bytes, path, notes)
+}
+
+/// Writes a file whose content is there already.
+pub fn write_bytes(bytes: &[u8], path: &Path, notes: &mut Vec<String>) -> Result<()> {
+    let written = write_atomically(path, |file| Ok(Interruptible(file).write_all(bytes)?));
     crate::progress::check()?;
     written?;
     notes.push(format!("wrote {}", path.display()));

@@ -1,13 +1,12 @@
 //! `isophote section`: values along a line.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::Path;
 
 use anyhow::Result;
 use isophote::analysis::section::{Sample, SectionLine};
+use isophote::export::atomic;
 use isophote::export::figure::{SectionOptions, SectionPoint, Series, section_figure_svg};
-use isophote::export::{atomic, write_atomically};
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::scene::Scene;
@@ -15,11 +14,10 @@ use isophote::text::significant;
 use isophote::units::Choice;
 use serde::Serialize;
 
-use super::output::{FigureFormat, figure_format, refuse_twice, write_figure};
+use super::output::{FigureFormat, figure_format, refuse_twice, write_bytes, write_figure};
 use super::render::{channels, unit};
 use crate::args::SectionArguments;
 use crate::failure::{self, Usage};
-use crate::progress::Interruptible;
 use crate::table::{Align, table};
 use crate::{load, numbers};
 
@@ -48,13 +46,7 @@ pub fn run(arguments: &SectionArguments) -> Result<String> {
     let mut notes = Vec::new();
     for (path, output) in outputs {
         match output {
-            Output::Csv => {
-                let csv = section.to_csv();
-                let written = write_atomically(path, |file| Ok(Interruptible(file).write_all(csv.as_bytes())?));
-                crate::progress::check()?;
-                written?;
-                notes.push(format!("wrote {}", path.display()));
-            }
+            Output::Csv => write_bytes(section.to_csv().as_bytes(), path, &mut notes)?,
             Output::Figure(format) => write_figure(&svg, None, path, format, &mut notes)?,
         }
     }

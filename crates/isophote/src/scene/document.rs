@@ -160,12 +160,6 @@ impl Path {
         self.step(Step::Index(index))
     }
 
-    /// Whether this path is `other` or leads to something inside it.
-    #[must_use]
-    pub fn is_within(&self, other: &Self) -> bool {
-        self.0.starts_with(&other.0)
-    }
-
     fn step(&self, step: Step) -> Self {
         let mut steps = self.0.clone();
         steps.push(step);
