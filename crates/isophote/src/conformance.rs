@@ -1,7 +1,7 @@
 //! The one suite that every renderer passes.
 
 use crate::double_double::DoubleDouble;
-use crate::map::{Channel, Map, Pixel, Quantity, Region, Values};
+use crate::map::{Map, Pixel, Quantity, Region, Scalars, Values};
 use crate::prepare::PreparedScene;
 use crate::real::Real;
 use crate::render::{RenderError, RenderSettings, Renderer};
@@ -89,15 +89,16 @@ pub fn conforms(
     let map = renderer.render(scene, &settings)?;
     let exact = Exact::new(scene, map.region);
     let mut deviation = Deviation { of_peak: 0.0, relative: 0.0, visible: 0 };
+    let shapes = map.mask().shapes();
     for (index, expected) in exact.pixels.iter().enumerate() {
         let pixel = map.pixel(index);
-        let found = map.shapes()[index];
+        let found = shapes[index];
         let expected_shape = expected.as_ref().map_or(-1, |expected| expected.shape);
         if found != expected_shape {
             return Err(NonConformance::Visibility { pixel, found, expected: expected_shape });
         }
         for (channel, quantity) in COMPARED.iter().enumerate() {
-            let found = map.scalar(quantity).map_or(f64::NAN, |values| values[index]);
+            let found = map.scalar(quantity).map_or(f64::NAN, |values| values.at(index));
             match expected {
                 None if found == 0.0 => {}
                 None => return Err(NonConformance::NotZero { pixel, channel: quantity.name(), value: found }),
@@ -207,7 +208,7 @@ fn compare_geometry(
     let pixel = map.pixel(index);
     let length = map.window.length;
     let allowed = |size: f64| tolerance.of_peak * length.from_metres(size + expected.size);
-    let depth = map.scalar(&Quantity::Depth).map_or(f64::NAN, |values| values[index]);
+    let depth = map.scalar(&Quantity::Depth).map_or(f64::NAN, |values| values.at(index));
     let exact_depth = length.from_metres(expected.distance);
     within(pixel, &Quantity::Depth, depth, exact_depth, allowed(expected.distance))?;
     let position = expected.position.to_array().map(|coordinate| length.from_metres(coordinate));
@@ -234,15 +235,16 @@ fn compare_lights(
     peak: &Peak,
     tolerance: &Tolerance,
 ) -> Result<(), NonConformance> {
-    let mut lights = map.channels().iter().filter(|channel| matches!(channel.quantity, Quantity::Light(_)));
+    let lights = map.channels().iter().filter(|channel| matches!(channel.quantity, Quantity::Light(_)));
+    let mut lights = lights.map(|channel| (&channel.quantity, Scalars::of(&channel.values)));
     for expected in &expected.by_light {
-        let Some(Channel { quantity, values: Values::Scalar(values), .. }) = lights.next() else {
+        let Some((quantity, Some(values))) = lights.next() else {
             return within(map.pixel(index), &Quantity::Irradiance, f64::NAN, *expected, 0.0);
         };
         within(
             map.pixel(index),
             quantity,
-            values[index],
+            values.at(index),
             *expected,
             tolerance.at_peak(peak.least_cosine) * peak.value,
         )?;

@@ -1,6 +1,6 @@
 //! Maps of given functions, for tests of what reads maps.
 
-use crate::map::{Channel, Map, Pixel, Provenance, Quantity, Region, Resolution, Values, Window};
+use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Values, Window};
 use crate::units::LengthUnit;
 
 /// What a sample map shows at one pixel.
@@ -28,7 +28,8 @@ pub(crate) fn map_over(size: Resolution, window: Window, seen: impl Fn(f64, f64)
         })
         .collect();
     let brightness = pixels.iter().map(|pixel| pixel.map_or(0.0, |seen| seen.brightness)).collect();
-    let shapes = pixels.iter().map(|pixel| pixel.map_or(-1, |seen| seen.shape)).collect();
+    let shapes: Vec<i32> = pixels.iter().map(|pixel| pixel.map_or(-1, |seen| seen.shape)).collect();
+    let mask = Mask::of_shapes(size, &shapes);
     let channel = |quantity, unit: &str, values| Channel { quantity, unit: unit.into(), values };
     Map {
         full: size,
@@ -46,6 +47,7 @@ pub(crate) fn map_over(size: Resolution, window: Window, seen: impl Fn(f64, f64)
             channel(Quantity::Normal, "1", Values::Vector(vec![[0.0; 3]; size.pixels()])),
             channel(Quantity::Shape, "", Values::Index(shapes)),
         ],
+        mask,
     }
 }
 

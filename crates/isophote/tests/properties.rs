@@ -24,9 +24,9 @@ fn render(source: &SceneSource) -> Rendered {
     let map = Reference.render(&scene, &settings).expect("it renders");
     let cosine = |index| scene.trace_pixel(map.pixel(index)).map_or(1.0, |hit| hit.point.cos_theta_o);
     Rendered {
-        brightness: map.scalar(&Quantity::Brightness).expect("asked for").to_vec(),
-        shapes: map.shapes().to_vec(),
-        cos_theta_o: (0..map.shapes().len()).map(cosine).collect(),
+        brightness: map.scalar(&Quantity::Brightness).expect("asked for").iter().collect(),
+        shapes: map.mask().shapes(),
+        cos_theta_o: (0..map.region.size.pixels()).map(cosine).collect(),
     }
 }
 

@@ -76,6 +76,9 @@ impl<'a> Job<'a> {
             if files.iter().any(MapFile::holds_many_channels) {
                 wanted.extend(Quantity::COMMON);
             }
+        } else if files.iter().any(MapFile::holds_many_channels) {
+            // What tells the background from the dark goes with every file that has room for it.
+            wanted.push(Quantity::Shape);
         }
         if arguments.lights {
             wanted.extend(scene.lights().iter().map(|light| Quantity::Light(light.name.clone())));

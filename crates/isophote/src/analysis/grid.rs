@@ -1,13 +1,13 @@
 //! The grid of pixel centres that contours are drawn on, and the segments inside its cells.
 
 use crate::analysis::isophotes::ScreenPoint;
-use crate::map::Map;
+use crate::map::{Map, Scalars};
 
 /// A scalar channel with its mask. An edge between neighbouring centres has the number 2·index for the one from pixel
 /// `index` to its right neighbour and 2·index + 1 for the one to its lower neighbour.
 pub(super) struct Grid<'map> {
     map: &'map Map,
-    values: &'map [f64],
+    values: Scalars<'map>,
     width: usize,
     height: usize,
 }
@@ -19,14 +19,14 @@ pub(super) struct Segment {
 }
 
 impl<'map> Grid<'map> {
-    pub(super) fn new(map: &'map Map, values: &'map [f64]) -> Self {
+    pub(super) fn new(map: &'map Map, values: Scalars<'map>) -> Self {
         let size = map.region.size;
         Self { map, values, width: size.width as usize, height: size.height as usize }
     }
 
     /// The segments of all cells, row by row.
     pub(super) fn segments(&self, level: f64) -> Vec<Segment> {
-        let shapes = self.map.shapes();
+        let shapes = self.map.mask().shapes();
         let mut segments = Vec::new();
         for row in 1..self.height {
             for column in 1..self.width {
@@ -43,7 +43,7 @@ impl<'map> Grid<'map> {
     }
 
     fn push_cell(&self, corners: [usize; 4], level: f64, segments: &mut Vec<Segment>) {
-        let values = corners.map(|pixel| self.values[pixel]);
+        let values = corners.map(|pixel| self.values.at(pixel));
         let above = values.map(|value| value >= level);
         // Edge k comes before corner k clockwise: left, top, right, bottom.
         let edges = [2 * corners[0] + 1, 2 * corners[0], 2 * corners[1] + 1, 2 * corners[3]];
@@ -64,7 +64,7 @@ impl<'map> Grid<'map> {
     pub(super) fn crossing(&self, edge: usize, level: f64) -> ScreenPoint {
         let (pixel, downwards) = (edge / 2, edge % 2 == 1);
         let neighbour = if downwards { pixel + self.width } else { pixel + 1 };
-        let (from, to) = (self.values[pixel], self.values[neighbour]);
+        let (from, to) = (self.values.at(pixel), self.values.at(neighbour));
         let fraction = (level - from) / (to - from);
         let (along_row, along_column) = if downwards { (0.0, fraction) } else { (fraction, 0.0) };
         #[expect(clippy::cast_precision_loss, reason = "image sizes are far below 2^53")]

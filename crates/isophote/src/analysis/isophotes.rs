@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::analysis::grid::Grid;
 pub use crate::analysis::levels::nice_levels;
-use crate::map::{Map, Quantity};
+use crate::map::{Map, Quantity, Scalars};
 
 /// The contour of one level.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,7 +78,7 @@ pub fn isophotes(map: &Map, quantity: &Quantity, levels: &[f64]) -> Result<Vec<I
     Ok(levels.iter().map(|&level| Isophote { level, lines: lines(&grid, level) }).collect())
 }
 
-fn scalar<'map>(map: &'map Map, quantity: &Quantity) -> Result<&'map [f64], IsophoteError> {
+fn scalar<'map>(map: &'map Map, quantity: &Quantity) -> Result<Scalars<'map>, IsophoteError> {
     let name = quantity.name();
     if map.channel(quantity).is_none() {
         let held: Vec<String> = map.channels().iter().map(|channel| channel.quantity.name()).collect();

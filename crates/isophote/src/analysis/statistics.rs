@@ -1,6 +1,6 @@
 //! Extremes and mean of a channel.
 
-use crate::map::{Map, Pixel, Quantity};
+use crate::map::{Map, Pixel, Quantity, Scalars};
 use crate::real::Sum;
 
 /// Statistics of a scalar channel over the pixels that see a surface.
@@ -38,12 +38,12 @@ pub struct Counts {
 #[must_use]
 pub fn statistics(map: &Map, quantity: &Quantity) -> Option<Statistics> {
     let values = map.scalar(quantity)?;
-    let visible = || map.shapes().iter().zip(values).enumerate().filter(|(_, (shape, _))| **shape >= 0);
-    let (first, (_, &value)) = visible().next()?;
-    let (mut max, mut min) = ((first, value), (first, value));
+    let first = map.mask().indices().next()?;
+    let (mut max, mut min) = ((first, values.at(first)), (first, values.at(first)));
     let mut sum = Sum::new();
     let mut count = 0.0;
-    for (index, (_, &value)) in visible() {
+    for index in map.mask().indices() {
+        let value = values.at(index);
         if value > max.1 {
             max = (index, value);
         }
@@ -60,10 +60,10 @@ pub fn statistics(map: &Map, quantity: &Quantity) -> Option<Statistics> {
 /// Counts the pixels of a map.
 #[must_use]
 pub fn counts(map: &Map) -> Counts {
-    let shapes = map.shapes();
+    let lit = |values: Scalars<'_>| map.mask().indices().filter(|&index| values.at(index) > 0.0).count();
     Counts {
-        pixels: shapes.len(),
-        visible: shapes.iter().filter(|&&shape| shape >= 0).count(),
-        lit: map.scalar(&Quantity::Irradiance).map(|values| values.iter().filter(|&&value| value > 0.0).count()),
+        pixels: map.region.size.pixels(),
+        visible: map.mask().visible(),
+        lit: map.scalar(&Quantity::Irradiance).map(lit),
     }
 }

@@ -35,9 +35,9 @@ pub fn write(map: &Map, rows: Rows, out: &mut impl Write) -> Result<u64, ExportE
     let names: Vec<_> = columns.iter().flatten().map(String::as_str).collect();
     writeln!(out, "column,row,x,y,shape{}{}", if names.is_empty() { "" } else { "," }, names.join(","))?;
     let mut written = 0;
-    for index in 0..map.region.size.pixels() {
-        if rows == Rows::All || map.is_visible(index) {
-            write_row(map, index, out)?;
+    for (index, shape) in map.mask().shapes().into_iter().enumerate() {
+        if rows == Rows::All || shape >= 0 {
+            write_row(map, index, shape, out)?;
             written += 1;
         }
     }
@@ -50,7 +50,7 @@ fn column_names(map: &Map) -> Vec<Vec<String>> {
     let columns = |(channel, name): (&Channel, String)| match (&channel.quantity, &channel.values) {
         (Quantity::Shape, _) => vec![],
         (_, Values::Vector(_)) => ["x", "y", "z"].map(|axis| format!("{name}.{axis}")).to_vec(),
-        (_, Values::Scalar(_) | Values::Index(_)) => vec![name],
+        (_, Values::Scalar(_) | Values::Single(_) | Values::Index(_)) => vec![name],
     };
     map.channels().iter().zip(names).map(columns).collect()
 }
@@ -84,17 +84,18 @@ fn write_comments(map: &Map, columns: &[Vec<String>], out: &mut impl Write) -> R
 
 const KEY: &str = "isophote: ";
 
-fn write_row(map: &Map, index: usize, out: &mut impl Write) -> Result<(), ExportError> {
+fn write_row(map: &Map, index: usize, shape: i32, out: &mut impl Write) -> Result<(), ExportError> {
     let (region, window) = (map.region, map.window);
     let width = region.size.width as usize;
     let (column, row) = (index % width, index / width);
     let x = centre(window.x, column, width);
     let y = centre([window.y[1], window.y[0]], row, region.size.height as usize);
     let (full_column, full_row) = (region.corner.column as usize + column, region.corner.row as usize + row);
-    write!(out, "{full_column},{full_row},{},{},{}", Number(x), Number(y), map.shapes()[index])?;
+    write!(out, "{full_column},{full_row},{},{},{}", Number(x), Number(y), shape)?;
     for channel in map.channels().iter().filter(|channel| channel.quantity != Quantity::Shape) {
         match &channel.values {
             Values::Scalar(values) => write!(out, ",{}", Number(values[index]))?,
+            Values::Single(values) => write!(out, ",{}", Number(f64::from(values[index])))?,
             Values::Vector(values) => {
                 let [x, y, z] = values[index].map(Number);
                 write!(out, ",{x},{y},{z}")?;

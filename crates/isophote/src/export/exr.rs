@@ -92,6 +92,7 @@ fn samples(map: &Map, channel: &Channel, component: usize) -> Result<Vec<f32>, E
     };
     match &channel.values {
         Values::Scalar(values) => values.iter().copied().enumerate().map(rounded).collect(),
+        Values::Single(values) => Ok(values.clone()),
         Values::Vector(values) => values.iter().map(|vector| vector[component]).enumerate().map(rounded).collect(),
         Values::Index(indices) => indices.iter().enumerate().map(exact).collect(),
     }

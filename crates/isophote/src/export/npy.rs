@@ -37,6 +37,10 @@ pub(super) fn write_array(out: &mut impl Write, size: Resolution, values: &Value
             out.write_all(&header("<f8", &format!("({height}, {width})")))?;
             write_numbers(out, values, f64::to_le_bytes)
         }
+        Values::Single(values) => {
+            out.write_all(&header("<f4", &format!("({height}, {width})")))?;
+            write_numbers(out, values, f32::to_le_bytes)
+        }
         Values::Vector(values) => {
             out.write_all(&header("<f8", &format!("({height}, {width}, 3)")))?;
             write_numbers(out, values.as_flattened(), f64::to_le_bytes)

@@ -26,7 +26,7 @@ pub fn write(map: &Map, out: &mut (impl Write + Seek)) -> Result<(), ExportError
     write_text(&mut archive, &FileMetadata::of_stored(map, stored_as).to_json())?;
     start(&mut archive, "mask", size.pixels() as u64)?;
     archive.write_all(&npy::header("|b1", &format!("({}, {})", size.height, size.width)))?;
-    npy::write_numbers(&mut archive, map.shapes(), |shape| [u8::from(shape >= 0)])?;
+    npy::write_numbers(&mut archive, &map.mask().shapes(), |shape| [u8::from(shape >= 0)])?;
     for (channel, name) in map.channels().iter().zip(&names) {
         start(&mut archive, name, bytes(&channel.values))?;
         npy::write_array(&mut archive, size, &channel.values)?;
@@ -108,6 +108,7 @@ const ALWAYS_BELOW_4_GIB: u64 = u32::MAX as u64 - 65_536;
 fn bytes(values: &Values) -> u64 {
     match values {
         Values::Scalar(values) => 8 * values.len() as u64,
+        Values::Single(values) => 4 * values.len() as u64,
         Values::Vector(values) => 24 * values.len() as u64,
         Values::Index(indices) => 4 * indices.len() as u64,
     }

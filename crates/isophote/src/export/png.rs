@@ -3,7 +3,7 @@
 use std::io::{BufRead, Seek, Write};
 
 use super::{ExportError, FileMetadata, Format, PictureMetadata, channel, csv::Number, one_line, read::LONGEST_JSON};
-use crate::map::{Channel, Map, Quantity, Values};
+use crate::map::{Channel, Map, Quantity, Scalars, Values};
 
 /// Keyword of the text chunk that holds a picture's metadata.
 pub(super) const METADATA_KEYWORD: &str = "isophote";
@@ -62,7 +62,7 @@ impl PictureOptions<'_> {
         Self { quantity, range: None, gamma: 1.0, depth: Depth::Eight, color: None }
     }
 
-    fn validate<'v>(&self, channel: &'v Channel) -> Result<&'v [f64], ExportError> {
+    fn validate<'v>(&self, channel: &'v Channel) -> Result<Scalars<'v>, ExportError> {
         if !(self.gamma > 0.0 && self.gamma.is_finite()) {
             return Err(ExportError::Gamma { gamma: self.gamma });
         }
@@ -70,17 +70,17 @@ impl PictureOptions<'_> {
             return Err(ExportError::ColorDepth { color: color.name.into() });
         }
         let holds = match &channel.values {
-            Values::Scalar(values) => return Ok(values),
+            Values::Scalar(values) => return Ok(Scalars::Double(values)),
+            Values::Single(values) => return Ok(Scalars::Single(values)),
             Values::Vector(_) => "three numbers",
             Values::Index(_) => "an index",
         };
         Err(ExportError::NotPicture { name: channel.quantity.name(), holds })
     }
 
-    fn range_for(&self, map: &Map, channel: &Channel, values: &[f64]) -> Result<[f64; 2], ExportError> {
-        let visible = values.iter().zip(map.shapes()).filter(|(_, shape)| **shape >= 0);
-        let [black, white] =
-            self.range.unwrap_or_else(|| [0.0, visible.fold(0.0, |greatest, (value, _)| value.max(greatest))]);
+    fn range_for(&self, map: &Map, channel: &Channel, values: Scalars<'_>) -> Result<[f64; 2], ExportError> {
+        let visible = map.mask().indices().map(|index| values.at(index));
+        let [black, white] = self.range.unwrap_or_else(|| [0.0, visible.fold(0.0, f64::max)]);
         let sound = (white - black).is_finite() && (black < white || self.range.is_none());
         if sound {
             Ok([black, white])
@@ -130,32 +130,30 @@ pub struct PictureReport {
     pub clamped_above: usize,
 }
 
-fn quantize(map: &Map, values: &[f64], options: &PictureOptions, range: [f64; 2]) -> (Vec<u8>, PictureReport) {
+fn quantize(map: &Map, values: Scalars<'_>, options: &PictureOptions, range: [f64; 2]) -> (Vec<u8>, PictureReport) {
     let [black, white] = range;
     let mut report = PictureReport { range, clamped_below: 0, clamped_above: 0 };
-    let mut pixels = Vec::with_capacity(values.len() * bytes_per_pixel(options));
-    for (value, shape) in values.iter().zip(map.shapes()) {
-        if *shape < 0 {
-            pixels.resize(pixels.len() + bytes_per_pixel(options), 0);
-            continue;
-        }
-        report.clamped_below += usize::from(*value < black);
-        report.clamped_above += usize::from(*value > white);
+    let bytes = bytes_per_pixel(options);
+    let mut pixels = vec![0; values.len() * bytes];
+    for index in map.mask().indices() {
+        let value = values.at(index);
+        report.clamped_below += usize::from(value < black);
+        report.clamped_above += usize::from(value > white);
         // 0/0 would be no number in a map without light.
         let linear = if black < white { ((value - black) / (white - black)).clamp(0.0, 1.0) } else { 0.0 };
         #[expect(clippy::float_cmp, reason = "1 is the exact default, and then powers are not worth their time")]
         let level = if options.gamma == 1.0 { linear } else { libm::pow(linear, options.gamma.recip()) };
-        push_level(&mut pixels, level, options);
+        write_level(&mut pixels[index * bytes..][..bytes], level, options);
     }
     (pixels, report)
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a level is between 0 and 1")]
-fn push_level(pixels: &mut Vec<u8>, level: f64, options: &PictureOptions) {
+fn write_level(pixel: &mut [u8], level: f64, options: &PictureOptions) {
     match (&options.color, options.depth) {
-        (Some(color), _) => pixels.extend((color.color)(level)),
-        (None, Depth::Eight) => pixels.push((level * 255.0).round() as u8),
-        (None, Depth::Sixteen) => pixels.extend(((level * 65535.0).round() as u16).to_be_bytes()),
+        (Some(color), _) => pixel.copy_from_slice(&(color.color)(level)),
+        (None, Depth::Eight) => pixel[0] = (level * 255.0).round() as u8,
+        (None, Depth::Sixteen) => pixel.copy_from_slice(&((level * 65535.0).round() as u16).to_be_bytes()),
     }
 }
 

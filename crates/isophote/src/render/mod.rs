@@ -29,7 +29,7 @@ pub trait Renderer {
 pub struct RenderSettings<'o> {
     /// The part of the image to compute; all of it by default.
     pub region: Option<Region>,
-    /// The channels, in the order of the outputs; `shape` is always added. Duplicates count once.
+    /// The channels, in the order of the outputs. Duplicates count once.
     pub quantities: Vec<Quantity>,
     /// Hears of the progress and may stop it.
     pub observer: Option<&'o dyn Observer>,

@@ -1,7 +1,7 @@
 //! The reference: one pixel after the other, in double precision.
 
 use super::{RenderError, RenderSettings, Renderer, rows};
-use crate::map::Map;
+use crate::map::{Map, Mask};
 use crate::prepare::PreparedScene;
 
 /// The renderer that every other one is held to: scalar, single-threaded, obviously right.
@@ -15,9 +15,11 @@ impl Renderer for Reference {
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
         let mut map = rows::empty_map(scene, settings, self.name())?;
+        let mut runs = Vec::new();
         for mut row in rows::split(&mut map, scene) {
-            row.render(scene, settings.observer)?;
+            runs.extend(row.render(scene, settings.observer)?);
         }
+        map.mask = Mask::new(map.region.size, runs);
         Ok(map)
     }
 }

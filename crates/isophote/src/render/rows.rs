@@ -1,12 +1,12 @@
 //! A map that is being filled, row by row.
 
 use super::{Observer, RenderError, RenderSettings};
-use crate::map::{Channel, Map, Pixel, Provenance, Quantity, Region, Values, Window};
+use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Run, Values, Window};
 use crate::prepare::{Hit, PreparedScene};
 use crate::scene::Scene;
 use crate::units::LengthUnit;
 
-/// A map of zeros (−1 for the shape), with every channel that the settings ask for.
+/// A map of zeros (−1 for the shape) that sees nothing, with every channel that the settings ask for.
 pub fn empty_map(scene: &PreparedScene, settings: &RenderSettings<'_>, renderer: String) -> Result<Map, RenderError> {
     let description = scene.scene();
     let full = description.camera.resolution;
@@ -18,7 +18,7 @@ pub fn empty_map(scene: &PreparedScene, settings: &RenderSettings<'_>, renderer:
         return Err(RenderError::Region { region, full });
     }
     let mut channels: Vec<Channel> = Vec::new();
-    for quantity in settings.quantities.iter().chain([&Quantity::Shape]) {
+    for quantity in &settings.quantities {
         if channels.iter().all(|channel| channel.quantity != *quantity) {
             channels.push(empty_channel(quantity, description, region)?);
         }
@@ -30,7 +30,8 @@ pub fn empty_map(scene: &PreparedScene, settings: &RenderSettings<'_>, renderer:
         convention: description.convention.label(),
         renderer,
     };
-    Ok(Map { full, region, window: window(description, region), provenance, channels })
+    let mask = Mask::new(region.size, Vec::new());
+    Ok(Map { full, region, window: window(description, region), provenance, mask, channels })
 }
 
 fn empty_channel(quantity: &Quantity, scene: &Scene, region: Region) -> Result<Channel, RenderError> {
@@ -70,6 +71,8 @@ fn window(scene: &Scene, region: Region) -> Window {
 /// A row of a map, to be filled.
 pub struct Row<'m> {
     first: Pixel,
+    /// Index in the map of its first pixel.
+    start: usize,
     width: u32,
     length: LengthUnit,
     channels: Vec<RowChannel<'m>>,
@@ -99,7 +102,13 @@ pub fn split<'m>(map: &'m mut Map, scene: &PreparedScene) -> Vec<Row<'m>> {
     let Region { corner, size } = map.region;
     let length = map.window.length;
     let mut rows: Vec<Row<'_>> = (corner.row..corner.row + size.height)
-        .map(|row| Row { first: Pixel { column: corner.column, row }, width: size.width, length, channels: Vec::new() })
+        .map(|row| Row {
+            first: Pixel { column: corner.column, row },
+            start: (row - corner.row) as usize * size.width as usize,
+            width: size.width,
+            length,
+            channels: Vec::new(),
+        })
         .collect();
     for channel in &mut map.channels {
         for (row, part) in rows.iter_mut().zip(parts(channel, size.width as usize, scene.scene())) {
@@ -117,6 +126,7 @@ fn parts<'m>(channel: &'m mut Channel, width: usize, scene: &Scene) -> Vec<RowCh
             let scalar = Scalar::of(quantity, scene);
             values.chunks_mut(width).map(|row| RowChannel::Scalar(scalar, row)).collect()
         }
+        Values::Single(_) => unreachable!("`empty_map` gives doubles"),
         Values::Vector(values) => {
             let row = if *quantity == Quantity::Normal { RowChannel::Normal } else { RowChannel::Position };
             values.chunks_mut(width).map(row).collect()
@@ -143,17 +153,23 @@ impl Scalar {
 }
 
 impl Row<'_> {
-    /// Fills the row.
-    pub fn render(&mut self, scene: &PreparedScene, observer: Option<&dyn Observer>) -> Result<(), RenderError> {
+    /// Fills the row, and says what its pixels see.
+    pub fn render(&mut self, scene: &PreparedScene, observer: Option<&dyn Observer>) -> Result<Vec<Run>, RenderError> {
+        let mut runs: Vec<Run> = Vec::new();
         let mut by_light = vec![0.0; scene.scene().lights.len()];
         for index in 0..self.width {
             let pixel = Pixel { column: self.first.column + index, row: self.first.row };
             if let Some(hit) = scene.trace_pixel(pixel) {
                 self.store(index as usize, scene, &hit, &mut by_light);
+                let (start, shape) = (self.start + index as usize, u32::try_from(hit.shape).unwrap_or(u32::MAX));
+                match runs.last_mut() {
+                    Some(run) if run.end == start && run.shape == shape => run.end += 1,
+                    _ => runs.push(Run { start, end: start + 1, shape }),
+                }
             }
         }
         let go_on = observer.map(|observer| observer.advance(u64::from(self.width)));
-        if go_on.is_some_and(|answer| answer.is_break()) { Err(RenderError::Interrupted) } else { Ok(()) }
+        if go_on.is_some_and(|answer| answer.is_break()) { Err(RenderError::Interrupted) } else { Ok(runs) }
     }
 
     fn store(&mut self, index: usize, scene: &PreparedScene, hit: &Hit, by_light: &mut [f64]) {

@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::{RenderError, RenderSettings, Renderer, rows};
-use crate::map::Map;
+use crate::map::{Map, Mask};
 use crate::prepare::PreparedScene;
 
 /// Rows on several threads, in double precision.
@@ -28,9 +28,11 @@ impl Renderer for Threaded {
             .num_threads(threads)
             .build()
             .map_err(|error| RenderError::Threads { threads, reason: error.to_string() })?;
-        pool.install(|| {
-            rows::split(&mut map, scene).into_par_iter().try_for_each(|mut row| row.render(scene, settings.observer))
+        let rows = pool.install(|| {
+            let rows = rows::split(&mut map, scene).into_par_iter();
+            rows.map(|mut row| row.render(scene, settings.observer)).collect::<Result<Vec<_>, _>>()
         })?;
+        map.mask = Mask::new(map.region.size, rows.into_iter().flatten().collect());
         Ok(map)
     }
 }

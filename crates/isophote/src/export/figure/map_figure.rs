@@ -10,7 +10,7 @@ use crate::export::figure::raster::{self, Scale};
 use crate::export::figure::svg::{Anchor, INK, Place, Rectangle, Svg, Text};
 use crate::export::figure::ticks::{self, Ticks};
 use crate::export::figure::{FigureError, level_lines, text};
-use crate::map::{Map, Quantity};
+use crate::map::{Map, Quantity, Scalars};
 use crate::units::Choice;
 
 /// Longer side of the picture in px.
@@ -89,7 +89,7 @@ pub fn map_figure_svg(map: &Map, options: &FigureOptions) -> Result<String, Figu
 struct Content<'figure> {
     map: &'figure Map,
     options: &'figure FigureOptions,
-    values: &'figure [f64],
+    values: Scalars<'figure>,
     isophotes: Vec<Isophote>,
     has_gaps: bool,
     /// Width and height of the picture in px.
@@ -103,7 +103,7 @@ impl<'figure> Content<'figure> {
     fn new(map: &'figure Map, options: &'figure FigureOptions) -> Result<Self, FigureError> {
         // Asked first without levels: it checks the channel, and says best what is wrong with it.
         isophotes(map, &options.quantity, &[])?;
-        let values = map.scalar(&options.quantity).unwrap_or_default();
+        let values = map.scalar(&options.quantity).unwrap_or(Scalars::Double(&[]));
         let seen = seen_range(map, &options.quantity, values)?;
         let range = range(options.range, seen)?;
         let levels = nice_levels(range[0], range[1], options.isophotes);
@@ -117,7 +117,7 @@ impl<'figure> Content<'figure> {
             options,
             values,
             isophotes: isophotes(map, &options.quantity, &levels)?,
-            has_gaps: map.shapes().iter().any(|&shape| shape < 0),
+            has_gaps: map.mask().visible() < map.region.size.pixels(),
             size,
             x: axis("x", Ticks::side_by_side(window.x, size[0], TICK_SIZE)),
             y: axis("y", Ticks::stacked(window.y, size[1])),
@@ -198,9 +198,10 @@ const HATCHING: &str = "<defs><pattern id=\"no-surface\" width=\"6\" height=\"6\
     fill=\"#d3d6dd\"/></pattern></defs>";
 
 /// The least and the greatest value seen; `None` where no surface is seen.
-fn seen_range(map: &Map, quantity: &Quantity, values: &[f64]) -> Result<Option<[f64; 2]>, FigureError> {
+fn seen_range(map: &Map, quantity: &Quantity, values: Scalars<'_>) -> Result<Option<[f64; 2]>, FigureError> {
     let mut seen: Option<[f64; 2]> = None;
-    for (index, (&value, _)) in values.iter().zip(map.shapes()).enumerate().filter(|(_, (_, shape))| **shape >= 0) {
+    for index in map.mask().indices() {
+        let value = values.at(index);
         if !value.is_finite() {
             return Err(FigureError::NotFinite { name: format!("{}[{index}]", quantity.name()), value });
         }
@@ -247,7 +248,7 @@ fn is_surface(map: &Map, picture: &Rectangle, place: Place) -> bool {
     };
     let column = index(place.x - picture.left, picture.width, size.width);
     let row = index(place.y - picture.top, picture.height, size.height);
-    map.is_visible(row * size.width as usize + column)
+    map.mask().shape_at(row * size.width as usize + column).is_some()
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 use crate::export::colormap::Colormap;
 use crate::export::figure::FigureError;
 use crate::export::figure::svg::{Rectangle, Svg, number};
-use crate::map::{Map, Resolution};
+use crate::map::{Map, Resolution, Scalars};
 
 /// From values to colours.
 #[derive(Clone, Copy)]
@@ -26,16 +26,16 @@ impl Scale {
 pub(super) fn draw_map(
     svg: &mut Svg,
     map: &Map,
-    values: &[f64],
+    values: Scalars<'_>,
     scale: Scale,
     place: Rectangle,
 ) -> Result<(), FigureError> {
     let size = map.region.size;
-    let pixel = |(&value, &shape): (&f64, &i32)| {
-        let [red, green, blue] = scale.color(value);
-        if shape < 0 { [0; 4] } else { [red, green, blue, 255] }
-    };
-    let pixels: Vec<u8> = values.iter().zip(map.shapes()).flat_map(pixel).collect();
+    let mut pixels = vec![0; 4 * size.pixels()];
+    for index in map.mask().indices() {
+        let [red, green, blue] = scale.color(values.at(index));
+        pixels[4 * index..][..4].copy_from_slice(&[red, green, blue, 255]);
+    }
     // More map pixels than px on the page: let the viewer average, or thin features would drop out.
     let is_coarse = f64::from(size.width) <= 2.0 * place.width;
     draw_image(svg, size, &pixels, place, is_coarse)

@@ -66,7 +66,7 @@ fn every_channel_reads_back_rounded_to_32_bits() {
         ("irradiance.Y", Quantity::Irradiance),
         ("light.лампа.Y", Quantity::Light("лампа".into())),
     ] {
-        let expected: Vec<f32> = map.scalar(&quantity).unwrap().iter().map(|value| *value as f32).collect();
+        let expected: Vec<f32> = map.scalar(&quantity).unwrap().iter().map(|value| value as f32).collect();
         assert_eq!(channels[name], expected, "{name}");
     }
     assert_eq!(channels["P.X"], [-1.0, 0.0, 1e5, 0.0, 0.0, 0.0]);

@@ -12,7 +12,7 @@ use std::io::{self, Cursor, Seek, SeekFrom, Write};
 
 use super::{ExportError, Format, csv, npy, npz, png::PictureOptions};
 use crate::{
-    map::{Channel, Map, Pixel, Provenance, Quantity, Region, Resolution, Values, Window},
+    map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Values, Window},
     units::{Choice, LengthUnit},
 };
 
@@ -51,12 +51,14 @@ fn sample() -> Map {
             scalar(Quantity::Light("лампа".into()), "W/m²", [0.25, 0.0, 123_456_789.125, 0.0, 1e16, 0.0]),
             scalar(Quantity::Light("a, \"b\" #/../c.".into()), "W/m²", [0.25, 0.0, 3.0, 4.0, 5e-324, 0.0]),
         ],
+        mask: Mask::of_shapes(Resolution { width: 3, height: 2 }, &[0, -1, 7, 0, 1, -1]),
     }
 }
 
 fn only(map: &mut Map, brightness: &[f64]) {
     let shapes = vec![0; brightness.len()];
     map.region.size = Resolution { width: u32::try_from(brightness.len()).unwrap(), height: 1 };
+    map.mask = Mask::of_shapes(map.region.size, &shapes);
     map.channels = vec![
         Channel { quantity: Quantity::Brightness, unit: "W/m²".into(), values: Values::Scalar(brightness.into()) },
         Channel { quantity: Quantity::Shape, unit: String::new(), values: Values::Index(shapes) },

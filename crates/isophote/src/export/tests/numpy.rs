@@ -45,6 +45,7 @@ fn numpy_reads_the_same_numbers() {
 fn expected(map: &Map) -> Value {
     let values = |values: &Values| match values {
         Values::Scalar(values) => json!(values),
+        Values::Single(values) => json!(values),
         Values::Vector(values) => json!(values),
         Values::Index(indices) => json!(indices),
     };

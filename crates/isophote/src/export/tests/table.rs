@@ -31,9 +31,9 @@ fn every_number_reads_back_exactly_beside_the_centre_of_its_pixel() {
     let read = |index: usize, column: usize| lines[index + 1][column].parse::<f64>().unwrap().to_bits();
     let Values::Vector(positions) = &map.channel(&Quantity::Position).unwrap().values else { unreachable!() };
     for (index, position) in positions.iter().enumerate() {
-        assert_eq!(read(index, 6), map.scalar(&Quantity::Irradiance).unwrap()[index].to_bits());
+        assert_eq!(read(index, 6), map.scalar(&Quantity::Irradiance).unwrap().at(index).to_bits());
         assert_eq!(read(index, 8), position[1].to_bits());
-        assert_eq!(read(index, 13), map.scalar(&Quantity::Light("лампа".into())).unwrap()[index].to_bits());
+        assert_eq!(read(index, 13), map.scalar(&Quantity::Light("лампа".into())).unwrap().at(index).to_bits());
     }
 }
 

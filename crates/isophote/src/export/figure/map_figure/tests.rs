@@ -43,7 +43,7 @@ fn the_embedded_image_holds_the_maps_pixels_and_nothing_where_no_surface_is_seen
     assert_eq!(image.size, [31, 31]);
     let values = map.scalar(&Quantity::Brightness).unwrap();
     for (column, row) in [(15, 15), (10, 15), (15, 7), (20, 12)] {
-        let [red, green, blue] = Colormap::Viridis.color(values[(row * 31 + column) as usize]);
+        let [red, green, blue] = Colormap::Viridis.color(values.at((row * 31 + column) as usize));
         assert_eq!(image.pixel(column, row), [red, green, blue, 255]);
     }
     assert_eq!(image.pixel(0, 0), [0; 4]);

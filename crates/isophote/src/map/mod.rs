@@ -1,5 +1,11 @@
 //! The result of a render: named channels of linear values with units, and what made them.
 
+mod mask;
+mod values;
+
+pub use mask::{Mask, Run};
+pub use values::{Scalars, Values};
+
 use serde::{Deserialize, Serialize};
 
 use crate::reflectance::Convention;
@@ -125,18 +131,6 @@ impl Quantity {
     }
 }
 
-/// The values of a channel, row by row from the top, each row from the left. Zero (−1 for indices) where no
-/// surface is seen, never NaN: [`Map::is_visible`] tells the two kinds of zero apart.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Values {
-    /// One number a pixel.
-    Scalar(Vec<f64>),
-    /// Three numbers a pixel: x, y, z.
-    Vector(Vec<[f64; 3]>),
-    /// One index a pixel.
-    Index(Vec<i32>),
-}
-
 /// A named quantity over the image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
@@ -174,19 +168,20 @@ pub struct Map {
     pub window: Window,
     /// What made the map.
     pub provenance: Provenance,
+    pub(crate) mask: Mask,
     pub(crate) channels: Vec<Channel>,
 }
 
 impl Map {
-    /// All channels, in the order in which they were asked for; `shape` is always among them.
+    /// All channels, in the order in which they were asked for.
     #[must_use]
     pub fn channels(&self) -> &[Channel] {
         &self.channels
     }
 
-    /// Drops the channels that are not wanted; `shape` always stays.
+    /// Drops the channels that are not wanted.
     pub fn retain(&mut self, is_wanted: impl Fn(&Quantity) -> bool) {
-        self.channels.retain(|channel| channel.quantity == Quantity::Shape || is_wanted(&channel.quantity));
+        self.channels.retain(|channel| is_wanted(&channel.quantity));
     }
 
     /// The channel with this quantity, if the map holds it.
@@ -197,29 +192,14 @@ impl Map {
 
     /// The values of a scalar channel, if the map holds it.
     #[must_use]
-    pub fn scalar(&self, quantity: &Quantity) -> Option<&[f64]> {
-        match &self.channel(quantity)?.values {
-            Values::Scalar(values) => Some(values),
-            Values::Vector(_) | Values::Index(_) => None,
-        }
+    pub fn scalar(&self, quantity: &Quantity) -> Option<Scalars<'_>> {
+        Scalars::of(&self.channel(quantity)?.values)
     }
 
-    /// Index of the shape seen at each pixel, −1 where none is: the mask of the map.
-    ///
-    /// # Panics
-    /// Never: every renderer fills the `shape` channel.
+    /// Which pixels see a surface, and which one. Every map has it, whatever channels were asked for.
     #[must_use]
-    pub fn shapes(&self) -> &[i32] {
-        match self.channel(&Quantity::Shape) {
-            Some(Channel { values: Values::Index(indices), .. }) => indices,
-            _ => unreachable!("a map is made with its shape channel"),
-        }
-    }
-
-    /// Whether a surface is seen at the pixel with this index (row × width + column).
-    #[must_use]
-    pub fn is_visible(&self, index: usize) -> bool {
-        self.shapes()[index] >= 0
+    pub fn mask(&self) -> &Mask {
+        &self.mask
     }
 
     /// The pixel of the full image with this index in the map's values.

@@ -1,0 +1,66 @@
+//! What channels hold.
+
+/// The values of a channel, row by row from the top, each row from the left. Zero (−1 for indices) where no
+/// surface is seen, never NaN: the map's [mask](super::Map::mask) tells the two kinds of zero apart.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// One number a pixel.
+    Scalar(Vec<f64>),
+    /// One number a pixel, computed in single precision.
+    Single(Vec<f32>),
+    /// Three numbers a pixel: x, y, z.
+    Vector(Vec<[f64; 3]>),
+    /// One index a pixel.
+    Index(Vec<i32>),
+}
+
+/// The numbers of a scalar channel, of either precision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scalars<'m> {
+    /// In double precision.
+    Double(&'m [f64]),
+    /// In single precision.
+    Single(&'m [f32]),
+}
+
+impl<'m> Scalars<'m> {
+    /// The numbers of a channel that holds one a pixel.
+    #[must_use]
+    pub fn of(values: &'m Values) -> Option<Self> {
+        match values {
+            Values::Scalar(values) => Some(Self::Double(values)),
+            Values::Single(values) => Some(Self::Single(values)),
+            Values::Vector(_) | Values::Index(_) => None,
+        }
+    }
+
+    /// The value of the pixel with this index (row × width + column).
+    #[must_use]
+    #[inline]
+    pub fn at(self, index: usize) -> f64 {
+        match self {
+            Self::Double(values) => values[index],
+            Self::Single(values) => f64::from(values[index]),
+        }
+    }
+
+    /// How many pixels there are.
+    #[must_use]
+    pub fn len(self) -> usize {
+        match self {
+            Self::Double(values) => values.len(),
+            Self::Single(values) => values.len(),
+        }
+    }
+
+    /// Whether there is no pixel.
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self.len() == 0
+    }
+
+    /// All values, in reading order.
+    pub fn iter(self) -> impl Iterator<Item = f64> {
+        (0..self.len()).map(move |index| self.at(index))
+    }
+}
