@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::map::{Pixel, Resolution};
-use crate::real::Real;
+use crate::real::Scalar;
 use crate::shape::Ray;
 use crate::units::Choice;
 use crate::vector::Vector;
@@ -86,7 +86,7 @@ pub struct CameraFrame<T = f64> {
     resolution: Resolution,
 }
 
-impl<T: Real> CameraFrame<T> {
+impl<T: Scalar> CameraFrame<T> {
     /// The axes of a camera (2.3).
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
@@ -149,7 +149,7 @@ impl CameraFrame {
 
 /// The middle of cell `index` when the way from `first` to `last` is cut into `count` cells. The two ends are
 /// weighted, not their difference, so that a symmetric window has exactly symmetric pixels.
-fn between<T: Real>(first: f64, last: f64, index: u32, count: u32) -> T {
+fn between<T: Scalar>(first: f64, last: f64, index: u32, count: u32) -> T {
     let after = 2.0 * f64::from(index) + 1.0;
     let before = 2.0 * f64::from(count) - after;
     let weighted = T::from_f64(first) * T::from_f64(before) + T::from_f64(last) * T::from_f64(after);

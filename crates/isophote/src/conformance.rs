@@ -3,7 +3,7 @@
 use crate::double_double::DoubleDouble;
 use crate::map::{Map, Pixel, Quantity, Region, Scalars, Values};
 use crate::prepare::PreparedScene;
-use crate::real::Real;
+use crate::real::{Real, Scalar};
 use crate::render::{RenderError, RenderSettings, Renderer};
 use crate::tolerance::Tolerance;
 use crate::vector::Vector;
@@ -195,7 +195,7 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
 }
 
 fn rounded(vector: Vector<DoubleDouble>) -> Vector {
-    Vector::new(vector.x.rounded(), vector.y.rounded(), vector.z.rounded())
+    vector.map(DoubleDouble::rounded)
 }
 
 /// Lengths as parts of themselves and of the shape's size, the normal as part of its length, which is 1.

@@ -7,7 +7,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::real::Real;
+use crate::real::{Real, Scalar};
 
 /// A number of about 106 bits: `high + low`, with |low| at most half a unit in the last place of `high`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -106,8 +106,9 @@ impl DoubleDouble {
 
 impl Real for DoubleDouble {
     type Mask = bool;
+    const NEGLIGIBLE_SQUARE: f64 = 1e-64;
 
-    fn from_f64(value: f64) -> Self {
+    fn constant(self, value: f64) -> Self {
         Self { high: value, low: 0.0 }
     }
 
@@ -126,6 +127,12 @@ impl Real for DoubleDouble {
 
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
+    }
+}
+
+impl Scalar for DoubleDouble {
+    fn from_f64(value: f64) -> Self {
+        Self { high: value, low: 0.0 }
     }
 
     fn cosine_power(cos_squared: Self, _: Self, exponent: f64) -> Self {

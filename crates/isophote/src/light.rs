@@ -1,6 +1,6 @@
 //! Point lights and where they send their power.
 
-use crate::real::Real;
+use crate::real::{Real, Scalar};
 use crate::vector::Vector;
 
 /// A point light.
@@ -18,24 +18,36 @@ pub struct Light {
 
 /// The emission pattern I(ω) of a light (section 3).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Emission {
+pub enum Emission<T = f64> {
     /// I₀ in every direction; power 4π I₀.
     Isotropic,
     /// I₀ max(0, cosγ), γ the angle from the axis; power π I₀.
     Lambertian {
         /// Unit vector of the axis.
-        axis: Vector,
+        axis: Vector<T>,
     },
 }
 
+/// A light as it is seen from a place near the points that it lights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedLight<T = f64> {
+    /// From that place to the light.
+    pub position: Vector<T>,
+    /// I₀.
+    pub intensity: T,
+    /// How the intensity depends on the direction.
+    pub emission: Emission<T>,
+}
+
 impl Light {
-    /// I(ω) in a direction, given as a unit vector that points away from the light; W/sr or cd.
+    /// The light as it is seen from a place.
+    #[must_use]
     #[inline(always)]
-    pub fn intensity_towards<T: Real>(&self, direction: Vector<T>) -> T {
-        let intensity = T::from_f64(self.intensity);
-        match self.emission {
-            Emission::Isotropic => intensity,
-            Emission::Lambertian { axis } => intensity * Vector::from_f64(axis).dot(direction).max(T::zero()),
+    pub fn seen_from<T: Scalar>(&self, place: Vector) -> PlacedLight<T> {
+        PlacedLight {
+            position: Vector::from_f64(self.position) - Vector::from_f64(place),
+            intensity: T::from_f64(self.intensity),
+            emission: self.emission.map(T::from_f64),
         }
     }
 
@@ -43,6 +55,42 @@ impl Light {
     #[must_use]
     pub fn power(&self) -> f64 {
         self.intensity * self.emission.solid_angle()
+    }
+}
+
+impl<T: Copy> PlacedLight<T> {
+    /// The same light in another number type.
+    #[must_use]
+    #[inline(always)]
+    pub fn map<U>(&self, convert: impl Fn(T) -> U) -> PlacedLight<U> {
+        PlacedLight {
+            position: self.position.map(&convert),
+            intensity: convert(self.intensity),
+            emission: self.emission.map(convert),
+        }
+    }
+}
+
+impl<T: Real> PlacedLight<T> {
+    /// I(ω) towards a point, in W/sr or cd. `to_light` leads from the point to the light; its length is 1/`inverse_distance`.
+    #[inline(always)]
+    pub fn intensity_towards(&self, to_light: Vector<T>, inverse_distance: T) -> T {
+        match self.emission {
+            Emission::Isotropic => self.intensity,
+            Emission::Lambertian { axis } => self.intensity * (-axis.dot(to_light)).or_zero() * inverse_distance,
+        }
+    }
+}
+
+impl<T: Copy> Emission<T> {
+    /// The same pattern in another number type.
+    #[must_use]
+    #[inline(always)]
+    pub fn map<U>(self, convert: impl Fn(T) -> U) -> Emission<U> {
+        match self {
+            Self::Isotropic => Emission::Isotropic,
+            Self::Lambertian { axis } => Emission::Lambertian { axis: axis.map(convert) },
+        }
     }
 }
 
@@ -74,7 +122,8 @@ mod tests {
                 for j in 0..turns {
                     let (sine, cosine) = (std::f64::consts::TAU * (f64::from(j) + 0.5) / f64::from(turns)).sin_cos();
                     let ring = (1.0 - z * z).sqrt();
-                    power += light.intensity_towards(Vector::new(ring * cosine, ring * sine, z));
+                    let away = Vector::new(ring * cosine, ring * sine, z);
+                    power += light.seen_from::<f64>(away).intensity_towards(-away, 1.0);
                 }
             }
             power *= 4.0 * std::f64::consts::PI / f64::from(cosines * turns);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::camera::{CameraFrame, ScreenPosition};
 use crate::double_double::DoubleDouble;
 use crate::map::Pixel;
-use crate::real::Real;
+use crate::real::Scalar;
 use crate::reflectance::{BrightnessFormula, Reflectance};
 use crate::scene::Scene;
 use crate::shade::{LightTerm, Shading, shade};
@@ -110,7 +110,7 @@ impl PreparedScene {
         self.nearest(&ray).hit.map(|hit| hit.shape)
     }
 
-    fn nearest<T: Real<Mask = bool>>(&self, ray: &Ray<T>) -> Traced<T> {
+    fn nearest<T: Scalar>(&self, ray: &Ray<T>) -> Traced<T> {
         let mut nearest: Option<Hit<T>> = None;
         let mut is_doubtful = false;
         for (index, shape) in self.shapes.iter().enumerate() {
@@ -135,7 +135,7 @@ impl PreparedScene {
 
     /// The brightness of a surface point by the scene's convention, summed over the lights; `each` sees every
     /// light's own term.
-    pub fn shade<T: Real>(
+    pub fn shade<T: Scalar>(
         &self,
         shape: usize,
         point: &SurfacePoint<T>,
@@ -143,6 +143,12 @@ impl PreparedScene {
     ) -> Shading<T> {
         let visibility = |light| T::from_f64(self.visibility(shape, light));
         shade(point, &self.scene.lights, &self.shapes[shape].formula, visibility, each)
+    }
+
+    /// The convention applied to a shape's material.
+    #[must_use]
+    pub fn formula(&self, shape: usize) -> &BrightnessFormula {
+        &self.shapes[shape].formula
     }
 
     /// v_j of (3.1): 1, or 0 where the shape's own wall stands between a point that is seen from inside and a light
@@ -206,14 +212,13 @@ fn doubtful_clearance(geometry: &Geometry, formula: &BrightnessFormula, eye: Vec
 
 impl Hit<DoubleDouble> {
     fn rounded(self) -> Hit {
-        let vector =
-            |vector: Vector<DoubleDouble>| Vector::new(vector.x.rounded(), vector.y.rounded(), vector.z.rounded());
+        let vector = |vector: Vector<DoubleDouble>| vector.map(DoubleDouble::rounded);
         let point = self.point;
         Hit {
             shape: self.shape,
             distance: self.distance.rounded(),
             point: SurfacePoint {
-                anchor: vector(point.anchor),
+                anchor: point.anchor,
                 offset: vector(point.offset),
                 normal: vector(point.normal),
                 view: vector(point.view),

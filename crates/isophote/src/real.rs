@@ -2,23 +2,35 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A real number: a double, a [pair of doubles](crate::double_double::DoubleDouble) of 32 digits, later a SIMD lane vector or a dual number.
+/// A real number: a double, a [pair of doubles](crate::double_double::DoubleDouble) of 32 digits, or a vector of lanes
+/// that compute several pixels at once.
 ///
 /// Branches are [`select`](Real::select) on masks, so that a type that holds several numbers can be one too.
-/// Addition, subtraction, multiplication, division and the square root are correctly rounded in `f64`, and the
-/// transcendental functions come from one portable library: the same scene gives the same bytes on every machine.
+/// Addition, subtraction, multiplication, division and the square root are correctly rounded.
 pub trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// The answer of a comparison.
     type Mask: Copy;
 
-    /// A double, exactly.
-    fn from_f64(value: f64) -> Self;
+    /// About the square of the type's precision: a part of a sum of squares that is lost beside the whole.
+    const NEGLIGIBLE_SQUARE: f64;
+
+    /// A constant, of the same kind as `self`, whose value is not used: a vector of lanes knows by its kind which
+    /// instructions the machine has.
+    #[must_use]
+    fn constant(self, value: f64) -> Self;
 
     /// The square root of a number that is not negative.
     #[must_use]
     fn sqrt(self) -> Self;
+
+    /// self · factor + addend, with one rounding where the machine has it in one instruction, else with two.
+    #[must_use]
+    #[inline(always)]
+    fn times_plus(self, factor: Self, addend: Self) -> Self {
+        self * factor + addend
+    }
 
     /// Whether `self < other`.
     fn is_less(self, other: Self) -> Self::Mask;
@@ -26,18 +38,33 @@ pub trait Real:
     /// `yes` where the mask is set, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// cosⁿ of an angle, from the squares of its cosine and its sine: the lobe (N·H)ⁿ of (3.3) to (3.6).
-    ///
-    /// Near the lobe's peak the power of the cosine would multiply its rounding error by n; the sine is small there
-    /// and carries the digits, so cosⁿ = exp(n/2 · ln(1 − sin²)).
-    fn cosine_power(cos_squared: Self, sin_squared: Self, exponent: f64) -> Self;
-
     /// The larger of two numbers.
     #[must_use]
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self::select(self.is_less(other), other, self)
     }
+
+    /// The number, or zero where it is negative.
+    #[must_use]
+    #[inline(always)]
+    fn or_zero(self) -> Self {
+        self.max(self.constant(0.0))
+    }
+}
+
+/// A single number: it can be asked whether it is smaller, and comes from a double.
+///
+/// The transcendental functions come from one portable library: the same scene gives the same bytes on every machine.
+pub trait Scalar: Real<Mask = bool> {
+    /// A double, exactly.
+    fn from_f64(value: f64) -> Self;
+
+    /// cosⁿ of an angle, from the squares of its cosine and its sine: the lobe (N·H)ⁿ of (3.3) to (3.6).
+    ///
+    /// Near the lobe's peak the power of the cosine would multiply its rounding error by n; the sine is small there
+    /// and carries the digits, so cosⁿ = exp(n/2 · ln(1 − sin²)).
+    fn cosine_power(cos_squared: Self, sin_squared: Self, exponent: f64) -> Self;
 
     /// Zero.
     #[inline(always)]
@@ -49,9 +76,10 @@ pub trait Real:
 
 impl Real for f64 {
     type Mask = bool;
+    const NEGLIGIBLE_SQUARE: f64 = 1e-32;
 
     #[inline(always)]
-    fn from_f64(value: f64) -> Self {
+    fn constant(self, value: f64) -> Self {
         value
     }
 
@@ -68,6 +96,13 @@ impl Real for f64 {
     #[inline(always)]
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
+    }
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        value
     }
 
     fn cosine_power(cos_squared: Self, sin_squared: Self, exponent: f64) -> Self {
@@ -87,7 +122,7 @@ pub struct Sum<T> {
     lost: T,
 }
 
-impl<T: Real> Sum<T> {
+impl<T: Scalar> Sum<T> {
     /// Nothing summed yet.
     #[must_use]
     #[inline(always)]
@@ -112,7 +147,7 @@ impl<T: Real> Sum<T> {
     }
 }
 
-impl<T: Real> Default for Sum<T> {
+impl<T: Scalar> Default for Sum<T> {
     fn default() -> Self {
         Self::new()
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::real::Real;
+use crate::real::{Real, Scalar};
 use crate::units::{Choice, Quantities};
 
 /// Which formula turns irradiance into brightness. People publish several that disagree by constant factors or by
@@ -118,6 +118,36 @@ pub struct Reflectance {
     pub shininess: f64,
 }
 
+/// How (N·H)ⁿ is computed from what is proportional to cos²θ_h and sin²θ_h.
+pub trait Lobe<T: Real> {
+    /// What [`value`](Self::value) has to be divided by; positive. Their sum makes shares of them.
+    #[inline(always)]
+    fn denominator(&self, cos_squared: T, sin_squared: T) -> T {
+        cos_squared + sin_squared
+    }
+
+    /// (N·H)ⁿ, given 1/[`denominator`](Self::denominator).
+    fn value(&self, cos_squared: T, sin_squared: T, inverse: T) -> T;
+}
+
+/// The lobe of single numbers; none, and 0 everywhere, without a shininess.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScalarLobe {
+    shininess: Option<f64>,
+}
+
+impl<T: Scalar> Lobe<T> for ScalarLobe {
+    #[inline(always)]
+    fn value(&self, cos_squared: T, sin_squared: T, _: T) -> T {
+        // Divided, not multiplied by the inverse: n multiplies each rounding.
+        let squares = (cos_squared + sin_squared).max(T::from_f64(f64::MIN_POSITIVE));
+        match self.shininess {
+            Some(shininess) => T::cosine_power(cos_squared / squares, sin_squared / squares, shininess),
+            None => T::zero(),
+        }
+    }
+}
+
 /// A convention applied to a material: every formula of section 3 is
 /// B = Σ E_j (a + b cosθ_o + s (N·H_j)ⁿ) with its own a, b and s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,27 +178,31 @@ impl BrightnessFormula {
         Self { diffuse_constant, diffuse_cosine, specular, shininess, depends_on_viewer }
     }
 
-    /// The factor of E_j in the diffuse part. Zero where the surface faces away from the viewer (θ_o ≥ 90°), but
+    /// The factor of E in the diffuse part. Zero where the surface faces away from the viewer (θ_o ≥ 90°), but
     /// for the irradiance itself, which knows no viewer.
     #[inline(always)]
     pub fn diffuse_factor<T: Real>(&self, cos_theta_o: T) -> T {
-        let factor = T::from_f64(self.diffuse_constant) + T::from_f64(self.diffuse_cosine) * cos_theta_o;
+        let constant = cos_theta_o.constant(self.diffuse_constant);
+        let factor = cos_theta_o.constant(self.diffuse_cosine).times_plus(cos_theta_o, constant);
         if self.depends_on_viewer { Self::towards_viewer(cos_theta_o, factor) } else { factor }
     }
 
-    /// The factor of E_j in the specular part, from the squares of cosine and sine of θ_h.
+    /// The factor of Σ E_j (N·H_j)ⁿ in the specular part; zero where the surface faces away from the viewer.
     #[inline(always)]
-    pub fn specular_factor<T: Real>(&self, cos_theta_o: T, cos_squared: T, sin_squared: T) -> T {
-        if self.specular == 0.0 {
-            return T::zero();
-        }
-        let lobe = T::cosine_power(cos_squared, sin_squared, self.shininess);
-        Self::towards_viewer(cos_theta_o, T::from_f64(self.specular) * lobe)
+    pub fn specular_factor<T: Real>(&self, cos_theta_o: T) -> T {
+        Self::towards_viewer(cos_theta_o, cos_theta_o.constant(self.specular))
+    }
+
+    /// (N·H)ⁿ for single numbers.
+    #[must_use]
+    pub fn lobe(&self) -> ScalarLobe {
+        ScalarLobe { shininess: (self.specular != 0.0).then_some(self.shininess) }
     }
 
     #[inline(always)]
     fn towards_viewer<T: Real>(cos_theta_o: T, factor: T) -> T {
-        T::select(T::zero().is_less(cos_theta_o), factor, T::zero())
+        let zero = cos_theta_o.constant(0.0);
+        T::select(zero.is_less(cos_theta_o), factor, zero)
     }
 }
 

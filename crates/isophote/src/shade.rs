@@ -1,8 +1,8 @@
 //! The formula: from light to brightness (3.1) to (3.6). It stands here once, for every number type.
 
-use crate::light::Light;
-use crate::real::{Real, Sum};
-use crate::reflectance::BrightnessFormula;
+use crate::light::{Light, PlacedLight};
+use crate::real::{Real, Scalar, Sum};
+use crate::reflectance::{BrightnessFormula, Lobe};
 use crate::shape::SurfacePoint;
 use crate::vector::Vector;
 
@@ -30,22 +30,24 @@ impl<T: Real> Shading<T> {
 ///
 /// `visibility(j)` is v_j of (3.1): 1, or 0 in shadow. `each(j, term)` sees every light's own term.
 #[inline(always)]
-pub fn shade<T: Real>(
+pub fn shade<T: Scalar>(
     point: &SurfacePoint<T>,
     lights: &[Light],
     formula: &BrightnessFormula,
     visibility: impl Fn(usize) -> T,
     mut each: impl FnMut(usize, &LightTerm<T>),
 ) -> Shading<T> {
-    let (mut irradiance, mut diffuse, mut specular) = (Sum::new(), Sum::new(), Sum::new());
+    let (mut irradiance, mut lobes) = (Sum::new(), Sum::new());
+    let lobe = formula.lobe();
     for (index, light) in lights.iter().enumerate() {
-        let term = light_term(point, light, formula, visibility(index));
+        let term = light_term(point, &light.seen_from(point.anchor), visibility(index), &lobe);
         irradiance.add(term.irradiance);
-        diffuse.add(term.diffuse);
-        specular.add(term.specular);
+        lobes.add(term.irradiance * term.lobe);
         each(index, &term);
     }
-    Shading { irradiance: irradiance.value(), diffuse: diffuse.value(), specular: specular.value() }
+    let (diffuse, specular) = (formula.diffuse_factor(point.cos_theta_o), formula.specular_factor(point.cos_theta_o));
+    let irradiance = irradiance.value();
+    Shading { irradiance, diffuse: irradiance * diffuse, specular: lobes.value() * specular }
 }
 
 /// One light's term of the sum, with the steps that lead to it.
@@ -63,55 +65,72 @@ pub struct LightTerm<T = f64> {
     pub cos_theta_i: T,
     /// L_j + V, not normalised: H_j is its direction.
     pub half: Vector<T>,
-    /// cos²θ_h = (N·H_j)².
-    pub cos_squared_theta_h: T,
-    /// sin²θ_h.
-    pub sin_squared_theta_h: T,
+    /// cosθ_h = N·H_j, 0 where it is negative.
+    pub cos_theta_h: T,
     /// E_j (3.1), W/m² or lx.
     pub irradiance: T,
-    /// E_j times the diffuse factor of the convention.
-    pub diffuse: T,
-    /// E_j times the specular factor of the convention.
-    pub specular: T,
+    /// (N·H_j)ⁿ; 0 where the formula has no highlight.
+    pub lobe: T,
 }
 
-/// E_j = v_j I_j cosθ_i / r_j² (3.1) and its share of the brightness (3.2) to (3.6).
+impl<T: Real> LightTerm<T> {
+    /// This light's share of the diffuse part of B, in the convention's unit.
+    pub fn diffuse(&self, formula: &BrightnessFormula, point: &SurfacePoint<T>) -> T {
+        self.irradiance * formula.diffuse_factor(point.cos_theta_o)
+    }
+
+    /// This light's share of the specular part of B, in the convention's unit.
+    pub fn specular(&self, formula: &BrightnessFormula, point: &SurfacePoint<T>) -> T {
+        self.irradiance * self.lobe * formula.specular_factor(point.cos_theta_o)
+    }
+}
+
+/// E_j = v_j I_j cosθ_i / r_j² (3.1) and the lobe (N·H_j)ⁿ of (3.3) to (3.6).
+///
+/// Neither L nor H is normalised: r H is split into its part along N, (cosθ_i + cosθ_o) r, and the part across, of
+/// whose squares cos²θ_h and sin²θ_h are the shares. Both parts keep their digits where the other one is small. What
+/// must be divided by (r³ for the irradiance, the sum of the squares for the lobe) is divided by at once.
+///
+/// (What the sums do not use of the term costs nothing: compilers leave it out.)
 #[inline(always)]
 pub fn light_term<T: Real>(
     point: &SurfacePoint<T>,
-    light: &Light,
-    formula: &BrightnessFormula,
+    light: &PlacedLight<T>,
     visibility: T,
+    lobe: &impl Lobe<T>,
 ) -> LightTerm<T> {
-    let to_light = (Vector::from_f64(light.position) - point.anchor) - point.offset;
+    let to_light = light.position - point.offset;
     let distance_squared = to_light.dot(to_light);
     let distance = distance_squared.sqrt();
-    let direction = to_light * (T::from_f64(1.0) / distance);
-    let intensity = light.intensity_towards(-direction);
-    let cos_theta_i = point.normal.dot(direction).max(T::zero());
-    let irradiance = visibility * intensity * cos_theta_i / distance_squared;
+    let along = point.normal.dot(to_light);
+    let along_lit = along.or_zero();
 
-    // H is never normalised. It has no length only when the light stands straight behind the surface: then
-    // cosθ_i or cosθ_o is zero, and with it the term; the guard keeps 0/0 out of it.
-    let half = direction + point.view;
-    let length_squared = half.dot(half).max(T::from_f64(f64::MIN_POSITIVE));
-    let along_normal = point.normal.dot(half).max(T::zero());
-    let across_normal = point.normal.cross(half);
-    let cos_squared_theta_h = along_normal * along_normal / length_squared;
-    let sin_squared_theta_h = across_normal.dot(across_normal) / length_squared;
+    let view_across = (-point.normal).times_plus(point.cos_theta_o, point.view);
+    let half_across = (-point.normal).times_plus(along, view_across.times_plus(distance, to_light));
+    let half_along = distance.times_plus(point.cos_theta_o, along).or_zero();
+    let cos_squared = half_along * half_along;
+    let sin_squared = half_across.dot(half_across);
 
-    let specular = formula.specular_factor(point.cos_theta_o, cos_squared_theta_h, sin_squared_theta_h);
+    // H has no length only when the light stands straight behind the surface: then nothing is seen or nothing is lit,
+    // and the guard keeps 0/0 out of it.
+    let negligible = distance_squared * distance.constant(T::NEGLIGIBLE_SQUARE);
+    let squares = lobe.denominator(cos_squared, sin_squared).max(negligible);
+    let cubed = distance_squared * distance;
+    let inverse = distance.constant(1.0) / (cubed * squares);
+    let inverse_squares = cubed * inverse;
+    let inverse_cubed = squares * inverse;
+    let intensity = light.intensity_towards(to_light, distance_squared * inverse_cubed);
+    let inverse_distance = distance.constant(1.0) / distance;
+    let direction = to_light * inverse_distance;
     LightTerm {
         visibility,
         direction,
         distance,
         intensity,
-        cos_theta_i,
-        half,
-        cos_squared_theta_h,
-        sin_squared_theta_h,
-        irradiance,
-        diffuse: irradiance * formula.diffuse_factor(point.cos_theta_o),
-        specular: irradiance * specular,
+        cos_theta_i: along_lit * inverse_distance,
+        half: direction + point.view,
+        cos_theta_h: half_along / (cos_squared + sin_squared).max(negligible).sqrt(),
+        irradiance: visibility * intensity * along_lit * inverse_cubed,
+        lobe: lobe.value(cos_squared, sin_squared, inverse_squares),
     }
 }

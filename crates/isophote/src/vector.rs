@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::real::Real;
+use crate::real::{Real, Scalar};
 
 /// A vector or a point: x, y, z.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -22,18 +22,11 @@ impl<T: Real> Vector<T> {
         Self { x, y, z }
     }
 
-    /// A vector of doubles, exactly.
-    #[must_use]
-    #[inline(always)]
-    pub fn from_f64(vector: Vector) -> Self {
-        Self::new(T::from_f64(vector.x), T::from_f64(vector.y), T::from_f64(vector.z))
-    }
-
     /// Scalar product.
     #[must_use]
     #[inline(always)]
     pub fn dot(self, other: Self) -> T {
-        self.x * other.x + self.y * other.y + self.z * other.z
+        self.z.times_plus(other.z, self.y.times_plus(other.y, self.x * other.x))
     }
 
     /// Vector product.
@@ -41,9 +34,9 @@ impl<T: Real> Vector<T> {
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self::new(
-            self.y * other.z - self.z * other.y,
-            self.z * other.x - self.x * other.z,
-            self.x * other.y - self.y * other.x,
+            self.y.times_plus(other.z, -(self.z * other.y)),
+            self.z.times_plus(other.x, -(self.x * other.z)),
+            self.x.times_plus(other.y, -(self.y * other.x)),
         )
     }
 
@@ -58,7 +51,36 @@ impl<T: Real> Vector<T> {
     #[must_use]
     #[inline(always)]
     pub fn normalized(self) -> Self {
-        self * (T::from_f64(1.0) / self.length())
+        self * (self.x.constant(1.0) / self.length())
+    }
+
+    /// self · factor + addend.
+    #[must_use]
+    #[inline(always)]
+    pub fn times_plus(self, factor: T, addend: Self) -> Self {
+        Self::new(
+            self.x.times_plus(factor, addend.x),
+            self.y.times_plus(factor, addend.y),
+            self.z.times_plus(factor, addend.z),
+        )
+    }
+}
+
+impl<T: Copy> Vector<T> {
+    /// The same vector of another number type.
+    #[must_use]
+    #[inline(always)]
+    pub fn map<U>(self, convert: impl Fn(T) -> U) -> Vector<U> {
+        Vector { x: convert(self.x), y: convert(self.y), z: convert(self.z) }
+    }
+}
+
+impl<T: Scalar> Vector<T> {
+    /// A vector of doubles, exactly.
+    #[must_use]
+    #[inline(always)]
+    pub fn from_f64(vector: Vector) -> Self {
+        vector.map(T::from_f64)
     }
 }
 

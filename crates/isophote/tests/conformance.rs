@@ -7,7 +7,7 @@ use isophote::conformance::conforms;
 use isophote::double_double::DoubleDouble;
 use isophote::map::{Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::PreparedScene;
-use isophote::real::Real;
+use isophote::real::Scalar;
 use isophote::render::{Reference, RenderSettings, Renderer, Threaded};
 use isophote::scene::source::MaterialSource;
 use isophote::scene::{Scene, SceneSource, Syntax};
@@ -45,7 +45,7 @@ fn precise_point(scene: &PreparedScene, shape: usize, point: Vector) -> SurfaceP
     let normal = (Vector::from_f64(point) - center).normalized();
     let offset = normal * DoubleDouble::from_f64(sphere.radius);
     let view = ((Vector::from_f64(scene.frame().eye) - center) - offset).normalized();
-    SurfacePoint { anchor: center, offset, normal, view, cos_theta_o: normal.dot(view) }
+    SurfacePoint { anchor: sphere.center, offset, normal, view, cos_theta_o: normal.dot(view) }
 }
 
 #[test]
@@ -211,7 +211,7 @@ proptest! {
             let expected = scene.shade(reading.shape, &exact, |_, term| {
                 if term.irradiance.rounded() > 0.0 {
                     least_cosine = least_cosine.min(term.cos_theta_i.rounded());
-                    faintest_lobe = faintest_lobe.min(term.cos_squared_theta_h.rounded().powf(0.5 * shininess));
+                    faintest_lobe = faintest_lobe.min(term.cos_theta_h.rounded().powf(shininess));
                 }
             });
             if least_cosine <= PROBE.above_cosine {

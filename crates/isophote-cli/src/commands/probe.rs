@@ -240,16 +240,17 @@ impl ProbeJson {
         let length = description.length();
         let brightness = |value| ValueJson { value, unit: description.convention().unit(description.quantities()) };
         let irradiance = |value| ValueJson { value, unit: description.quantities().irradiance_unit() };
+        let formula = scene.formula(reading.shape);
         let lights = reading.terms.iter().zip(description.lights()).map(|(term, light)| LightJson {
             name: light.name.clone(),
             irradiance: term.irradiance,
             cos_theta_i: term.cos_theta_i,
-            cos_theta_h: term.cos_squared_theta_h.sqrt(),
+            cos_theta_h: term.cos_theta_h,
             distance: length.from_metres(term.distance),
             intensity: term.intensity,
             visibility: term.visibility,
-            diffuse: term.diffuse,
-            specular: term.specular,
+            diffuse: term.diffuse(formula, &reading.point),
+            specular: term.specular(formula, &reading.point),
         });
         Self {
             name: name.into(),

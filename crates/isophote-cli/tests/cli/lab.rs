@@ -8,8 +8,8 @@ fn the_bare_command_prints_the_labs_four_points_beside_the_published_values() {
     let outcome = folder.ok("");
     for (probe, brightness, published) in [
         ("P1", "0.316677297547093", "0.6"),
-        ("P2", "0.137736208646845", "0.42"),
-        ("P3", "0.137736208646845", "0.42"),
+        ("P2", "0.137736208646844", "0.42"),
+        ("P3", "0.137736208646844", "0.42"),
         ("P4", "0.260714199906064", "0.66"),
     ] {
         let row = outcome.row(probe);

@@ -5,7 +5,6 @@ use std::fmt::Write;
 use super::probe::{ProbeReading, SeenFromEye};
 use crate::light::Emission;
 use crate::prepare::PreparedScene;
-use crate::real::Real;
 use crate::reflectance::{Convention, Reflectance, lobe_constant};
 use crate::shade::LightTerm;
 use crate::text::significant;
@@ -125,6 +124,7 @@ impl ProbeReading {
             return;
         }
         let Reflectance { diffuse: k_d, specular: k_s, shininess: n } = scene.scene().materials()[material].reflectance;
+        let formula = scene.formula(self.shape);
         let irradiance = digits(term.irradiance);
         let end = format!("{}   ({})", convention.unit(scene.scene().quantities()), convention.formula_number());
         if self.point.cos_theta_o <= 0.0 {
@@ -140,14 +140,13 @@ impl ProbeReading {
             }
             Convention::CoursePi | Convention::Radiance => format!("E k_d/π = {irradiance} × {k_d}/π"),
         };
-        line(text, format_args!("  diffuse  = {diffuse} = {} {end}", digits(term.diffuse)));
+        line(text, format_args!("  diffuse  = {diffuse} = {} {end}", digits(term.diffuse(formula, &self.point))));
         if !convention.has_specular_part() || k_s == 0.0 {
             return;
         }
         let half = if term.half.length() > 0.0 { term.half.normalized() } else { term.half };
         line(text, format_args!("  H   = (L + V)/‖L + V‖ = {}", vector(half)));
-        let cosine = digits(term.cos_squared_theta_h.sqrt());
-        let lobe = digits(f64::cosine_power(term.cos_squared_theta_h, term.sin_squared_theta_h, n));
+        let (cosine, lobe) = (digits(term.cos_theta_h), digits(term.lobe));
         line(text, format_args!("  cosθ_h = max(0, N·H) = {cosine},  cosθ_h^n = {cosine}^{n} = {lobe}"));
         let specular = match convention {
             Convention::CoursePi => format!("E k_s/π (N·H)^n = {irradiance} × {k_s}/π × {lobe}"),
@@ -158,7 +157,7 @@ impl ProbeReading {
             }
             _ => format!("E k_s (N·H)^n = {irradiance} × {k_s} × {lobe}"),
         };
-        line(text, format_args!("  specular = {specular} = {} {end}", digits(term.specular)));
+        line(text, format_args!("  specular = {specular} = {} {end}", digits(term.specular(formula, &self.point))));
     }
 
     fn explain_sum(&self, text: &mut String, scene: &PreparedScene) {

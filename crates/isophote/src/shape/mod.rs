@@ -6,7 +6,7 @@ mod sphere;
 pub use locate::{Located, Miss, surface_at};
 pub use sphere::Sphere;
 
-use crate::real::Real;
+use crate::real::Scalar;
 use crate::vector::Vector;
 
 /// The form of a shape and its place in space. A closed set: each variant has a file of its own.
@@ -49,7 +49,7 @@ pub struct Intersection<T = f64> {
 pub struct SurfacePoint<T = f64> {
     /// A place near the point (the centre of a sphere), in metres. The point is kept as `anchor + offset`, because
     /// far from the origin the sum would lose the digits that the offset still has.
-    pub anchor: Vector<T>,
+    pub anchor: Vector,
     /// From the anchor to the point, in metres.
     pub offset: Vector<T>,
     /// N, the unit normal on the viewer's side.
@@ -60,18 +60,18 @@ pub struct SurfacePoint<T = f64> {
     pub cos_theta_o: T,
 }
 
-impl<T: Real> SurfacePoint<T> {
+impl<T: Scalar> SurfacePoint<T> {
     /// P, in metres.
     #[must_use]
     pub fn position(&self) -> Vector<T> {
-        self.anchor + self.offset
+        Vector::from_f64(self.anchor) + self.offset
     }
 }
 
 impl Geometry {
     /// How a ray passes. `from_inside` says that it starts inside the shape.
     #[inline(always)]
-    pub fn approach<T: Real>(&self, ray: &Ray<T>, from_inside: bool) -> Approach<T> {
+    pub fn approach<T: Scalar>(&self, ray: &Ray<T>, from_inside: bool) -> Approach<T> {
         match self {
             Self::Sphere(sphere) => sphere.approach(ray, from_inside),
         }
@@ -79,7 +79,7 @@ impl Geometry {
 
     /// The nearest intersection with a ray (2.2), of which the approach says that there is one.
     #[inline(always)]
-    pub fn intersection<T: Real>(&self, ray: &Ray<T>, from_inside: bool, approach: &Approach<T>) -> Intersection<T> {
+    pub fn intersection<T: Scalar>(&self, ray: &Ray<T>, from_inside: bool, approach: &Approach<T>) -> Intersection<T> {
         match self {
             Self::Sphere(sphere) => sphere.intersection(ray, from_inside, approach),
         }

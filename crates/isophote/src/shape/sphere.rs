@@ -1,7 +1,7 @@
 //! The sphere (2.2).
 
 use super::{Approach, Intersection, NearestPoint, Ray, SurfacePoint};
-use crate::real::Real;
+use crate::real::Scalar;
 use crate::vector::Vector;
 
 /// ‖P − C‖ = R.
@@ -21,7 +21,7 @@ impl Sphere {
     /// large distances and loses the limb; this one loses only what the ray itself has lost. (Haines, Günther and
     /// Akenine-Möller, "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019.)
     #[inline(always)]
-    pub fn approach<T: Real>(&self, ray: &Ray<T>, from_inside: bool) -> Approach<T> {
+    pub fn approach<T: Scalar>(&self, ray: &Ray<T>, from_inside: bool) -> Approach<T> {
         let radius = T::from_f64(self.radius);
         let to_center = Vector::from_f64(self.center) - ray.origin;
         let along = to_center.dot(ray.direction);
@@ -36,7 +36,7 @@ impl Sphere {
     /// The nearest root of ‖O + tD − C‖² = R² with t > 0: the near one from outside, the far one from inside, with N
     /// turned to the viewer (2.2). Means something only where the approach is a hit.
     #[inline(always)]
-    pub fn intersection<T: Real>(&self, ray: &Ray<T>, from_inside: bool, approach: &Approach<T>) -> Intersection<T> {
+    pub fn intersection<T: Scalar>(&self, ray: &Ray<T>, from_inside: bool, approach: &Approach<T>) -> Intersection<T> {
         let Approach { clearance, along, perpendicular } = *approach;
         let cos_theta_o = clearance.max(T::zero()).sqrt();
         let half_chord = cos_theta_o * T::from_f64(self.radius);
@@ -46,7 +46,7 @@ impl Sphere {
             (perpendicular - ray.direction * half_chord, T::from_f64(1.0), along - half_chord)
         };
         let normal = offset * (outwards / T::from_f64(self.radius));
-        let anchor = Vector::from_f64(self.center);
+        let anchor = self.center;
         Intersection { distance, point: SurfacePoint { anchor, offset, normal, view: -ray.direction, cos_theta_o } }
     }
 
