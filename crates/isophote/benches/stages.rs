@@ -8,7 +8,8 @@ use isophote::export::png::PictureOptions;
 use isophote::export::{exr, figure, npz, png};
 use isophote::map::{Map, Quantity};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Reference, RenderSettings, Renderer, Threaded};
+use isophote::lanes::Precision;
+use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
 use isophote::scene::library::Starter;
 use isophote::scene::{Scene, Syntax};
 
@@ -37,7 +38,7 @@ fn kernel(criterion: &mut Criterion) {
         bencher.iter(|| black_box(render(&Reference, &scene, &brightness)));
     });
     criterion.bench_function("render 800×600, threads", |bencher| {
-        bencher.iter(|| black_box(render(&Threaded::default(), &scene, &brightness)));
+        bencher.iter(|| black_box(render(&Lanes::new(Precision::Double, None), &scene, &brightness)));
     });
 }
 
@@ -55,14 +56,14 @@ fn many_lights(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("many lights");
     group.sample_size(10);
     group.bench_function("render 800×600, 256 lights, threads", |bencher| {
-        bencher.iter(|| black_box(render(&Threaded::default(), &scene, &[Quantity::Brightness])));
+        bencher.iter(|| black_box(render(&Lanes::new(Precision::Double, None), &scene, &[Quantity::Brightness])));
     });
     group.finish();
 }
 
 fn export(criterion: &mut Criterion) {
     let scene = PreparedScene::new(&lab());
-    let map = render(&Threaded::default(), &scene, &Quantity::COMMON);
+    let map = render(&Lanes::new(Precision::Double, None), &scene, &Quantity::COMMON);
     let mut group = criterion.benchmark_group("export 800×600");
     group.sample_size(20);
     group.bench_function("png", |bencher| {

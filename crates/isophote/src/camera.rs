@@ -82,8 +82,8 @@ pub struct CameraFrame<T = f64> {
     pub up: Vector<T>,
     /// Unit vector of the direction of view.
     pub forward: Vector<T>,
-    screen: Screen,
-    resolution: Resolution,
+    pub(crate) screen: Screen,
+    pub(crate) resolution: Resolution,
 }
 
 impl<T: Scalar> CameraFrame<T> {
@@ -119,7 +119,7 @@ impl<T: Scalar> CameraFrame<T> {
                 let Resolution { width, height } = self.resolution;
                 let [left, right] = self.screen.x;
                 let [bottom, top] = self.screen.y;
-                (between(left, right, column, width), between(top, bottom, row, height))
+                (between(left, right, column.into(), width), between(top, bottom, row.into(), height))
             }
             ScreenPosition::Point { x, y } => (T::from_f64(x), T::from_f64(y)),
         }
@@ -147,10 +147,10 @@ impl CameraFrame {
     }
 }
 
-/// The middle of cell `index` when the way from `first` to `last` is cut into `count` cells. The two ends are
+/// The middle of cell `index` (a whole number, of a cell or beside them) when the way from `first` to `last` is cut into `count` cells. The two ends are
 /// weighted, not their difference, so that a symmetric window has exactly symmetric pixels.
-fn between<T: Scalar>(first: f64, last: f64, index: u32, count: u32) -> T {
-    let after = 2.0 * f64::from(index) + 1.0;
+pub(crate) fn between<T: Scalar>(first: f64, last: f64, index: f64, count: u32) -> T {
+    let after = 2.0 * index + 1.0;
     let before = 2.0 * f64::from(count) - after;
     let weighted = T::from_f64(first) * T::from_f64(before) + T::from_f64(last) * T::from_f64(after);
     weighted / T::from_f64(2.0 * f64::from(count))

@@ -1,6 +1,7 @@
 //! A scene laid out for tracing and shading. It chooses no renderer.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use crate::camera::{CameraFrame, ScreenPosition};
 use crate::double_double::DoubleDouble;
@@ -8,8 +9,8 @@ use crate::map::Pixel;
 use crate::real::Scalar;
 use crate::reflectance::{BrightnessFormula, Reflectance};
 use crate::scene::Scene;
-use crate::shade::{LightTerm, Shading, shade};
-use crate::shape::{Geometry, Intersection, Located, Ray, SurfacePoint};
+use crate::shade::{LightTerm, Shading, light_term, shade};
+use crate::shape::{Geometry, Intersection, Located, Outline, Ray, SurfacePoint};
 use crate::tolerance;
 use crate::vector::Vector;
 
@@ -20,6 +21,8 @@ pub struct PreparedScene {
     frame: CameraFrame<f64>,
     precise_frame: CameraFrame<DoubleDouble>,
     shapes: Vec<PreparedShape>,
+    /// Written when the first map asks for it.
+    source_text: OnceLock<String>,
 }
 
 #[derive(Clone, Debug)]
@@ -29,8 +32,12 @@ struct PreparedShape {
     eye_inside: bool,
     /// For each light, v_j of a point that is seen from inside; empty where the eye is outside.
     light_inside: Vec<bool>,
-    /// Rays whose clearance is between these are traced with 32 digits: see [`doubtful_clearance`].
+    /// Rays whose clearance is between these are traced with 32 digits: see [`TracingError`].
     doubtful_clearance: Range<f64>,
+    /// Where it appears on the screen.
+    outline: Outline,
+    /// As `doubtful_clearance`, for clearances by the outline.
+    doubtful_in_outline: Range<f64>,
 }
 
 /// What a ray from the eye meets first.
@@ -49,6 +56,7 @@ impl PreparedScene {
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let frame = CameraFrame::new(&scene.camera);
+        let precise_frame = CameraFrame::new(&scene.camera);
         let prepare = |shape: &crate::scene::Shape| {
             let geometry = shape.geometry;
             let is_inside = |point| geometry.signed_distance(point) < 0.0;
@@ -62,17 +70,25 @@ impl PreparedScene {
                 formula,
                 eye_inside,
                 light_inside: if eye_inside { scene.lights.iter().map(inside).collect() } else { Vec::new() },
-                doubtful_clearance: doubtful_clearance(&geometry, &formula, frame.eye),
+                doubtful_clearance: ray_error(&geometry, frame.eye).doubtful_clearance(&formula),
+                outline: if eye_inside { Outline::Unknown } else { geometry.outline(&precise_frame) },
+                doubtful_in_outline: ERROR_IN_OUTLINE.doubtful_clearance(&formula),
             }
         };
         let shapes = scene.shapes.iter().map(prepare).collect();
-        Self { scene: scene.clone(), precise_frame: CameraFrame::new(&scene.camera), frame, shapes }
+        Self { scene: scene.clone(), precise_frame, frame, shapes, source_text: OnceLock::new() }
     }
 
     /// The scene it was made from.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// The scene it was made from, as a TOML scene file.
+    #[must_use]
+    pub fn source_text(&self) -> &str {
+        self.source_text.get_or_init(|| self.scene.source.to_toml())
     }
 
     /// The camera's axes.
@@ -87,14 +103,34 @@ impl PreparedScene {
     /// traced again with 32 digits, so that the bound on the error holds at every visible pixel.
     #[must_use]
     pub fn trace(&self, position: ScreenPosition) -> Option<Hit> {
-        let Traced { hit, is_doubtful } = self.nearest(&self.frame.ray(position));
+        let Traced { hit, is_doubtful } = self.nearest(&self.frame.ray(position), 0..self.shapes.len());
         if is_doubtful { self.trace_precisely(position).map(Hit::rounded) } else { hit }
     }
 
     /// What the ray through a place on the screen meets first, with 32 digits.
     #[must_use]
     pub fn trace_precisely(&self, position: ScreenPosition) -> Option<Hit<DoubleDouble>> {
-        self.nearest(&self.precise_frame.ray(position)).hit
+        self.trace_precisely_among(position, 0..self.shapes.len())
+    }
+
+    /// The same, when it can only be one of these shapes.
+    pub(crate) fn trace_precisely_among(
+        &self,
+        position: ScreenPosition,
+        shapes: impl Iterator<Item = usize>,
+    ) -> Option<Hit<DoubleDouble>> {
+        self.nearest(&self.precise_frame.ray(position), shapes).hit
+    }
+
+    /// Where a shape appears on the screen.
+    #[must_use]
+    pub fn outline(&self, shape: usize) -> &Outline {
+        &self.shapes[shape].outline
+    }
+
+    /// For which clearances in its outline a shape has to be traced with 32 digits.
+    pub(crate) fn doubtful_in_outline(&self, shape: usize) -> &Range<f64> {
+        &self.shapes[shape].doubtful_in_outline
     }
 
     /// What is seen at a pixel of the full image.
@@ -107,13 +143,14 @@ impl PreparedScene {
     #[must_use]
     pub fn first_shape_towards(&self, point: Vector) -> Option<usize> {
         let ray = Ray { origin: self.frame.eye, direction: (point - self.frame.eye).normalized() };
-        self.nearest(&ray).hit.map(|hit| hit.shape)
+        self.nearest(&ray, 0..self.shapes.len()).hit.map(|hit| hit.shape)
     }
 
-    fn nearest<T: Scalar>(&self, ray: &Ray<T>) -> Traced<T> {
+    fn nearest<T: Scalar>(&self, ray: &Ray<T>, shapes: impl Iterator<Item = usize>) -> Traced<T> {
         let mut nearest: Option<Hit<T>> = None;
         let mut is_doubtful = false;
-        for (index, shape) in self.shapes.iter().enumerate() {
+        for index in shapes {
+            let shape = &self.shapes[index];
             let approach = shape.geometry.approach(ray, shape.eye_inside);
             let doubtful = &shape.doubtful_clearance;
             is_doubtful |= T::from_f64(doubtful.start).is_less(approach.clearance)
@@ -143,6 +180,13 @@ impl PreparedScene {
     ) -> Shading<T> {
         let visibility = |light| T::from_f64(self.visibility(shape, light));
         shade(point, &self.scene.lights, &self.shapes[shape].formula, visibility, each)
+    }
+
+    /// One light's term of the sum at a surface point.
+    #[must_use]
+    pub fn light_term(&self, shape: usize, point: &SurfacePoint, light: usize) -> LightTerm {
+        let placed = self.scene.lights[light].seen_from(point.anchor);
+        light_term(point, &placed, self.visibility(shape, light), &self.shapes[shape].formula.lobe())
     }
 
     /// The convention applied to a shape's material.
@@ -177,41 +221,54 @@ struct Traced<T> {
 }
 
 /// Distances that differ by less, relatively, are told apart with 32 digits.
-const ERROR_OF_DISTANCE: f64 = 1e-12;
+pub(crate) const ERROR_OF_DISTANCE: f64 = 1e-12;
 
-/// The error of the clearance, and of the normal, of a ray that is traced in double precision, in units of
-/// ε (1 + ρ), where ρ is the distance of the eye in sizes of the shape. The rays' own rounding is most of it; the
-/// figures are above what `tests/conformance.rs` finds in a hundred thousand random scenes.
-const ERROR_OF_CLEARANCE: f64 = 16.0;
-const ERROR_OF_NORMAL: f64 = 1.0;
+/// How much of the clearance cos²θ_o, and of the normal, is lost to rounding.
+struct TracingError {
+    clearance: f64,
+    normal: f64,
+}
 
-/// For which clearances cos²θ_o a ray is traced again with 32 digits: around zero, where hit and miss are told apart,
-/// and up to where a double keeps the error within half of what [`tolerance::DOUBLE`] allows; shading has the rest.
-///
-/// cosθ_o is the root of the clearance, so its error is that of the clearance over 2 cosθ_o.
-///
-/// The error of the normal is magnified by a terminator, by 1/cosθ_i, and by a highlight: n tanθ_h, largest where the
-/// highlight has fallen to a millionth of its peak, tan²θ_h = 10^(12/n) − 1, or where θ_h is as large as the cosines of
-/// the promise let it be. Some four roundings go into θ_h. Where even that is too much, every hit is traced again.
-fn doubtful_clearance(geometry: &Geometry, formula: &BrightnessFormula, eye: Vector) -> Range<f64> {
-    let allowed = 0.5 * tolerance::DOUBLE.of_peak;
+/// The error of a ray that is traced in double precision: in units of ε (1 + ρ), where ρ is the distance of the eye in
+/// sizes of the shape. The rays' own rounding is most of it; the figures are above what `tests/conformance.rs` finds in
+/// a hundred thousand random scenes.
+fn ray_error(geometry: &Geometry, eye: Vector) -> TracingError {
     let error = f64::EPSILON * (1.0 + geometry.remoteness(eye));
-    let terminator = 1.0 / tolerance::DOUBLE.peak_cosine;
-    let highlight = if formula.specular > 0.0 {
-        let n = formula.shininess;
-        let faintest = (libm::pow(10.0, 12.0 / n) - 1.0).sqrt();
-        4.0 * n * faintest.min(1.0 / tolerance::DOUBLE.above_cosine)
-    } else {
-        0.0
-    };
-    let least_cosine = 0.5 * ERROR_OF_CLEARANCE * error / allowed;
-    let is_too_remote = ERROR_OF_NORMAL * error * terminator.max(highlight) > allowed;
-    let good_enough = if is_too_remote { f64::INFINITY } else { least_cosine * least_cosine };
-    -2.0 * ERROR_OF_CLEARANCE * error..good_enough
+    TracingError { clearance: 16.0 * error, normal: error }
+}
+
+/// The error of a pixel in an [`Outline`], which distance does not magnify.
+const ERROR_IN_OUTLINE: TracingError = TracingError { clearance: 32.0 * f64::EPSILON, normal: 2.0 * f64::EPSILON };
+
+impl TracingError {
+    /// For which clearances a ray is traced again with 32 digits: around zero, where hit and miss are told apart, and
+    /// up to where the error is within half of what [`tolerance::DOUBLE`] allows; shading has the rest.
+    ///
+    /// cosθ_o is the root of the clearance, so its error is that of the clearance over 2 cosθ_o.
+    ///
+    /// The error of the normal is magnified by a terminator, by 1/cosθ_i, and by a highlight: n tanθ_h, largest where
+    /// the highlight has fallen to a millionth of its peak, tan²θ_h = 10^(12/n) − 1, or where θ_h is as large as the
+    /// cosines of the promise let it be. Some four roundings go into θ_h. Where even that is too much, every hit is
+    /// traced again.
+    fn doubtful_clearance(&self, formula: &BrightnessFormula) -> Range<f64> {
+        let allowed = 0.5 * tolerance::DOUBLE.of_peak;
+        let terminator = 1.0 / tolerance::DOUBLE.peak_cosine;
+        let highlight = if formula.specular > 0.0 {
+            let n = formula.shininess;
+            let faintest = (libm::pow(10.0, 12.0 / n) - 1.0).sqrt();
+            4.0 * n * faintest.min(1.0 / tolerance::DOUBLE.above_cosine)
+        } else {
+            0.0
+        };
+        let least_cosine = 0.5 * self.clearance / allowed;
+        let is_too_much = self.normal * terminator.max(highlight) > allowed;
+        let good_enough = if is_too_much { f64::INFINITY } else { least_cosine * least_cosine };
+        -2.0 * self.clearance..good_enough
+    }
 }
 
 impl Hit<DoubleDouble> {
-    fn rounded(self) -> Hit {
+    pub(crate) fn rounded(self) -> Hit {
         let vector = |vector: Vector<DoubleDouble>| vector.map(DoubleDouble::rounded);
         let point = self.point;
         Hit {

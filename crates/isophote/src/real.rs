@@ -127,7 +127,16 @@ impl<T: Scalar> Sum<T> {
     #[must_use]
     #[inline(always)]
     pub fn new() -> Self {
-        Self { total: T::zero(), lost: T::zero() }
+        Self::starting_at(T::zero())
+    }
+}
+
+impl<T: Real> Sum<T> {
+    /// Nothing summed yet, from a zero of the right kind.
+    #[must_use]
+    #[inline(always)]
+    pub fn starting_at(zero: T) -> Self {
+        Self { total: zero, lost: zero }
     }
 
     /// Adds a term.

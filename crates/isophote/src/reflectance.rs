@@ -193,10 +193,16 @@ impl BrightnessFormula {
         Self::towards_viewer(cos_theta_o, cos_theta_o.constant(self.specular))
     }
 
+    /// n, where the formula has a highlight.
+    #[must_use]
+    pub fn sharpness(&self) -> Option<f64> {
+        (self.specular != 0.0).then_some(self.shininess)
+    }
+
     /// (N·H)ⁿ for single numbers.
     #[must_use]
     pub fn lobe(&self) -> ScalarLobe {
-        ScalarLobe { shininess: (self.specular != 0.0).then_some(self.shininess) }
+        ScalarLobe { shininess: self.sharpness() }
     }
 
     #[inline(always)]

@@ -21,6 +21,10 @@ pub struct Tolerance {
 /// E ∝ 1/r² loses the digits that r has lost, whatever the arithmetic), and the eye within 1e9 sizes of every shape.
 pub const DOUBLE: Tolerance = Tolerance { of_peak: 1e-12, peak_cosine: 1e-2, relative: 1e-12, above_cosine: 0.1 };
 
+/// Brightness and its parts in single precision; geometry is double all the same. Its conditions are those of
+/// [`DOUBLE`].
+pub const SINGLE: Tolerance = Tolerance { of_peak: 3e-6, peak_cosine: 1e-2, relative: 3e-6, above_cosine: 0.1 };
+
 /// Values at a given point: nothing is lost in finding the point, so the cosines may be smaller.
 pub const PROBE: Tolerance = Tolerance { above_cosine: 1e-3, ..DOUBLE };
 

@@ -8,7 +8,8 @@ use isophote::double_double::DoubleDouble;
 use isophote::map::{Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::PreparedScene;
 use isophote::real::Scalar;
-use isophote::render::{Reference, RenderSettings, Renderer, Threaded};
+use isophote::lanes::{Instructions, Precision};
+use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
 use isophote::scene::source::MaterialSource;
 use isophote::scene::{Scene, SceneSource, Syntax};
 use isophote::shape::{Geometry, SurfacePoint};
@@ -35,7 +36,10 @@ fn bits(values: &Values, index: usize) -> Vec<u64> {
 }
 
 fn renderers() -> Vec<Box<dyn Renderer>> {
-    vec![Box::new(Reference), Box::new(Threaded::default())]
+    let lanes = |instructions| -> Box<dyn Renderer> {
+        Box::new(Lanes::new(Precision::Double, None).with_instructions(instructions))
+    };
+    std::iter::once::<Box<dyn Renderer>>(Box::new(Reference)).chain(Instructions::all().into_iter().map(lanes)).collect()
 }
 
 /// The surface point nearest to `point`, all of it in 32 digits; the eye is outside.
@@ -241,13 +245,14 @@ proptest! {
     ) {
         let scene = prepared(source);
         let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
-        let whole = Reference.render(&scene, &settings).expect("it renders");
+        let renderer = |threads: usize| Lanes::new(Precision::Double, threads.try_into().ok());
+        let whole = renderer(1).render(&scene, &settings).expect("it renders");
         let region = Region {
             corner: Pixel { column: corner.0, row: corner.1 },
             size: Resolution { width: size.0.min(32 - corner.0), height: size.1.min(24 - corner.1) },
         };
         let settings = RenderSettings { region: Some(region), ..settings };
-        let part = Threaded { threads: threads.try_into().ok() }.render(&scene, &settings).expect("it renders");
+        let part = renderer(threads).render(&scene, &settings).expect("it renders");
         for (whole, part_of_it) in whole.channels().iter().zip(part.channels()) {
             for index in 0..part.region.size.pixels() {
                 let Pixel { column, row } = part.pixel(index);

@@ -10,7 +10,8 @@ use isophote::export::figure::{self, FigureOptions, Mark};
 use isophote::export::png::Depth;
 use isophote::map::{Map, Quantity, Region};
 use isophote::prepare::PreparedScene;
-use isophote::render::{RenderSettings, Renderer, Threaded};
+use isophote::lanes::Precision;
+use isophote::render::{Lanes, RenderSettings, Renderer};
 use isophote::scene::Scene;
 
 use super::output::{FigureFormat, MapFile, MapStyle, figure_format, refuse_twice, write_figure};
@@ -119,7 +120,7 @@ impl<'a> Job<'a> {
         let region = arguments.region.unwrap_or(Region::all(scene.scene().camera().resolution));
         let progress = Progress::new(region.size.pixels() as u64, arguments.quiet);
         let settings = RenderSettings { region: Some(region), quantities, observer: Some(&progress) };
-        let map = Threaded { threads: arguments.threads }.render(scene, &settings);
+        let map = Lanes::new(Precision::Double, arguments.threads).render(scene, &settings);
         progress.finish();
         map.map_err(|error| match error {
             isophote::render::RenderError::Region { .. } => Usage(error.to_string()).into(),

@@ -1,13 +1,13 @@
 //! From a prepared scene to a map.
 
 mod reference;
-mod rows;
-mod threaded;
+mod band;
+mod lanes;
 
 use std::ops::ControlFlow;
 
 pub use reference::Reference;
-pub use threaded::Threaded;
+pub use lanes::Lanes;
 
 use crate::map::{Map, Pixel, Quantity, Region, Resolution};
 use crate::prepare::PreparedScene;

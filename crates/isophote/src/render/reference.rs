@@ -1,7 +1,8 @@
 //! The reference: one pixel after the other, in double precision.
 
-use super::{RenderError, RenderSettings, Renderer, rows};
-use crate::map::{Map, Mask};
+use super::{RenderError, RenderSettings, Renderer, band};
+use crate::lanes::Precision;
+use crate::map::Map;
 use crate::prepare::PreparedScene;
 
 /// The renderer that every other one is held to: scalar, single-threaded, obviously right.
@@ -14,12 +15,13 @@ impl Renderer for Reference {
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
-        let mut map = rows::empty_map(scene, settings, self.name())?;
+        let mut map = band::empty_map(scene, settings, self.name(), Precision::Double)?;
         let mut runs = Vec::new();
-        for mut row in rows::split(&mut map, scene) {
-            runs.extend(row.render(scene, settings.observer)?);
+        let rows = map.region.size.height;
+        for mut band in band::split(&mut map, scene, rows) {
+            runs.extend(band.render(scene, settings.observer)?);
         }
-        map.mask = Mask::new(map.region.size, runs);
+        band::finish(&mut map, runs);
         Ok(map)
     }
 }

@@ -1,11 +1,15 @@
 //! Shapes: what a ray can hit.
 
 mod locate;
+mod outline;
 mod sphere;
 
 pub use locate::{Located, Miss, surface_at};
+pub use outline::{Ellipse, Outline, PlaceInRow, PointInRow, RowOfEllipse};
 pub use sphere::Sphere;
 
+use crate::camera::CameraFrame;
+use crate::double_double::DoubleDouble;
 use crate::real::Scalar;
 use crate::vector::Vector;
 
@@ -85,6 +89,14 @@ impl Geometry {
         }
     }
 
+    /// Where the shape appears on the screen.
+    #[must_use]
+    pub fn outline(&self, frame: &CameraFrame<DoubleDouble>) -> Outline {
+        match self {
+            Self::Sphere(sphere) => Ellipse::of_sphere(sphere, frame),
+        }
+    }
+
     /// Signed distance of a point from the surface in metres, negative inside.
     #[must_use]
     pub fn signed_distance(&self, point: Vector) -> f64 {
@@ -106,6 +118,22 @@ impl Geometry {
     pub fn in_direction(&self, direction: Vector) -> NearestPoint {
         match self {
             Self::Sphere(sphere) => sphere.in_direction(direction),
+        }
+    }
+
+    /// Its middle, in metres: C of a sphere.
+    #[must_use]
+    pub fn center(&self) -> Vector {
+        match self {
+            Self::Sphere(sphere) => sphere.center,
+        }
+    }
+
+    /// Its size in metres: R of a sphere.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        match self {
+            Self::Sphere(sphere) => sphere.radius,
         }
     }
 

@@ -1,0 +1,397 @@
+//! Vectors of lanes, each lane a pixel: the only file that names the SIMD crate.
+//!
+//! A vector has 16 numbers in single precision or 8 in double, on any machine; narrower registers take several. Every
+//! lane is computed alone and rounded alike, so neither a machine's width nor a pixel's place in a vector changes a
+//! bit. (With the exception of machines that have no fused multiplication and addition: SSE and WebAssembly round
+//! products before they add. AVX2, AVX-512 and NEON agree.)
+//!
+//! Everything generic over [`Lane`] must be `#[inline(always)]`: what is not ends up compiled for the baseline.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch, f32x16, f64x8, mask32x16, mask64x8, u32x16, u64x8};
+
+use crate::real::Real;
+
+/// A vector of numbers.
+pub trait Lane: Real {
+    /// One of its numbers.
+    type Element: Element;
+    /// The instructions that compute it.
+    type Kind: Copy;
+    /// How many numbers there are.
+    const COUNT: usize;
+
+    /// The same number in every lane.
+    fn splat(kind: Self::Kind, element: Self::Element) -> Self;
+
+    /// For lane i the distance (first + i) − origin, computed in double precision and then rounded. `first` is whole.
+    fn distances(kind: Self::Kind, first: f64, origin: f64) -> Self;
+
+    /// Writes the numbers; the slice has room for [`COUNT`](Self::COUNT).
+    fn store(self, out: &mut [Self::Element]);
+
+    /// k of x = m·2ᵏ with 1 ≤ m < 2, for a positive normal x.
+    #[must_use]
+    fn exponent(self) -> Self;
+
+    /// m of x = m·2ᵏ with 1 ≤ m < 2, for a positive normal x.
+    #[must_use]
+    fn mantissa(self) -> Self;
+
+    /// 2ᵏ of a whole number k within the range of exponents of normal numbers.
+    #[must_use]
+    fn power_of_two(self) -> Self;
+}
+
+/// A number of a lane.
+pub trait Element: Copy + Default + PartialOrd + Send + Sync + 'static {
+    /// Significant digits: what polynomials are cut for.
+    const PRECISION: Precision;
+
+    /// The nearest such number.
+    fn from_f64(value: f64) -> Self;
+
+    /// The number, exactly.
+    fn to_f64(self) -> f64;
+}
+
+/// How precisely maps are computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub enum Precision {
+    /// 64 bits: within [`DOUBLE`](crate::tolerance::DOUBLE) of exact arithmetic.
+    #[default]
+    Double,
+    /// 32 bits: within [`SINGLE`](crate::tolerance::SINGLE), at about twice the speed.
+    Single,
+}
+
+impl crate::units::Choice for Precision {
+    const ALL: &'static [Self] = &[Self::Double, Self::Single];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Double => "double",
+            Self::Single => "single",
+        }
+    }
+}
+
+impl Element for f64 {
+    const PRECISION: Precision = Precision::Double;
+
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+impl Element for f32 {
+    const PRECISION: Precision = Precision::Single;
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is the purpose")]
+    fn from_f64(value: f64) -> Self {
+        value as f32
+    }
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+/// The instructions of a machine.
+#[derive(Clone, Copy, Debug)]
+pub struct Instructions(Level);
+
+impl Instructions {
+    /// The best that this machine has.
+    #[must_use]
+    pub fn best() -> Self {
+        Self(Level::new())
+    }
+
+    /// All that this machine has, for tests that hold each of them to the same results.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        let best = Level::new();
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        let levels = [
+            best.as_sse2().map(Level::Sse2),
+            best.as_sse4_2().map(Level::Sse4_2),
+            best.as_avx2().map(Level::Avx2),
+            best.as_avx512().map(Level::Avx512),
+        ];
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        let levels = [Some(best)];
+        levels.into_iter().flatten().map(Self).collect()
+    }
+
+    /// Their usual name, such as `avx512`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Sse2(_) => "sse2",
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Sse4_2(_) => "sse4.2",
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx2(_) => "avx2",
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx512(_) => "avx512",
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(_) => "neon",
+            _ => "simd128 or none",
+        }
+    }
+
+    /// Whether a product is added without being rounded first: such machines agree in every bit.
+    #[must_use]
+    pub fn fuse(self) -> bool {
+        ["avx2", "avx512", "neon"].contains(&self.name())
+    }
+
+    /// Runs a job with vectors for these instructions.
+    pub fn run<J: LaneJob>(self, job: J) -> J::Output {
+        dispatch!(self.0, simd => run_with(simd, job))
+    }
+}
+
+/// Something to be computed with vectors.
+pub trait LaneJob {
+    /// What comes of it.
+    type Output;
+
+    /// Computes it; mark it `#[inline(always)]`.
+    fn run<S, D>(self, kind: S::Kind) -> Self::Output
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>;
+}
+
+#[inline(always)]
+fn run_with<S: Simd, J: LaneJob>(simd: S, job: J) -> J::Output {
+    // Two vectors in flight hide the latency of the divider. Where a vector fills four registers of sixteen, there is
+    // no room for two.
+    if <S::f32s as SimdBase<S>>::LEN == 16 {
+        job.run::<Pair<f32x16<S>>, Pair<f64x8<S>>>(simd)
+    } else {
+        job.run::<f32x16<S>, f64x8<S>>(simd)
+    }
+}
+
+macro_rules! lane {
+    ($vector:ident, $mask:ident, $bits:ident, $element:ty, $max:ident, negligible: $negligible:expr,
+     mantissa bits: $width:expr, whole: $whole:expr, bias: $bias:expr) => {
+        impl<S: Simd> Real for $vector<S> {
+            type Mask = $mask<S>;
+            const NEGLIGIBLE_SQUARE: f64 = $negligible;
+
+            #[inline(always)]
+            fn constant(self, value: f64) -> Self {
+                <Self as Lane>::splat(self.simd, <$element>::from_f64(value))
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                <Self as fearless_simd::SimdFloat<S>>::sqrt(self)
+            }
+
+            #[inline(always)]
+            fn times_plus(self, factor: Self, addend: Self) -> Self {
+                self.mul_add(factor, addend)
+            }
+
+            #[inline(always)]
+            fn is_less(self, other: Self) -> Self::Mask {
+                self.simd_lt(other)
+            }
+
+            #[inline(always)]
+            fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+                mask.select(yes, no)
+            }
+
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                self.simd.$max(self, other)
+            }
+        }
+
+        impl<S: Simd> Lane for $vector<S> {
+            type Element = $element;
+            type Kind = S;
+            const COUNT: usize = <Self as SimdBase<S>>::LEN;
+
+            #[inline(always)]
+            fn splat(kind: S, element: $element) -> Self {
+                SimdBase::splat(kind, element)
+            }
+
+            #[inline(always)]
+            fn distances(kind: S, first: f64, origin: f64) -> Self {
+                distances::$vector(kind, first, origin)
+            }
+
+            #[inline(always)]
+            fn store(self, out: &mut [$element]) {
+                self.store_slice(&mut out[..Self::COUNT]);
+            }
+
+            #[inline(always)]
+            fn exponent(self) -> Self {
+                // The exponent's bits, put below the binary point of a number whose last digit counts ones.
+                let bits: $bits<S> = self.bitcast();
+                let whole = <Self as Lane>::splat(self.simd, $whole);
+                let biased = (bits >> $width) | whole.bitcast::<$bits<S>>();
+                biased.bitcast::<Self>() - ($whole + $bias)
+            }
+
+            #[inline(always)]
+            fn mantissa(self) -> Self {
+                let bits: $bits<S> = self.bitcast();
+                let one = <Self as Lane>::splat(self.simd, 1.0).bitcast::<$bits<S>>();
+                ((bits & ((1 << $width) - 1)) | one).bitcast()
+            }
+
+            #[inline(always)]
+            fn power_of_two(self) -> Self {
+                let bits: $bits<S> = (self + ($whole + $bias)).bitcast();
+                (bits << $width).bitcast()
+            }
+        }
+    };
+}
+
+lane!(f32x16, mask32x16, u32x16, f32, max_f32x16, negligible: 1e-14,
+    mantissa bits: 23, whole: 8_388_608.0, bias: 127.0);
+lane!(f64x8, mask64x8, u64x8, f64, max_f64x8, negligible: 1e-32,
+    mantissa bits: 52, whole: 4_503_599_627_370_496.0, bias: 1023.0);
+
+mod distances {
+    use super::{Simd, SimdBase, SimdNarrow, f32x16, f64x8};
+
+    const LANES: [f64; 16] = [0., 1., 2., 3., 4., 5., 6., 7., 8., 9., 10., 11., 12., 13., 14., 15.];
+
+    #[inline(always)]
+    pub fn f64x8<S: Simd>(kind: S, first: f64, origin: f64) -> f64x8<S> {
+        (f64x8::from_slice(kind, &LANES[..8]) + first) - origin
+    }
+
+    #[inline(always)]
+    pub fn f32x16<S: Simd>(kind: S, first: f64, origin: f64) -> f32x16<S> {
+        let lower = f64x8(kind, first, origin);
+        let upper = (f64x8::from_slice(kind, &LANES[8..]) + first) - origin;
+        lower.narrow(upper)
+    }
+}
+
+/// Two vectors that are computed side by side.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<V>(V, V);
+
+macro_rules! pairwise {
+    ($($trait:ident $method:ident),*) => {$(
+        impl<V: $trait<Output = V>> $trait for Pair<V> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(self.0.$method(other.0), self.1.$method(other.1))
+            }
+        }
+    )*};
+}
+
+pairwise!(Add add, Sub sub, Mul mul, Div div);
+
+impl<V: Neg<Output = V>> Neg for Pair<V> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0, -self.1)
+    }
+}
+
+impl<V: Real> Real for Pair<V> {
+    type Mask = (V::Mask, V::Mask);
+    const NEGLIGIBLE_SQUARE: f64 = V::NEGLIGIBLE_SQUARE;
+
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        let constant = self.0.constant(value);
+        Self(constant, constant)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt(), self.1.sqrt())
+    }
+
+    #[inline(always)]
+    fn times_plus(self, factor: Self, addend: Self) -> Self {
+        Self(self.0.times_plus(factor.0, addend.0), self.1.times_plus(factor.1, addend.1))
+    }
+
+    #[inline(always)]
+    fn is_less(self, other: Self) -> Self::Mask {
+        (self.0.is_less(other.0), self.1.is_less(other.1))
+    }
+
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Self(V::select(mask.0, yes.0, no.0), V::select(mask.1, yes.1, no.1))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0), self.1.max(other.1))
+    }
+}
+
+impl<V: Lane> Lane for Pair<V> {
+    type Element = V::Element;
+    type Kind = V::Kind;
+    const COUNT: usize = 2 * V::COUNT;
+
+    #[inline(always)]
+    fn splat(kind: V::Kind, element: V::Element) -> Self {
+        let splat = V::splat(kind, element);
+        Self(splat, splat)
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_precision_loss, reason = "a vector is short")]
+    fn distances(kind: V::Kind, first: f64, origin: f64) -> Self {
+        Self(V::distances(kind, first, origin), V::distances(kind, first + V::COUNT as f64, origin))
+    }
+
+    #[inline(always)]
+    fn store(self, out: &mut [V::Element]) {
+        self.0.store(out);
+        self.1.store(&mut out[V::COUNT..]);
+    }
+
+    #[inline(always)]
+    fn exponent(self) -> Self {
+        Self(self.0.exponent(), self.1.exponent())
+    }
+
+    #[inline(always)]
+    fn mantissa(self) -> Self {
+        Self(self.0.mantissa(), self.1.mantissa())
+    }
+
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        Self(self.0.power_of_two(), self.1.power_of_two())
+    }
+}

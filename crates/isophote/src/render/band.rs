@@ -1,0 +1,285 @@
+//! A map that is being filled, band by band.
+
+use std::ops::ControlFlow;
+
+use super::{Observer, RenderError, RenderSettings};
+use crate::lanes::{Element, Precision};
+use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Run, Values, Window};
+use crate::prepare::{Hit, PreparedScene};
+use crate::scene::Scene;
+use crate::units::LengthUnit;
+
+/// A map of zeros (−1 for the shape) that sees nothing, with every channel that the settings ask for. In single
+/// precision the geometry (depth, position, normal) is double all the same.
+pub fn empty_map(
+    scene: &PreparedScene,
+    settings: &RenderSettings<'_>,
+    renderer: String,
+    precision: Precision,
+) -> Result<Map, RenderError> {
+    let description = scene.scene();
+    let full = description.camera.resolution;
+    let region = settings.region.unwrap_or(Region::all(full));
+    let fits = |start: u32, size: u32, whole: u32| size > 0 && start < whole && size <= whole - start;
+    if !fits(region.corner.column, region.size.width, full.width)
+        || !fits(region.corner.row, region.size.height, full.height)
+    {
+        return Err(RenderError::Region { region, full });
+    }
+    let mut channels: Vec<Channel> = Vec::new();
+    for quantity in &settings.quantities {
+        if channels.iter().all(|channel| channel.quantity != *quantity) {
+            channels.push(empty_channel(quantity, description, region, precision)?);
+        }
+    }
+    let provenance = Provenance {
+        program: concat!("isophote ", env!("CARGO_PKG_VERSION")).into(),
+        title: description.title.clone(),
+        scene: scene.source_text().to_owned(),
+        convention: description.convention.label(),
+        renderer,
+    };
+    let mask = Mask::new(region.size, Vec::new());
+    Ok(Map { full, region, window: window(description, region), provenance, mask, channels })
+}
+
+fn empty_channel(
+    quantity: &Quantity,
+    scene: &Scene,
+    region: Region,
+    precision: Precision,
+) -> Result<Channel, RenderError> {
+    if let Quantity::Light(name) = quantity
+        && scene.lights.iter().all(|light| light.name != *name)
+    {
+        return Err(RenderError::NoSuchLight { name: name.clone() });
+    }
+    let pixels = region.size.pixels();
+    let values = match quantity {
+        Quantity::Position | Quantity::Normal => Values::Vector(vec![[0.0; 3]; pixels]),
+        Quantity::Shape => Values::Index(vec![-1; pixels]),
+        Quantity::Depth => Values::Scalar(vec![0.0; pixels]),
+        _ if precision == Precision::Single => Values::Single(vec![0.0; pixels]),
+        _ => Values::Scalar(vec![0.0; pixels]),
+    };
+    let unit = quantity.unit(scene.convention, scene.quantities, scene.length).into();
+    Ok(Channel { quantity: quantity.clone(), unit, values })
+}
+
+fn window(scene: &Scene, region: Region) -> Window {
+    let full = scene.camera.resolution;
+    let screen = scene.camera.screen;
+    let edge = |[first, last]: [f64; 2], edge: u32, count: u32| {
+        let part = f64::from(edge) / f64::from(count);
+        scene.length.from_metres(first * (1.0 - part) + last * part)
+    };
+    let [bottom, top] = screen.y;
+    let x = |column| edge(screen.x, column, full.width);
+    let y = |row| edge([top, bottom], row, full.height);
+    let Region { corner, size } = region;
+    Window {
+        x: [x(corner.column), x(corner.column + size.width)],
+        y: [y(corner.row + size.height), y(corner.row)],
+        length: scene.length,
+    }
+}
+
+/// Rows of a map, to be filled.
+pub struct Band<'m> {
+    /// The top left pixel, of the full image.
+    pub first: Pixel,
+    /// Index in the map of that pixel.
+    pub start: usize,
+    /// Width and rows.
+    pub size: Resolution,
+    /// The unit in which lengths are stored.
+    pub length: LengthUnit,
+    /// What is to be filled in.
+    pub channels: Vec<BandChannel<'m>>,
+}
+
+/// What goes into a band, and where. The shape comes from the mask in the end.
+pub enum BandChannel<'m> {
+    /// Double precision.
+    Double(Scalar, &'m mut [f64]),
+    /// Single precision.
+    Single(Scalar, &'m mut [f32]),
+    /// P.
+    Position(&'m mut [[f64; 3]]),
+    /// N.
+    Normal(&'m mut [[f64; 3]]),
+}
+
+/// What a scalar channel holds; a light by its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scalar {
+    /// B.
+    Brightness,
+    /// E.
+    Irradiance,
+    /// The diffuse part of B.
+    Diffuse,
+    /// The specular part of B.
+    Specular,
+    /// t.
+    Depth,
+    /// E_j.
+    Light(usize),
+}
+
+/// Cuts a map into bands of so many rows, from the top.
+pub fn split<'m>(map: &'m mut Map, scene: &PreparedScene, rows: u32) -> Vec<Band<'m>> {
+    let Region { corner, size } = map.region;
+    let pixels = size.width as usize * rows as usize;
+    let mut bands: Vec<Band<'_>> = (0..size.height)
+        .step_by(rows as usize)
+        .map(|row| Band {
+            first: Pixel { column: corner.column, row: corner.row + row },
+            start: row as usize * size.width as usize,
+            size: Resolution { width: size.width, height: rows.min(size.height - row) },
+            length: map.window.length,
+            channels: Vec::new(),
+        })
+        .collect();
+    for Channel { quantity, values, .. } in &mut map.channels {
+        let parts: Vec<BandChannel<'_>> = match values {
+            Values::Scalar(values) => {
+                let scalar = Scalar::of(quantity, scene.scene());
+                values.chunks_mut(pixels).map(|part| BandChannel::Double(scalar, part)).collect()
+            }
+            Values::Single(values) => {
+                let scalar = Scalar::of(quantity, scene.scene());
+                values.chunks_mut(pixels).map(|part| BandChannel::Single(scalar, part)).collect()
+            }
+            Values::Vector(values) => {
+                let part = if *quantity == Quantity::Normal { BandChannel::Normal } else { BandChannel::Position };
+                values.chunks_mut(pixels).map(part).collect()
+            }
+            Values::Index(_) => continue,
+        };
+        for (band, part) in bands.iter_mut().zip(parts) {
+            band.channels.push(part);
+        }
+    }
+    bands
+}
+
+/// Gives a map whose bands are filled its mask, and its shape channel.
+pub fn finish(map: &mut Map, runs: Vec<Run>) {
+    map.mask = Mask::new(map.region.size, runs);
+    for channel in &mut map.channels {
+        if let Values::Index(shapes) = &mut channel.values {
+            *shapes = map.mask.shapes();
+        }
+    }
+}
+
+impl Scalar {
+    fn of(quantity: &Quantity, scene: &Scene) -> Self {
+        let light = |name: &String| scene.lights.iter().position(|light| light.name == *name);
+        match quantity {
+            Quantity::Brightness => Self::Brightness,
+            Quantity::Irradiance => Self::Irradiance,
+            Quantity::Diffuse => Self::Diffuse,
+            Quantity::Specular => Self::Specular,
+            Quantity::Depth => Self::Depth,
+            Quantity::Light(name) => Self::Light(light(name).expect("the map was made for this scene")),
+            Quantity::Position | Quantity::Normal | Quantity::Shape => {
+                unreachable!("`empty_channel` gives it other values")
+            }
+        }
+    }
+}
+
+impl Band<'_> {
+    /// Fills the band pixel by pixel, and says what its pixels see.
+    pub fn render(&mut self, scene: &PreparedScene, observer: Option<&dyn Observer>) -> Result<Vec<Run>, RenderError> {
+        let mut runs = Vec::new();
+        for row in 0..self.size.height {
+            for column in 0..self.size.width {
+                let pixel = Pixel { column: self.first.column + column, row: self.first.row + row };
+                if let Some(hit) = scene.trace_pixel(pixel) {
+                    self.store(pixel, scene, &hit);
+                    self.see(pixel, &hit, &mut runs);
+                }
+            }
+            advance(observer, self.size.width)?;
+        }
+        Ok(runs)
+    }
+
+    /// The lights whose irradiance is asked for by itself, in the order of their channels.
+    pub fn lights(&self) -> Vec<usize> {
+        let light = |channel: &BandChannel<'_>| match channel {
+            BandChannel::Double(Scalar::Light(light), _) | BandChannel::Single(Scalar::Light(light), _) => Some(*light),
+            _ => None,
+        };
+        self.channels.iter().filter_map(light).collect()
+    }
+
+    /// Whether depth, position or normal are asked for.
+    pub fn has_geometry(&self) -> bool {
+        let is_geometry = |channel: &BandChannel<'_>| {
+            matches!(
+                channel,
+                BandChannel::Double(Scalar::Depth, _) | BandChannel::Position(_) | BandChannel::Normal(_)
+            )
+        };
+        self.channels.iter().any(is_geometry)
+    }
+
+    /// Index in the band of a pixel of the full image.
+    pub fn index(&self, pixel: Pixel) -> usize {
+        let row = (pixel.row - self.first.row) as usize;
+        row * self.size.width as usize + (pixel.column - self.first.column) as usize
+    }
+
+    /// Adds a pixel to what is seen.
+    pub fn see(&self, pixel: Pixel, hit: &Hit, runs: &mut Vec<Run>) {
+        let start = self.start + self.index(pixel);
+        let shape = u32::try_from(hit.shape).unwrap_or(u32::MAX);
+        extend(runs, Run { start, end: start + 1, shape }, self.size.width as usize);
+    }
+
+    /// Shades what is seen at a pixel and stores it.
+    pub fn store(&mut self, pixel: Pixel, scene: &PreparedScene, hit: &Hit) {
+        let index = self.index(pixel);
+        let shading = scene.shade(hit.shape, &hit.point, |_, _| {});
+        let length = self.length;
+        let scalar = |scalar: Scalar| match scalar {
+            Scalar::Brightness => shading.brightness(),
+            Scalar::Irradiance => shading.irradiance,
+            Scalar::Diffuse => shading.diffuse,
+            Scalar::Specular => shading.specular,
+            Scalar::Depth => length.from_metres(hit.distance),
+            Scalar::Light(light) => scene.light_term(hit.shape, &hit.point, light).irradiance,
+        };
+        for channel in &mut self.channels {
+            match channel {
+                BandChannel::Double(quantity, values) => values[index] = scalar(*quantity),
+                BandChannel::Single(quantity, values) => values[index] = f32::from_f64(scalar(*quantity)),
+                BandChannel::Position(values) => {
+                    let position = hit.point.position().to_array();
+                    values[index] = position.map(|coordinate| length.from_metres(coordinate));
+                }
+                BandChannel::Normal(values) => values[index] = hit.point.normal.to_array(),
+            }
+        }
+    }
+}
+
+/// Adds a run, or lengthens the last one if it goes on there in the same row.
+pub fn extend(runs: &mut Vec<Run>, run: Run, width: usize) {
+    match runs.last_mut() {
+        Some(last) if last.end == run.start && last.shape == run.shape && run.start % width != 0 => last.end = run.end,
+        _ => runs.push(run),
+    }
+}
+
+/// Tells the observer, and hears whether to go on.
+pub fn advance(observer: Option<&dyn Observer>, pixels: u32) -> Result<(), RenderError> {
+    match observer.map(|observer| observer.advance(u64::from(pixels))) {
+        Some(ControlFlow::Break(())) => Err(RenderError::Interrupted),
+        _ => Ok(()),
+    }
+}

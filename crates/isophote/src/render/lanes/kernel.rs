@@ -1,0 +1,353 @@
+//! The kernel: rows of a band in lanes, from the outlines' roots to stored values.
+
+use super::lights::{BLOCK, ShapeLights, ShapeShading};
+use super::power::{NoPower, Power};
+use super::visible::{Candidate, RowView, Stretch};
+use crate::lanes::{Element, Lane, LaneJob, Precision};
+use crate::light::PlacedLight;
+use crate::map::{Pixel, Run};
+use crate::prepare::PreparedScene;
+use crate::real::Sum;
+use crate::reflectance::{BrightnessFormula, Lobe};
+use crate::render::band::{self, Band, BandChannel, Scalar};
+use crate::render::{Observer, RenderError};
+use crate::shade::light_term;
+use crate::shape::{PlaceInRow, PointInRow, RowOfEllipse, SurfacePoint};
+use crate::vector::Vector;
+
+/// A band to be filled.
+pub struct BandJob<'a, 'm> {
+    /// The scene.
+    pub scene: &'a PreparedScene,
+    /// The band.
+    pub band: Band<'m>,
+    /// The shapes that may be seen in it.
+    pub candidates: Vec<Candidate<'a>>,
+    /// Of what is shaded.
+    pub precision: Precision,
+    /// Hears of the progress.
+    pub observer: Option<&'a dyn Observer>,
+}
+
+/// Columns that share a choice of lights.
+const CHUNK: u32 = 128;
+
+impl LaneJob for BandJob<'_, '_> {
+    type Output = Result<Vec<Run>, RenderError>;
+
+    #[inline(always)]
+    fn run<S, D>(mut self, kind: S::Kind) -> Self::Output
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        let columns = self.band.first.column..self.band.first.column + self.band.size.width;
+        let has_geometry = self.band.has_geometry();
+        let mut shadings = Shadings::new(&self);
+        let mut view = RowView::default();
+        let mut runs = Vec::new();
+        for row in self.band.first.row..self.band.first.row + self.band.size.height {
+            view.look(self.scene, &self.candidates, row, &columns);
+            for stretch in &view.stretches {
+                let Ok(index) = self.candidates.binary_search_by_key(&stretch.shape, |candidate| candidate.shape) else {
+                    unreachable!("what is seen is among the candidates");
+                };
+                let ellipse = self.candidates[index].ellipse;
+                let geometry = &self.scene.scene().shapes()[stretch.shape].geometry;
+                let mut work = StretchWork {
+                    row: ellipse.in_row(row),
+                    counted_from: ellipse.column,
+                    center: geometry.center(),
+                    radius: geometry.size(),
+                    formula: self.scene.formula(stretch.shape),
+                    stretch: *stretch,
+                    at: self.band.index(Pixel { column: stretch.start, row }),
+                    band: &mut self.band,
+                };
+                match shadings.of(index) {
+                    ShapeShading::Single(lights) => work.shade::<S>(kind, lights),
+                    ShapeShading::Double(lights) => work.shade::<D>(kind, lights),
+                }
+                if has_geometry {
+                    work.store_geometry::<D>(kind);
+                }
+            }
+            for traced in &view.traced {
+                if let Some(hit) = &traced.hit {
+                    self.band.store(traced.pixel, self.scene, hit);
+                }
+            }
+            see(&self.band, row, &view, &mut runs);
+            band::advance(self.observer, self.band.size.width)?;
+        }
+        Ok(runs)
+    }
+}
+
+/// Puts the stretches and the traced pixels of a row in order.
+fn see(band: &Band<'_>, row: u32, view: &RowView, runs: &mut Vec<Run>) {
+    let width = band.size.width as usize;
+    let mut traced = view.traced.iter().peekable();
+    for stretch in &view.stretches {
+        while let Some(pixel) = traced.next_if(|traced| traced.pixel.column < stretch.start) {
+            if let Some(hit) = &pixel.hit {
+                band.see(pixel.pixel, hit, runs);
+            }
+        }
+        let start = band.start + band.index(Pixel { column: stretch.start, row });
+        let end = start + (stretch.end - stretch.start) as usize;
+        let shape = u32::try_from(stretch.shape).unwrap_or(u32::MAX);
+        band::extend(runs, Run { start, end, shape }, width);
+    }
+    for pixel in traced {
+        if let Some(hit) = &pixel.hit {
+            band.see(pixel.pixel, hit, runs);
+        }
+    }
+}
+
+/// The lights of each candidate, placed when it is first seen.
+struct Shadings<'a> {
+    scene: &'a PreparedScene,
+    shapes: Vec<usize>,
+    wanted: Vec<usize>,
+    precision: Precision,
+    kept: Vec<Option<ShapeShading>>,
+    /// Lights that are kept, over all shapes.
+    count: usize,
+}
+
+/// Lights kept in a band: beyond that they are placed anew rather than fill the memory.
+const KEPT: usize = 1 << 20;
+
+impl<'a> Shadings<'a> {
+    fn new(job: &BandJob<'a, '_>) -> Self {
+        let shapes: Vec<usize> = job.candidates.iter().map(|candidate| candidate.shape).collect();
+        let kept = shapes.iter().map(|_| None).collect();
+        Self { scene: job.scene, shapes, wanted: job.band.lights(), precision: job.precision, kept, count: 0 }
+    }
+
+    fn of(&mut self, index: usize) -> &ShapeShading {
+        if self.kept[index].is_none() && self.count > KEPT {
+            self.kept.fill_with(|| None);
+            self.count = 0;
+        }
+        let Self { scene, shapes, wanted, precision, kept, count } = self;
+        kept[index].get_or_insert_with(|| {
+            *count += scene.scene().lights().len();
+            ShapeShading::new(scene, shapes[index], wanted, *precision)
+        })
+    }
+}
+
+/// Columns of a row to be computed.
+struct StretchWork<'w, 'm> {
+    row: RowOfEllipse,
+    /// [`Ellipse::column`](crate::shape::Ellipse::column).
+    counted_from: f64,
+    center: Vector,
+    radius: f64,
+    formula: &'w BrightnessFormula,
+    stretch: Stretch,
+    /// Index in the band of the first column.
+    at: usize,
+    band: &'w mut Band<'m>,
+}
+
+/// The sums over the lights at a vector of pixels.
+struct Sums<V> {
+    irradiance: V,
+    /// Σ E_j (N·H_j)ⁿ.
+    lobes: V,
+    cos_theta_o: V,
+}
+
+impl StretchWork<'_, '_> {
+    #[inline(always)]
+    fn shade<V: Lane>(&mut self, kind: V::Kind, lights: &ShapeLights<V::Element>) {
+        match &lights.power {
+            Power::None => self.shade_with::<V, _>(kind, lights, &NoPower),
+            Power::Even(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
+            Power::Odd(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
+            Power::Any(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
+        }
+    }
+
+    #[inline(always)]
+    fn shade_with<V: Lane, L: Lobe<V>>(&mut self, kind: V::Kind, lights: &ShapeLights<V::Element>, lobe: &L) {
+        let row = self.row.map(|value| V::splat(kind, V::Element::from_f64(value)));
+        let mut chosen = Vec::new();
+        let Stretch { start, end, .. } = self.stretch;
+        for chunk in (start..end).step_by(CHUNK as usize) {
+            let chunk_end = end.min(chunk + CHUNK);
+            let lit_by = if lights.lights.len() > BLOCK {
+                let (middle, reach) = self.cap(chunk, chunk_end);
+                lights.above_horizon(middle, reach, &mut chosen)
+            } else {
+                &lights.lights
+            };
+            let mut first = chunk;
+            while first < chunk_end {
+                let point = self.point::<V>(kind, &row, first).point;
+                let (irradiance, lobes) = sum(kind, &point, lit_by, lobe);
+                let sums = Sums { irradiance, lobes, cos_theta_o: point.cos_theta_o };
+                let count = (chunk_end - first).min(count_of::<V>());
+                self.store(first, count, &sums, &point, kind, lights);
+                first += count_of::<V>();
+            }
+        }
+    }
+
+    /// What a vector of pixels sees.
+    #[inline(always)]
+    fn point<V: Lane>(&self, kind: V::Kind, row: &RowOfEllipse<V>, first: u32) -> PointInRow<V> {
+        let first = f64::from(first) - self.counted_from;
+        let [left, right] = self.row.roots;
+        let place = PlaceInRow {
+            column: V::distances(kind, first, 0.0),
+            after_first: V::distances(kind, first, left),
+            after_last: V::distances(kind, first, right),
+        };
+        row.point(self.center, &place)
+    }
+
+    /// A cap of the unit sphere that holds what these columns see: the direction of its middle, and the largest distance
+    /// from there. A row cuts the sphere in a circle, so the ends are farthest from the middle.
+    fn cap(&self, start: u32, end: u32) -> (Vector, f64) {
+        let [left, right] = self.row.roots;
+        let normal = |column: u32| {
+            let u = f64::from(column) - self.counted_from;
+            let place = PlaceInRow { column: u, after_first: u - left, after_last: u - right };
+            self.row.point(self.center, &place).point.normal
+        };
+        let middle = normal(start + (end - start) / 2);
+        let reach = |column: u32| (normal(column) - middle).length();
+        (middle, reach(start).max(reach(end - 1)))
+    }
+
+    #[inline(always)]
+    fn store<V: Lane>(
+        &mut self,
+        first: u32,
+        count: u32,
+        sums: &Sums<V>,
+        point: &SurfacePoint<V>,
+        kind: V::Kind,
+        lights: &ShapeLights<V::Element>,
+    ) {
+        let at = self.at + (first - self.stretch.start) as usize;
+        let formula = self.formula;
+        let mut singles = lights.single.iter();
+        for channel in &mut self.band.channels {
+            let quantity = match channel {
+                BandChannel::Double(quantity, _) | BandChannel::Single(quantity, _) => *quantity,
+                BandChannel::Position(_) | BandChannel::Normal(_) => continue,
+            };
+            let diffuse = || sums.irradiance * formula.diffuse_factor(sums.cos_theta_o);
+            let specular = || sums.lobes * formula.specular_factor(sums.cos_theta_o);
+            let values = match quantity {
+                Scalar::Brightness => diffuse() + specular(),
+                Scalar::Irradiance => sums.irradiance,
+                Scalar::Diffuse => diffuse(),
+                Scalar::Specular => specular(),
+                Scalar::Light(_) => match singles.next() {
+                    Some(light) => sum(kind, point, std::slice::from_ref(light), &NoPower).0,
+                    None => unreachable!("a light was placed for every such channel"),
+                },
+                Scalar::Depth => continue,
+            };
+            match channel {
+                BandChannel::Double(_, out) => put(values, &mut out[at..], count),
+                BandChannel::Single(_, out) => put(values, &mut out[at..], count),
+                BandChannel::Position(_) | BandChannel::Normal(_) => {}
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn store_geometry<V: Lane<Element = f64>>(&mut self, kind: V::Kind) {
+        let row = self.row.map(|value| V::splat(kind, value));
+        let length = self.band.length;
+        let mut first = self.stretch.start;
+        while first < self.stretch.end {
+            let PointInRow { point, distance } = self.point::<V>(kind, &row, first);
+            let count = (self.stretch.end - first).min(count_of::<V>()) as usize;
+            let at = self.at + (first - self.stretch.start) as usize;
+            let mut buffer = Vector { x: [0.0; LONGEST], y: [0.0; LONGEST], z: [0.0; LONGEST] };
+            point.normal.x.store(&mut buffer.x);
+            point.normal.y.store(&mut buffer.y);
+            point.normal.z.store(&mut buffer.z);
+            let mut distances = [0.0; LONGEST];
+            distance.store(&mut distances);
+            for channel in &mut self.band.channels {
+                match channel {
+                    BandChannel::Double(Scalar::Depth, out) => {
+                        for (out, distance) in out[at..][..count].iter_mut().zip(distances) {
+                            *out = length.from_metres(distance * self.radius);
+                        }
+                    }
+                    BandChannel::Normal(out) => {
+                        for (index, out) in out[at..][..count].iter_mut().enumerate() {
+                            *out = [buffer.x[index], buffer.y[index], buffer.z[index]];
+                        }
+                    }
+                    BandChannel::Position(out) => {
+                        for (index, out) in out[at..][..count].iter_mut().enumerate() {
+                            let normal = Vector::new(buffer.x[index], buffer.y[index], buffer.z[index]);
+                            let position = self.center + normal * self.radius;
+                            *out = position.to_array().map(|coordinate| length.from_metres(coordinate));
+                        }
+                    }
+                    BandChannel::Double(..) | BandChannel::Single(..) => {}
+                }
+            }
+            first += count_of::<V>();
+        }
+    }
+}
+
+/// The longest vector.
+const LONGEST: usize = 32;
+
+/// Lanes of a vector, as columns.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "at most 32")]
+const fn count_of<V: Lane>() -> u32 {
+    V::COUNT as u32
+}
+
+/// Writes the first so many numbers of a vector.
+#[inline(always)]
+fn put<V: Lane, O: Element>(values: V, out: &mut [O], count: u32) {
+    let mut buffer = [V::Element::default(); LONGEST];
+    values.store(&mut buffer);
+    for (out, value) in out[..count as usize].iter_mut().zip(buffer) {
+        *out = O::from_f64(value.to_f64());
+    }
+}
+
+/// E and Σ E_j (N·H_j)ⁿ at a vector of pixels. Blocks of lights are summed plainly, the blocks' sums with compensation,
+/// so that the error does not grow with the number of lights.
+#[inline(always)]
+fn sum<V: Lane, L: Lobe<V>>(
+    kind: V::Kind,
+    point: &SurfacePoint<V>,
+    lights: &[PlacedLight<V::Element>],
+    lobe: &L,
+) -> (V, V) {
+    let zero = point.cos_theta_o.constant(0.0);
+    let one = point.cos_theta_o.constant(1.0);
+    let (mut irradiance, mut lobes) = (Sum::starting_at(zero), Sum::starting_at(zero));
+    for block in lights.chunks(BLOCK) {
+        let (mut of_block, mut lobes_of_block) = (zero, zero);
+        for light in block {
+            let light = light.map(|element| V::splat(kind, element));
+            let term = light_term(point, &light, one, lobe);
+            of_block = of_block + term.irradiance;
+            lobes_of_block = term.irradiance.times_plus(term.lobe, lobes_of_block);
+        }
+        irradiance.add(of_block);
+        lobes.add(lobes_of_block);
+    }
+    (irradiance.value(), lobes.value())
+}

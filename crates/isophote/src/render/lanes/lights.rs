@@ -1,0 +1,148 @@
+//! The lights of a scene as the points of one shape see them.
+
+use crate::lanes::{Element, Precision};
+use crate::light::PlacedLight;
+use crate::prepare::PreparedScene;
+use crate::render::lanes::power::Power;
+use crate::vector::Vector;
+
+/// The lights as seen from the centre of a shape, lengths in its radii: irradiances then come out right when
+/// intensities are divided by the radius squared.
+pub struct ShapeLights<E> {
+    /// Those that can light it.
+    pub lights: Vec<PlacedLight<E>>,
+    /// Bounds of every [`BLOCK`] lights in their order; empty where there are so few that each is simply summed.
+    blocks: Vec<Ball>,
+    /// Those whose irradiance is asked for by itself.
+    pub single: Vec<PlacedLight<E>>,
+    /// How the lobe is computed.
+    pub power: Power,
+}
+
+/// Lights whose sum is plain before it goes into the compensated one, and that are skipped together when they are
+/// behind the horizon together.
+pub const BLOCK: usize = 64;
+
+/// A ball that holds the lights of a block.
+#[derive(Clone, Copy)]
+struct Ball {
+    center: Vector,
+    radius: f64,
+}
+
+/// Everything that lanes need of a shape besides its outline.
+pub enum ShapeShading {
+    /// In single precision.
+    Single(ShapeLights<f32>),
+    /// In double precision.
+    Double(ShapeLights<f64>),
+}
+
+/// In single precision a lobe with a larger n would lose more digits than [`SINGLE`](crate::tolerance::SINGLE) allows.
+const LARGEST_SHININESS_IN_SINGLE: f64 = 150.0;
+
+/// The square of a distance, in radii, whose powers single precision can hold; and intensities, over R².
+const FARTHEST_IN_SINGLE: f64 = 1e5;
+const INTENSITIES_IN_SINGLE: std::ops::Range<f64> = 1e-18..1e18;
+
+impl ShapeShading {
+    /// The lights of a scene as a shape sees them. `wanted` are those whose irradiance is asked for by itself.
+    pub fn new(scene: &PreparedScene, shape: usize, wanted: &[usize], precision: Precision) -> Self {
+        let description = scene.scene();
+        let geometry = &description.shapes()[shape].geometry;
+        let (center, radius) = (geometry.center(), geometry.size());
+        let place = |index: usize| {
+            let light = description.lights()[index].seen_from::<f64>(center);
+            let visibility = scene.visibility(shape, index);
+            PlacedLight {
+                position: light.position * (1.0 / radius),
+                intensity: light.intensity * visibility / (radius * radius),
+                emission: light.emission,
+            }
+        };
+        let mut lights: Vec<PlacedLight> = (0..description.lights().len()).map(place).collect();
+        let single: Vec<PlacedLight> = wanted.iter().map(|&index| lights[index]).collect();
+        // What sends nothing is nothing to sum.
+        lights.retain(|light| light.intensity > 0.0);
+        if lights.len() > BLOCK {
+            sort_by_place(&mut lights);
+        }
+        let shininess = scene.formula(shape).sharpness();
+        if precision == Precision::Single && fits_single(&lights, shininess) {
+            Self::Single(ShapeLights::new(&lights, &single, shininess))
+        } else {
+            Self::Double(ShapeLights::new(&lights, &single, shininess))
+        }
+    }
+}
+
+fn fits_single(lights: &[PlacedLight], shininess: Option<f64>) -> bool {
+    let fits = |light: &PlacedLight| {
+        light.position.dot(light.position) < FARTHEST_IN_SINGLE * FARTHEST_IN_SINGLE
+            && INTENSITIES_IN_SINGLE.contains(&light.intensity)
+    };
+    shininess.is_none_or(|n| n <= LARGEST_SHININESS_IN_SINGLE) && lights.iter().all(fits)
+}
+
+/// Along a curve that keeps neighbours together (Morton's), so that blocks are small in space.
+fn sort_by_place(lights: &mut [PlacedLight]) {
+    let bounds = lights.iter().flat_map(|light| light.position.to_array()).fold([0.0, 0.0], |[low, high]: [f64; 2], x| {
+        [low.min(x), high.max(x)]
+    });
+    let size = (bounds[1] - bounds[0]).max(f64::MIN_POSITIVE);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 2^20")]
+    let cell = |x: f64| ((x - bounds[0]) / size * 1_048_575.0) as u64;
+    lights.sort_by_cached_key(|light| {
+        let cells = light.position.to_array().map(cell);
+        (0..20).rev().fold(0_u64, |key, bit| cells.iter().fold(key, |key, cell| (key << 1) | ((cell >> bit) & 1)))
+    });
+}
+
+impl<E: Element> ShapeLights<E> {
+    fn new(lights: &[PlacedLight], single: &[PlacedLight], shininess: Option<f64>) -> Self {
+        let convert = |light: &PlacedLight| light.map(E::from_f64);
+        Self {
+            lights: lights.iter().map(convert).collect(),
+            blocks: if lights.len() > BLOCK { lights.chunks(BLOCK).map(Ball::around).collect() } else { Vec::new() },
+            single: single.iter().map(convert).collect(),
+            power: Power::new(shininess, E::PRECISION),
+        }
+    }
+
+    /// The lights that may be above the horizon of any point of a cap, given by the direction of its middle and the
+    /// largest distance of its points from that, in radii. A light at S is above the horizon of the point N of the unit
+    /// sphere where N·S > 1. Each light is tested but those of a block that is below as a whole.
+    pub fn above_horizon<'l>(&'l self, middle: Vector, reach: f64, chosen: &'l mut Vec<PlacedLight<E>>) -> &'l [PlacedLight<E>] {
+        if self.blocks.is_empty() {
+            return &self.lights;
+        }
+        chosen.clear();
+        // What single precision may have rounded away.
+        let least = 1.0 - 1e-5;
+        for (block, lights) in self.blocks.iter().zip(self.lights.chunks(BLOCK)) {
+            let highest = middle.dot(block.center) + block.radius + reach * (block.center.length() + block.radius);
+            if highest < least {
+                continue;
+            }
+            for light in lights {
+                let position = light.position.map(E::to_f64);
+                if middle.dot(position) + reach * position.length() >= least {
+                    chosen.push(*light);
+                }
+            }
+        }
+        chosen
+    }
+}
+
+impl Ball {
+    #[expect(clippy::cast_precision_loss, reason = "a block is small")]
+    fn around(lights: &[PlacedLight]) -> Self {
+        let sum = lights.iter().fold(Vector::default(), |sum, light| sum + light.position);
+        let center = sum * (1.0 / lights.len() as f64);
+        let distance = |light: &PlacedLight| (light.position - center).length();
+        // A little larger, for what rounding the lights to single precision moves them.
+        let radius = lights.iter().map(distance).fold(0.0, f64::max);
+        Self { center, radius: radius + 1e-6 * (radius + center.length()) }
+    }
+}

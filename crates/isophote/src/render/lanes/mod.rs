@@ -1,0 +1,143 @@
+//! Rows in lanes: the fast renderer.
+//!
+//! Shapes are found by their [outlines](crate::shape::Outline) instead of ray by ray; what they see is shaded several
+//! pixels at a time. Pixels for which that is not exact enough are traced and summed one by one, as the reference does.
+
+mod kernel;
+mod lights;
+mod power;
+mod visible;
+
+use std::num::NonZeroUsize;
+use std::sync::OnceLock;
+
+use rayon::ThreadPool;
+use rayon::prelude::*;
+
+use self::kernel::BandJob;
+use self::visible::Candidate;
+use super::band::{self, Band};
+use super::{RenderError, RenderSettings, Renderer};
+use crate::lanes::{Instructions, Precision};
+use crate::map::{Map, Run};
+use crate::prepare::PreparedScene;
+
+/// The fast renderer, on one thread or several. The bytes do not depend on how many.
+pub struct Lanes {
+    precision: Precision,
+    threads: Option<NonZeroUsize>,
+    instructions: Instructions,
+    pool: OnceLock<ThreadPool>,
+}
+
+impl Lanes {
+    /// A renderer of a precision on so many threads; as many as there are processors when unstated.
+    #[must_use]
+    pub fn new(precision: Precision, threads: Option<NonZeroUsize>) -> Self {
+        Self { precision, threads, instructions: Instructions::best(), pool: OnceLock::new() }
+    }
+
+    /// The same renderer with these instructions instead of the machine's best.
+    #[must_use]
+    pub fn with_instructions(self, instructions: Instructions) -> Self {
+        Self { instructions, ..self }
+    }
+
+    /// What its maps are computed in.
+    #[must_use]
+    pub fn precision(&self) -> Precision {
+        self.precision
+    }
+
+    fn threads(&self) -> usize {
+        // Told outright: the pool would otherwise take its size from an environment variable.
+        self.threads.or(std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get)
+    }
+
+    /// The threads, started when they are first needed.
+    fn pool(&self) -> Result<&ThreadPool, RenderError> {
+        if let Some(pool) = self.pool.get() {
+            return Ok(pool);
+        }
+        let threads = self.threads();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|error| RenderError::Threads { threads, reason: error.to_string() })?;
+        Ok(self.pool.get_or_init(|| pool))
+    }
+
+    fn render_band(
+        &self,
+        mut band: Band<'_>,
+        scene: &PreparedScene,
+        settings: &RenderSettings<'_>,
+    ) -> Result<Vec<Run>, RenderError> {
+        let observer = settings.observer;
+        let rows = band.first.row..band.first.row + band.size.height;
+        match Candidate::all(scene, rows) {
+            Some(candidates) => {
+                let job = BandJob { scene, band, candidates, precision: self.precision, observer };
+                self.instructions.run(job)
+            }
+            None => band.render(scene, observer),
+        }
+    }
+}
+
+/// Work below this, in nanoseconds, is done before other threads have woken up.
+const WORTH_THREADS: f64 = 200_000.0;
+
+/// Bands for each thread: enough that none waits long for the last, few enough that their start costs nothing.
+const BANDS_A_THREAD: u32 = 8;
+
+/// About the time that one thread takes, in nanoseconds.
+fn estimated_time(scene: &PreparedScene, map: &Map) -> f64 {
+    let region = map.region;
+    let pixels = f64::from(region.size.width) * f64::from(region.size.height);
+    let covered = |shape| match scene.outline(shape) {
+        crate::shape::Outline::Unseen => 0.0,
+        crate::shape::Outline::Unknown => 20.0 * pixels,
+        crate::shape::Outline::Ellipse(ellipse) => ellipse.area().min(pixels),
+    };
+    let covered: f64 = (0..scene.scene().shapes().len()).map(covered).sum();
+    #[expect(clippy::cast_precision_loss, reason = "an estimate")]
+    let lights = scene.scene().lights().len() as f64;
+    covered.min(20.0 * pixels) * (1.0 + 0.5 * lights)
+}
+
+impl Renderer for Lanes {
+    fn name(&self) -> String {
+        match self.precision {
+            Precision::Double => "double precision, lanes".into(),
+            Precision::Single => "single precision, lanes".into(),
+        }
+    }
+
+    fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
+        let mut map = band::empty_map(scene, settings, self.name(), self.precision)?;
+        self.fill(scene, settings, &mut map)?;
+        Ok(map)
+    }
+}
+
+impl Lanes {
+    fn fill(&self, scene: &PreparedScene, settings: &RenderSettings<'_>, map: &mut Map) -> Result<(), RenderError> {
+        let height = map.region.size.height;
+        let threads = self.threads();
+        let runs = if threads == 1 || estimated_time(scene, map) < WORTH_THREADS {
+            let bands = band::split(map, scene, height).into_iter();
+            bands.map(|band| self.render_band(band, scene, settings)).collect::<Result<Vec<_>, _>>()?
+        } else {
+            let parts = u32::try_from(threads).unwrap_or(u32::MAX).saturating_mul(BANDS_A_THREAD);
+            let rows = height.div_ceil(parts);
+            let bands = band::split(map, scene, rows);
+            self.pool()?.install(|| {
+                let bands = bands.into_par_iter().with_max_len(1);
+                bands.map(|band| self.render_band(band, scene, settings)).collect::<Result<Vec<_>, _>>()
+            })?
+        };
+        band::finish(map, runs.into_iter().flatten().collect());
+        Ok(())
+    }
+}

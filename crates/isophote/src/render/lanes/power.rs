@@ -1,0 +1,217 @@
+//! The lobe (N·H)ⁿ in lanes.
+//!
+//! A whole n of moderate size is a chain of multiplications, which multiplies the rounding error of cos²θ_h by n/2. Any
+//! other n is exp(n/2 · ln cos²θ_h) by polynomials; where cos²θ_h is near 1, its logarithm is taken from sin²θ_h, which
+//! carries the digits there.
+
+use crate::lanes::{Element, Lane, Precision};
+use crate::reflectance::Lobe;
+
+/// How the lobe of a material is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Power {
+    /// The formula has no lobe.
+    None,
+    /// Of a whole, even n.
+    Even(EvenPower),
+    /// Of a whole, odd n.
+    Odd(OddPower),
+    /// Of any n.
+    Any(AnyPower),
+}
+
+impl Power {
+    /// The way for a shininess (none where the formula has no highlight) in a precision.
+    pub fn new(shininess: Option<f64>, precision: Precision) -> Self {
+        // Beyond these the chain's error would be more than the polynomials'.
+        let longest = match precision {
+            Precision::Double => 512.0,
+            Precision::Single => 24.0,
+        };
+        match shininess {
+            None => Self::None,
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number up to 512")]
+            Some(n) if n.fract() == 0.0 && n <= longest => {
+                let half = n as u32 / 2;
+                if n % 2.0 == 0.0 { Self::Even(EvenPower { half }) } else { Self::Odd(OddPower { half }) }
+            }
+            Some(n) => Self::Any(AnyPower { half: 0.5 * n }),
+        }
+    }
+}
+
+/// No lobe.
+#[derive(Clone, Copy, Debug)]
+pub struct NoPower;
+
+/// (cos²)^half.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EvenPower {
+    half: u32,
+}
+
+/// (cos²)^half · cos.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OddPower {
+    half: u32,
+}
+
+/// exp(half · ln cos²).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AnyPower {
+    half: f64,
+}
+
+impl<V: Lane> Lobe<V> for NoPower {
+    #[inline(always)]
+    fn denominator(&self, cos_squared: V, _: V) -> V {
+        cos_squared.constant(1.0)
+    }
+
+    #[inline(always)]
+    fn value(&self, cos_squared: V, _: V, _: V) -> V {
+        cos_squared.constant(0.0)
+    }
+}
+
+impl<V: Lane> Lobe<V> for EvenPower {
+    #[inline(always)]
+    fn value(&self, cos_squared: V, _: V, inverse: V) -> V {
+        whole_power(cos_squared * inverse, self.half)
+    }
+}
+
+impl<V: Lane> Lobe<V> for OddPower {
+    #[inline(always)]
+    fn value(&self, cos_squared: V, _: V, inverse: V) -> V {
+        let share = cos_squared * inverse;
+        whole_power(share, self.half) * share.sqrt()
+    }
+}
+
+/// By squaring, from the lowest digit of the exponent.
+#[inline(always)]
+fn whole_power<V: Lane>(base: V, exponent: u32) -> V {
+    let mut square = base;
+    let mut rest = exponent;
+    while rest & 1 == 0 && rest > 0 {
+        square = square * square;
+        rest >>= 1;
+    }
+    if rest == 0 {
+        return base.constant(1.0);
+    }
+    let mut result = square;
+    rest >>= 1;
+    while rest > 0 {
+        square = square * square;
+        if rest & 1 == 1 {
+            result = result * square;
+        }
+        rest >>= 1;
+    }
+    result
+}
+
+/// cos² and the sum of the squares, each as a mantissa; their quotient is `cos/sum · 2^exponent`.
+struct Split<V> {
+    cos: V,
+    sum: V,
+    exponent: V,
+}
+
+impl AnyPower {
+    /// Scales cos² to within √2 of the sum, by a whole power of two.
+    #[inline(always)]
+    fn split<V: Lane>(cos_squared: V, sum: V) -> Split<V> {
+        let one = cos_squared.constant(1.0);
+        // Zero has no exponent; what is smaller than this has no lobe.
+        let cos_squared = cos_squared.max(sum * sum.constant(1e-30));
+        let (cos, sum_mantissa) = (cos_squared.mantissa(), sum.mantissa());
+        let exponent = cos_squared.exponent() - sum.exponent();
+        // The quotient of the mantissas is between ½ and 2.
+        let is_large = (sum_mantissa * sum.constant(std::f64::consts::SQRT_2)).is_less(cos);
+        let is_small = (cos * sum.constant(std::f64::consts::SQRT_2)).is_less(sum_mantissa);
+        let half = one.constant(0.5);
+        let cos = V::select(is_large, cos * half, V::select(is_small, cos + cos, cos));
+        let exponent = V::select(is_large, exponent + one, V::select(is_small, exponent - one, exponent));
+        Split { cos, sum: sum_mantissa, exponent }
+    }
+}
+
+impl<V: Lane> Lobe<V> for AnyPower {
+    /// Proportional to what the logarithm divides by: m + 1 for the mantissa m of cos²/(cos² + sin²).
+    #[inline(always)]
+    fn denominator(&self, cos_squared: V, sin_squared: V) -> V {
+        cos_squared + sin_squared
+    }
+
+    #[inline(always)]
+    fn value(&self, cos_squared: V, sin_squared: V, inverse: V) -> V {
+        let sum = cos_squared + sin_squared;
+        let split = Self::split(cos_squared, sum);
+        // ln m = 2 artanh s with s = (m − 1)/(m + 1) = (cos − sum)/(cos + sum). Where cos² is within √2 of the sum,
+        // their difference is −sin², with all its digits.
+        let is_far = split.exponent.is_less(sum.constant(0.0));
+        let sin_share = sin_squared * inverse;
+        let difference = V::select(is_far, split.cos - split.sum, -sin_share);
+        let total = V::select(is_far, split.cos + split.sum, sum.constant(2.0) - sin_share);
+        let s = difference / total;
+        let logarithm = split.exponent.times_plus(sum.constant(std::f64::consts::LN_2), twice_artanh(s));
+        exp(logarithm * sum.constant(self.half))
+    }
+}
+
+/// 2 artanh s = 2s (1 + s²/3 + s⁴/5 + …) for |s| ≤ (√2 − 1)/(√2 + 1) = 0.172.
+#[inline(always)]
+fn twice_artanh<V: Lane>(s: V) -> V {
+    let square = s * s;
+    let terms = match V::Element::PRECISION {
+        Precision::Double => 10,
+        Precision::Single => 4,
+    };
+    let mut series = s.constant(1.0 / f64::from(2 * terms + 1));
+    for k in (0..terms).rev() {
+        series = series.times_plus(square, s.constant(1.0 / f64::from(2 * k + 1)));
+    }
+    (s + s) * series
+}
+
+/// eˣ for x ≤ 0, down to where the type ends; 0 beyond.
+#[inline(always)]
+fn exp<V: Lane>(x: V) -> V {
+    let (least, terms) = match V::Element::PRECISION {
+        Precision::Double => (-700.0, 13),
+        Precision::Single => (-86.0, 6),
+    };
+    let x_bounded = x.max(x.constant(least));
+    // To the nearest whole: adding and subtracting 1.5·2^p drops the fraction.
+    let magic = x.constant(match V::Element::PRECISION {
+        Precision::Double => 6_755_399_441_055_744.0,
+        Precision::Single => 12_582_912.0,
+    });
+    let exponent = x_bounded.times_plus(x.constant(std::f64::consts::LOG2_E), magic) - magic;
+    // ln 2 in two parts, the first of which has so few digits that its product with the exponent is exact.
+    let [high, low] = match V::Element::PRECISION {
+        Precision::Double => [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10],
+        Precision::Single => [0.693_145_751_953_125, 1.428_606_820_309_417_2e-6],
+    };
+    let rest = (-exponent).times_plus(x.constant(high), x_bounded);
+    let rest = (-exponent).times_plus(x.constant(low), rest);
+    // eʳ by its series, |r| ≤ ln 2 / 2.
+    let mut series = x.constant(inverse_factorial(terms));
+    for k in (0..terms).rev() {
+        series = series.times_plus(rest, x.constant(inverse_factorial(k)));
+    }
+    let result = series * exponent.power_of_two();
+    V::select(x.is_less(x.constant(least)), x.constant(0.0), result)
+}
+
+#[inline(always)]
+fn inverse_factorial(k: u32) -> f64 {
+    let mut factorial = 1.0;
+    for factor in 1..=k {
+        factorial *= f64::from(factor);
+    }
+    1.0 / factorial
+}
