@@ -5,7 +5,7 @@ use crate::map::{Map, Pixel, Quantity, Region, Scalars, Values};
 use crate::prepare::PreparedScene;
 use crate::real::{Real, Scalar};
 use crate::render::{RenderError, RenderSettings, Renderer};
-use crate::tolerance::Tolerance;
+use crate::tolerance::{DOUBLE, Tolerance};
 use crate::vector::Vector;
 
 /// What was found when a renderer was held against exact arithmetic.
@@ -15,6 +15,8 @@ pub struct Deviation {
     pub of_peak: f64,
     /// The largest relative error where the cosines are large enough.
     pub relative: f64,
+    /// The largest relative error, whatever the cosines, of values above a thousandth of the peak.
+    pub at_edges: f64,
     /// Pixels that were compared.
     pub visible: usize,
 }
@@ -88,7 +90,7 @@ pub fn conforms(
     let settings = RenderSettings { quantities, ..RenderSettings::default() };
     let map = renderer.render(scene, &settings)?;
     let exact = Exact::new(scene, map.region);
-    let mut deviation = Deviation { of_peak: 0.0, relative: 0.0, visible: 0 };
+    let mut deviation = Deviation { of_peak: 0.0, relative: 0.0, at_edges: 0.0, visible: 0 };
     let shapes = map.mask().shapes();
     for (index, expected) in exact.pixels.iter().enumerate() {
         let pixel = map.pixel(index);
@@ -103,13 +105,14 @@ pub fn conforms(
                 None if found == 0.0 => {}
                 None => return Err(NonConformance::NotZero { pixel, channel: quantity.name(), value: found }),
                 Some(expected) => {
-                    let compared = Compared { pixel, quantity, found, peak: exact.peaks[channel] };
+                    let peak = exact.peaks[channel];
+                    let compared = Compared { pixel, quantity, found, peak, flank: expected.flanks[channel] };
                     compared.compare(expected.values[channel], expected.least_cosine, tolerance, &mut deviation)?;
                 }
             }
         }
         if let Some(expected) = expected {
-            compare_geometry(&map, index, expected, tolerance)?;
+            compare_geometry(&map, index, expected, &DOUBLE)?;
             compare_lights(&map, index, expected, &exact.peaks[IRRADIANCE], tolerance)?;
             deviation.visible += 1;
         }
@@ -135,6 +138,8 @@ struct ExactPixel {
     values: [f64; 4],
     /// The smallest of cosθ_o, the lit lights' cosθ_i and the Lambertian ones' cosγ.
     least_cosine: f64,
+    /// n tanθ_h of the highlights, by their share in each value.
+    flanks: [f64; 4],
     /// In metres.
     distance: f64,
     /// In metres.
@@ -171,8 +176,13 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     let hit = scene.trace_precisely(crate::camera::ScreenPosition::PixelCenter(pixel))?;
     let mut least_cosine = hit.point.cos_theta_o;
     let mut by_light = Vec::with_capacity(scene.scene().lights().len());
+    let formula = scene.formula(hit.shape);
+    let shininess = formula.sharpness().unwrap_or(0.0);
+    let mut flanks = 0.0;
     let shading = scene.shade(hit.shape, &hit.point, |light, term| {
         by_light.push(term.irradiance.rounded());
+        let cosine = term.cos_theta_h.rounded().max(f64::MIN_POSITIVE);
+        flanks += shininess * (1.0 / (cosine * cosine) - 1.0).max(0.0).sqrt() * (term.irradiance * term.lobe).rounded();
         if DoubleDouble::zero().is_less(term.irradiance) {
             // cosγ of a Lambertian light, 1 of an isotropic one.
             let cos_gamma = term.intensity / DoubleDouble::from_f64(scene.scene().lights()[light].intensity);
@@ -182,9 +192,13 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
         }
     });
     let values = [shading.brightness(), shading.irradiance, shading.diffuse, shading.specular];
+    let values = values.map(DoubleDouble::rounded);
+    let flanks = flanks * formula.specular_factor(hit.point.cos_theta_o).rounded();
+    let share = |value: f64| if value > 0.0 { flanks / value } else { 0.0 };
     Some(ExactPixel {
         shape: i32::try_from(hit.shape).unwrap_or(i32::MAX),
-        values: values.map(DoubleDouble::rounded),
+        values,
+        flanks: [share(values[0]), 0.0, 0.0, share(values[3])],
         least_cosine: least_cosine.rounded(),
         distance: hit.distance.rounded(),
         position: rounded(hit.point.position()),
@@ -267,6 +281,7 @@ struct Compared<'q> {
     quantity: &'q Quantity,
     found: f64,
     peak: Peak,
+    flank: f64,
 }
 
 impl Compared<'_> {
@@ -286,12 +301,19 @@ impl Compared<'_> {
         if !(of_peak <= allowed) {
             return Err(self.off(expected, of_peak, "of the peak", allowed));
         }
-        // A highlight goes on falling for ever, and its relative error grows as it falls; nobody sees it by then.
-        if least_cosine > tolerance.above_cosine && expected > 1e-6 * peak {
-            let relative = difference / expected;
+        let relative = difference / expected;
+        if least_cosine > tolerance.above_cosine && expected > tolerance.above_value * peak {
             deviation.relative = deviation.relative.max(relative);
-            if !(relative <= tolerance.relative) {
-                return Err(self.off(expected, relative, "relative", tolerance.relative));
+            let allowed = tolerance.relative * (1.0 + self.flank / tolerance.flank);
+            if !(relative <= allowed) {
+                return Err(self.off(expected, relative, "relative", allowed));
+            }
+        }
+        if expected > 1e-3 * peak {
+            deviation.at_edges = deviation.at_edges.max(relative);
+            let allowed = tolerance.at_edges * tolerance.growth(self.peak.least_cosine);
+            if !(relative <= allowed) {
+                return Err(self.off(expected, relative, "relative", allowed));
             }
         }
         Ok(())

@@ -55,6 +55,15 @@ pub trait Element: Copy + Default + PartialOrd + Send + Sync + 'static {
 
     /// The number, exactly.
     fn to_f64(self) -> f64;
+
+    /// The same numbers, if they are doubles.
+    fn of_doubles(numbers: &mut [f64]) -> Option<&mut [Self]>;
+
+    /// The same numbers, if they are of single precision.
+    fn of_singles(numbers: &mut [f32]) -> Option<&mut [Self]>;
+
+    /// The same numbers, if they are of that type.
+    fn cast<E: Element>(numbers: &mut [Self]) -> Option<&mut [E]>;
 }
 
 /// How precisely maps are computed.
@@ -90,6 +99,21 @@ impl Element for f64 {
     fn to_f64(self) -> f64 {
         self
     }
+
+    #[inline(always)]
+    fn of_doubles(numbers: &mut [f64]) -> Option<&mut [Self]> {
+        Some(numbers)
+    }
+
+    #[inline(always)]
+    fn of_singles(_: &mut [f32]) -> Option<&mut [Self]> {
+        None
+    }
+
+    #[inline(always)]
+    fn cast<E: Element>(numbers: &mut [Self]) -> Option<&mut [E]> {
+        E::of_doubles(numbers)
+    }
 }
 
 impl Element for f32 {
@@ -104,6 +128,21 @@ impl Element for f32 {
     #[inline(always)]
     fn to_f64(self) -> f64 {
         f64::from(self)
+    }
+
+    #[inline(always)]
+    fn of_doubles(_: &mut [f64]) -> Option<&mut [Self]> {
+        None
+    }
+
+    #[inline(always)]
+    fn of_singles(numbers: &mut [f32]) -> Option<&mut [Self]> {
+        Some(numbers)
+    }
+
+    #[inline(always)]
+    fn cast<E: Element>(numbers: &mut [Self]) -> Option<&mut [E]> {
+        E::of_singles(numbers)
     }
 }
 

@@ -234,7 +234,7 @@ struct TracingError {
 /// a hundred thousand random scenes.
 fn ray_error(geometry: &Geometry, eye: Vector) -> TracingError {
     let error = f64::EPSILON * (1.0 + geometry.remoteness(eye));
-    TracingError { clearance: 16.0 * error, normal: error }
+    TracingError { clearance: 16.0 * error, normal: 1.25 * error }
 }
 
 /// The error of a pixel in an [`Outline`], which distance does not magnify.

@@ -105,8 +105,8 @@ pub fn light_term<T: Real>(
     let along = point.normal.dot(to_light);
     let along_lit = along.or_zero();
 
-    let view_across = (-point.normal).times_plus(point.cos_theta_o, point.view);
-    let half_across = (-point.normal).times_plus(along, view_across.times_plus(distance, to_light));
+    let view_across = point.normal.times_plus(-point.cos_theta_o, point.view);
+    let half_across = point.normal.times_plus(-along, view_across.times_plus(distance, to_light));
     let half_along = distance.times_plus(point.cos_theta_o, along).or_zero();
     let cos_squared = half_along * half_along;
     let sin_squared = half_across.dot(half_across);

@@ -9,21 +9,49 @@ pub struct Tolerance {
     /// terminator or of the limb: all of it is then as uncertain as that cosine, and `of_peak` grows as 1/cosine.
     pub peak_cosine: f64,
     /// Relative, wherever cosθ_o, cosθ_i of every lit light and cosγ of every Lambertian one exceed
-    /// [`above_cosine`](Self::above_cosine), for values above a millionth of the peak.
+    /// [`above_cosine`](Self::above_cosine), for values above [`above_value`](Self::above_value).
     pub relative: f64,
+    /// As a part of the peak. (A highlight goes on falling for ever, and its relative error grows as it falls; nobody
+    /// sees it by then.)
+    pub above_value: f64,
     /// Towards the limb and the terminator the problem itself loses digits, as 1/cosine.
     pub above_cosine: f64,
+    /// On the flank of a highlight the problem itself loses digits too, as n tanθ_h (weighted by the share of each
+    /// highlight in the value): `relative` grows by itself for every such flank.
+    pub flank: f64,
+    /// Relative, whatever the cosines, for values above a thousandth of the peak; it grows as `of_peak` does.
+    pub at_edges: f64,
 }
 
 /// Maps in double precision, against exact arithmetic on the scene in metres as it is stored.
 ///
 /// It holds while every light is at least a thousandth of a shape's size away from its surface (next to a light,
 /// E ∝ 1/r² loses the digits that r has lost, whatever the arithmetic), and the eye within 1e9 sizes of every shape.
-pub const DOUBLE: Tolerance = Tolerance { of_peak: 1e-12, peak_cosine: 1e-2, relative: 1e-12, above_cosine: 0.1 };
+pub const DOUBLE: Tolerance = Tolerance {
+    of_peak: 1e-12,
+    peak_cosine: 1e-2,
+    relative: 1e-12,
+    above_value: 1e-6,
+    above_cosine: 0.1,
+    flank: f64::INFINITY,
+    at_edges: 1e-9,
+};
 
 /// Brightness and its parts in single precision; geometry is double all the same. Its conditions are those of
 /// [`DOUBLE`].
-pub const SINGLE: Tolerance = Tolerance { of_peak: 3e-6, peak_cosine: 1e-2, relative: 3e-6, above_cosine: 0.1 };
+///
+/// A number of 32 bits has a relative error of 6e-8. Some ten roundings go into the directions N, L and V; even if those
+/// were rounded only once from exact ones, the lobe would multiply that by n tanθ_h. Highlights with n above 32 are
+/// computed in double.
+pub const SINGLE: Tolerance = Tolerance {
+    of_peak: 3e-6,
+    peak_cosine: 1e-2,
+    relative: 3e-6,
+    above_value: 1e-3,
+    above_cosine: 0.1,
+    flank: 20.0,
+    at_edges: 1e-4,
+};
 
 /// Values at a given point: nothing is lost in finding the point, so the cosines may be smaller.
 pub const PROBE: Tolerance = Tolerance { above_cosine: 1e-3, ..DOUBLE };
@@ -32,6 +60,12 @@ impl Tolerance {
     /// [`of_peak`](Self::of_peak) in a picture whose brightest pixel has this cosine.
     #[must_use]
     pub fn at_peak(&self, least_cosine: f64) -> f64 {
-        self.of_peak * (self.peak_cosine / least_cosine).max(1.0)
+        self.of_peak * self.growth(least_cosine)
+    }
+
+    /// How much more is allowed in a picture whose brightest pixel has this cosine.
+    #[must_use]
+    pub fn growth(&self, least_cosine: f64) -> f64 {
+        (self.peak_cosine / least_cosine).max(1.0)
     }
 }

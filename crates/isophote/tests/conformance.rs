@@ -13,7 +13,7 @@ use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
 use isophote::scene::source::MaterialSource;
 use isophote::scene::{Scene, SceneSource, Syntax};
 use isophote::shape::{Geometry, SurfacePoint};
-use isophote::tolerance::{DOUBLE, PROBE};
+use isophote::tolerance::{DOUBLE, PROBE, SINGLE};
 use isophote::vector::Vector;
 use proptest::prelude::*;
 
@@ -67,6 +67,23 @@ fn the_scenes_of_the_repository_are_rendered_within_tolerance() {
             let deviation = conforms(renderer.as_ref(), &scene, &DOUBLE)
                 .unwrap_or_else(|error| panic!("{name}, {}: {error}", renderer.name()));
             assert!(deviation.visible > 100, "{name}: {deviation:?}");
+        }
+    }
+}
+
+/// In single precision, where the geometry stays double; at every level of instructions.
+#[test]
+fn single_precision_is_within_its_tolerance_on_the_scenes_of_the_repository() {
+    for name in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes")).expect("it is there") {
+        let name = name.expect("it is readable").file_name().to_string_lossy().into_owned();
+        let mut source = scene_file(&name);
+        source.camera.get_or_insert_default().resolution = Some([163, 121]);
+        let scene = prepared(source);
+        for instructions in Instructions::all() {
+            let renderer = Lanes::new(Precision::Single, None).with_instructions(instructions);
+            let deviation = conforms(&renderer, &scene, &SINGLE)
+                .unwrap_or_else(|error| panic!("{name}, {}: {error}", instructions.name()));
+            println!("{name} {}: {deviation:?}", instructions.name());
         }
     }
 }
@@ -193,6 +210,13 @@ proptest! {
             let result = conforms(renderer.as_ref(), &scene, &DOUBLE);
             prop_assert!(result.is_ok(), "{}: {}", renderer.name(), result.unwrap_err());
         }
+    }
+
+    #[test]
+    fn random_scenes_in_single_precision_are_within_its_tolerance(source in random::scenes()) {
+        let scene = prepared(source);
+        let result = conforms(&Lanes::new(Precision::Single, None), &scene, &SINGLE);
+        prop_assert!(result.is_ok(), "{}", result.unwrap_err());
     }
 
     /// Against the same point in 32 digits; a highlight that has fallen below a millionth of its peak is left out, as it

@@ -14,6 +14,25 @@ pub enum Values {
     Index(Vec<i32>),
 }
 
+impl Values {
+    /// How many pixels there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Scalar(values) => values.len(),
+            Self::Single(values) => values.len(),
+            Self::Vector(values) => values.len(),
+            Self::Index(values) => values.len(),
+        }
+    }
+
+    /// Whether there is no pixel.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
 /// The numbers of a scalar channel, of either precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scalars<'m> {

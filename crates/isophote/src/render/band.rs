@@ -10,12 +10,14 @@ use crate::scene::Scene;
 use crate::units::LengthUnit;
 
 /// A map of zeros (−1 for the shape) that sees nothing, with every channel that the settings ask for. In single
-/// precision the geometry (depth, position, normal) is double all the same.
+/// precision the geometry (depth, position, normal) is double all the same. `memory` is cleared memory to be used
+/// again.
 pub fn empty_map(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
     renderer: String,
     precision: Precision,
+    mut memory: Vec<Values>,
 ) -> Result<Map, RenderError> {
     let description = scene.scene();
     let full = description.camera.resolution;
@@ -29,7 +31,7 @@ pub fn empty_map(
     let mut channels: Vec<Channel> = Vec::new();
     for quantity in &settings.quantities {
         if channels.iter().all(|channel| channel.quantity != *quantity) {
-            channels.push(empty_channel(quantity, description, region, precision)?);
+            channels.push(empty_channel(quantity, description, region, precision, &mut memory)?);
         }
     }
     let provenance = Provenance {
@@ -48,6 +50,7 @@ fn empty_channel(
     scene: &Scene,
     region: Region,
     precision: Precision,
+    memory: &mut Vec<Values>,
 ) -> Result<Channel, RenderError> {
     if let Quantity::Light(name) = quantity
         && scene.lights.iter().all(|light| light.name != *name)
@@ -55,12 +58,20 @@ fn empty_channel(
         return Err(RenderError::NoSuchLight { name: name.clone() });
     }
     let pixels = region.size.pixels();
+    let mut reuse = |fits: fn(&Values) -> bool| {
+        let index = memory.iter().position(|values| fits(values) && values.len() == pixels);
+        index.map(|index| memory.swap_remove(index))
+    };
     let values = match quantity {
-        Quantity::Position | Quantity::Normal => Values::Vector(vec![[0.0; 3]; pixels]),
-        Quantity::Shape => Values::Index(vec![-1; pixels]),
-        Quantity::Depth => Values::Scalar(vec![0.0; pixels]),
-        _ if precision == Precision::Single => Values::Single(vec![0.0; pixels]),
-        _ => Values::Scalar(vec![0.0; pixels]),
+        Quantity::Position | Quantity::Normal => {
+            reuse(|values| matches!(values, Values::Vector(_))).unwrap_or_else(|| Values::Vector(vec![[0.0; 3]; pixels]))
+        }
+        // Written as a whole when the mask is known.
+        Quantity::Shape => Values::Index(Vec::new()),
+        _ if precision == Precision::Single && *quantity != Quantity::Depth => {
+            reuse(|values| matches!(values, Values::Single(_))).unwrap_or_else(|| Values::Single(vec![0.0; pixels]))
+        }
+        _ => reuse(|values| matches!(values, Values::Scalar(_))).unwrap_or_else(|| Values::Scalar(vec![0.0; pixels])),
     };
     let unit = quantity.unit(scene.convention, scene.quantities, scene.length).into();
     Ok(Channel { quantity: quantity.clone(), unit, values })
@@ -164,6 +175,24 @@ pub fn split<'m>(map: &'m mut Map, scene: &PreparedScene, rows: u32) -> Vec<Band
     bands
 }
 
+/// The memory of a map, cleared: only where it saw something is it not zero.
+pub fn recycle(map: Map) -> Vec<Values> {
+    let Map { mask, channels, .. } = map;
+    let clear = |mut values: Values| {
+        for run in mask.runs() {
+            let run = run.start..run.end;
+            match &mut values {
+                Values::Scalar(values) => values[run].fill(0.0),
+                Values::Single(values) => values[run].fill(0.0),
+                Values::Vector(values) => values[run].fill([0.0; 3]),
+                Values::Index(_) => {}
+            }
+        }
+        values
+    };
+    channels.into_iter().map(|channel| clear(channel.values)).collect()
+}
+
 /// Gives a map whose bands are filled its mask, and its shape channel.
 pub fn finish(map: &mut Map, runs: Vec<Run>) {
     map.mask = Mask::new(map.region.size, runs);
@@ -203,7 +232,7 @@ impl Band<'_> {
                     self.see(pixel, &hit, &mut runs);
                 }
             }
-            advance(observer, self.size.width)?;
+            advance(observer, self.size.width.into())?;
         }
         Ok(runs)
     }
@@ -277,8 +306,8 @@ pub fn extend(runs: &mut Vec<Run>, run: Run, width: usize) {
 }
 
 /// Tells the observer, and hears whether to go on.
-pub fn advance(observer: Option<&dyn Observer>, pixels: u32) -> Result<(), RenderError> {
-    match observer.map(|observer| observer.advance(u64::from(pixels))) {
+pub fn advance(observer: Option<&dyn Observer>, pixels: u64) -> Result<(), RenderError> {
+    match observer.map(|observer| observer.advance(pixels)) {
         Some(ControlFlow::Break(())) => Err(RenderError::Interrupted),
         _ => Ok(()),
     }

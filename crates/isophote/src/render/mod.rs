@@ -22,6 +22,21 @@ pub trait Renderer {
     /// # Errors
     /// Settings that do not fit the scene, or an interruption.
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError>;
+
+    /// The same, in the memory of an earlier map where that fits: who renders many maps of a size spares the clearing of
+    /// their background. After an error the earlier map is gone.
+    ///
+    /// # Errors
+    /// As [`render`](Self::render).
+    fn render_again(
+        &self,
+        scene: &PreparedScene,
+        settings: &RenderSettings<'_>,
+        earlier: Map,
+    ) -> Result<Map, RenderError> {
+        drop(earlier);
+        self.render(scene, settings)
+    }
 }
 
 /// What to render.

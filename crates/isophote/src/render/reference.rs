@@ -15,7 +15,7 @@ impl Renderer for Reference {
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
-        let mut map = band::empty_map(scene, settings, self.name(), Precision::Double)?;
+        let mut map = band::empty_map(scene, settings, self.name(), Precision::Double, Vec::new())?;
         let mut runs = Vec::new();
         let rows = map.region.size.height;
         for mut band in band::split(&mut map, scene, rows) {

@@ -56,7 +56,7 @@ pub struct Ellipse {
 pub struct RowOfEllipse<T = f64> {
     /// Where the outline begins and ends; the same twice where the row misses it.
     pub roots: [f64; 2],
-    /// cos²θ_o ‖d‖² over (u − u_a)(u_b − u).
+    /// cos²θ_o ‖d‖² over (u − u_a)(u − u_b): negative.
     pub clearance: T,
     /// d at u = 0.
     pub direction: Vector<T>,
@@ -107,6 +107,18 @@ impl<T: Copy> RowOfEllipse<T> {
     }
 }
 
+impl RowOfEllipse {
+    /// The clearance cos²θ_o at a column: negative outside the outline, but in a row that misses it not as negative as it
+    /// should be.
+    #[must_use]
+    #[inline(always)]
+    pub fn clearance_at(&self, u: f64) -> f64 {
+        let [first, last] = self.roots;
+        let direction = self.direction + self.direction_step * u;
+        self.clearance * (u - first) * (u - last) / direction.dot(direction)
+    }
+}
+
 impl<T: Real> RowOfEllipse<T> {
     /// The point of the sphere at a place; anything outside the outline.
     ///
@@ -117,10 +129,10 @@ impl<T: Real> RowOfEllipse<T> {
         let direction = self.direction_step.times_plus(u, self.direction);
         let moment = self.moment_step.times_plus(u, self.moment);
         let inverse_length = u.constant(1.0) / direction.dot(direction).sqrt();
-        let clearance = -(self.clearance * place.after_first * place.after_last);
+        let clearance = self.clearance * place.after_first * place.after_last;
         let cos_theta_o = clearance.or_zero().sqrt() * inverse_length;
         let unit = direction * inverse_length;
-        let normal = (-unit).times_plus(cos_theta_o, unit.cross(moment * inverse_length));
+        let normal = unit.times_plus(-cos_theta_o, unit.cross(moment * inverse_length));
         let point = SurfacePoint { anchor, offset: normal, normal, view: -unit, cos_theta_o };
         PointInRow { point, distance: unit.dot(self.center) - cos_theta_o }
     }
@@ -180,7 +192,7 @@ impl Ellipse {
 
     /// A row of the image.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn in_row(&self, row: u32) -> RowOfEllipse {
         let v = f64::from(row) - self.row;
         let width_squared = self.width_squared * ((v - self.rows[0]) * (self.rows[1] - v));
@@ -189,7 +201,7 @@ impl Ellipse {
         let middle = self.middle[0] + self.middle[1] * v;
         RowOfEllipse {
             roots: [middle - width, middle + width],
-            clearance: self.clearance,
+            clearance: -self.clearance,
             direction: self.direction[0] + self.direction[2] * v,
             direction_step: self.direction[1],
             moment: self.moment[0] + self.moment[2] * v,
@@ -205,30 +217,13 @@ impl Ellipse {
         std::f64::consts::PI * half_height * half_height * self.width_squared.sqrt()
     }
 
-    /// The clearance cos²θ_o at a column of the image in a row; negative outside the outline.
-    #[must_use]
-    pub fn clearance_at(&self, row: u32, column: f64) -> f64 {
-        let v = f64::from(row) - self.row;
-        let u = column - self.column;
-        let width_squared = self.width_squared * ((v - self.rows[0]) * (self.rows[1] - v));
-        let from_middle = u - (self.middle[0] + self.middle[1] * v);
-        let direction = self.direction[0] + self.direction[1] * u + self.direction[2] * v;
-        let product = if width_squared > 0.0 {
-            let width = width_squared.sqrt();
-            (width - from_middle) * (width + from_middle)
-        } else {
-            width_squared - from_middle * from_middle
-        };
-        self.clearance * product / direction.dot(direction)
-    }
-
     /// t, the distance from the eye at a column of the image in a row, in radii; of a pixel that the outline covers.
     #[must_use]
     pub fn distance_at(&self, row: u32, column: f64) -> f64 {
-        let v = f64::from(row) - self.row;
+        let row = self.in_row(row);
         let u = column - self.column;
-        let direction = self.direction[0] + self.direction[1] * u + self.direction[2] * v;
-        direction.normalized().dot(self.center) - self.clearance_at(row, column).max(0.0).sqrt()
+        let direction = row.direction + row.direction_step * u;
+        direction.normalized().dot(self.center) - row.clearance_at(u).max(0.0).sqrt()
     }
 }
 

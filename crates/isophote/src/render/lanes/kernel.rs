@@ -1,5 +1,7 @@
 //! The kernel: rows of a band in lanes, from the outlines' roots to stored values.
 
+use std::ops::Range;
+
 use super::lights::{BLOCK, ShapeLights, ShapeShading};
 use super::power::{NoPower, Power};
 use super::visible::{Candidate, RowView, Stretch};
@@ -46,7 +48,11 @@ impl LaneJob for BandJob<'_, '_> {
         let mut shadings = Shadings::new(&self);
         let mut view = RowView::default();
         let mut runs = Vec::new();
-        for row in self.band.first.row..self.band.first.row + self.band.size.height {
+        let rows = self.band.first.row..self.band.first.row + self.band.size.height;
+        let seen = seen_rows(&self.candidates, &rows);
+        let unseen = (seen.start - rows.start) + (rows.end - seen.end);
+        band::advance(self.observer, u64::from(self.band.size.width) * u64::from(unseen))?;
+        for row in seen {
             view.look(self.scene, &self.candidates, row, &columns);
             for stretch in &view.stretches {
                 let Ok(index) = self.candidates.binary_search_by_key(&stretch.shape, |candidate| candidate.shape) else {
@@ -78,10 +84,17 @@ impl LaneJob for BandJob<'_, '_> {
                 }
             }
             see(&self.band, row, &view, &mut runs);
-            band::advance(self.observer, self.band.size.width)?;
+            band::advance(self.observer, self.band.size.width.into())?;
         }
         Ok(runs)
     }
+}
+
+/// The rows in which anything can be seen.
+fn seen_rows(candidates: &[Candidate<'_>], rows: &Range<u32>) -> Range<u32> {
+    let start = candidates.iter().map(|candidate| candidate.rows.start).min().unwrap_or(rows.end);
+    let end = candidates.iter().map(|candidate| candidate.rows.end).max().unwrap_or(rows.end);
+    start.max(rows.start)..end.min(rows.end).max(start.max(rows.start))
 }
 
 /// Puts the stretches and the traced pixels of a row in order.
@@ -257,8 +270,8 @@ impl StretchWork<'_, '_> {
                 Scalar::Depth => continue,
             };
             match channel {
-                BandChannel::Double(_, out) => put(values, &mut out[at..], count),
-                BandChannel::Single(_, out) => put(values, &mut out[at..], count),
+                BandChannel::Double(_, out) => put(values, kind, &mut out[at..], count),
+                BandChannel::Single(_, out) => put(values, kind, &mut out[at..], count),
                 BandChannel::Position(_) | BandChannel::Normal(_) => {}
             }
         }
@@ -316,9 +329,22 @@ const fn count_of<V: Lane>() -> u32 {
     V::COUNT as u32
 }
 
-/// Writes the first so many numbers of a vector.
+/// Writes the first so many numbers of a vector, and zeros in place of the others if there is room: what comes later in
+/// the band is not written yet, and zero.
 #[inline(always)]
-fn put<V: Lane, O: Element>(values: V, out: &mut [O], count: u32) {
+fn put<V: Lane, O: Element>(values: V, kind: V::Kind, out: &mut [O], count: u32) {
+    if out.len() >= V::COUNT
+        && let Some(out) = O::cast::<V::Element>(out)
+    {
+        if count == count_of::<V>() {
+            values.store(out);
+        } else {
+            let index = V::distances(kind, 0.0, 0.0);
+            let is_wanted = index.is_less(index.constant(f64::from(count)));
+            V::select(is_wanted, values, index.constant(0.0)).store(out);
+        }
+        return;
+    }
     let mut buffer = [V::Element::default(); LONGEST];
     values.store(&mut buffer);
     for (out, value) in out[..count as usize].iter_mut().zip(buffer) {
@@ -337,15 +363,22 @@ fn sum<V: Lane, L: Lobe<V>>(
 ) -> (V, V) {
     let zero = point.cos_theta_o.constant(0.0);
     let one = point.cos_theta_o.constant(1.0);
+    let plain = |block: &[PlacedLight<V::Element>]| {
+        let (mut irradiance, mut lobes) = (zero, zero);
+        for light in block {
+            let light = light.map(#[inline(always)] |element| V::splat(kind, element));
+            let term = light_term(point, &light, one, lobe);
+            irradiance = irradiance + term.irradiance;
+            lobes = term.irradiance.times_plus(term.lobe, lobes);
+        }
+        (irradiance, lobes)
+    };
+    if lights.len() <= BLOCK {
+        return plain(lights);
+    }
     let (mut irradiance, mut lobes) = (Sum::starting_at(zero), Sum::starting_at(zero));
     for block in lights.chunks(BLOCK) {
-        let (mut of_block, mut lobes_of_block) = (zero, zero);
-        for light in block {
-            let light = light.map(|element| V::splat(kind, element));
-            let term = light_term(point, &light, one, lobe);
-            of_block = of_block + term.irradiance;
-            lobes_of_block = term.irradiance.times_plus(term.lobe, lobes_of_block);
-        }
+        let (of_block, lobes_of_block) = plain(block);
         irradiance.add(of_block);
         lobes.add(lobes_of_block);
     }

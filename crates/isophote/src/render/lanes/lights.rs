@@ -39,7 +39,7 @@ pub enum ShapeShading {
 }
 
 /// In single precision a lobe with a larger n would lose more digits than [`SINGLE`](crate::tolerance::SINGLE) allows.
-const LARGEST_SHININESS_IN_SINGLE: f64 = 150.0;
+const LARGEST_SHININESS_IN_SINGLE: f64 = 32.0;
 
 /// The square of a distance, in radii, whose powers single precision can hold; and intensities, over R².
 const FARTHEST_IN_SINGLE: f64 = 1e5;

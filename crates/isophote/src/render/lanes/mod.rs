@@ -19,13 +19,13 @@ use self::visible::Candidate;
 use super::band::{self, Band};
 use super::{RenderError, RenderSettings, Renderer};
 use crate::lanes::{Instructions, Precision};
-use crate::map::{Map, Run};
+use crate::map::{Map, Run, Values};
 use crate::prepare::PreparedScene;
 
 /// The fast renderer, on one thread or several. The bytes do not depend on how many.
 pub struct Lanes {
     precision: Precision,
-    threads: Option<NonZeroUsize>,
+    threads: usize,
     instructions: Instructions,
     pool: OnceLock<ThreadPool>,
 }
@@ -34,6 +34,8 @@ impl Lanes {
     /// A renderer of a precision on so many threads; as many as there are processors when unstated.
     #[must_use]
     pub fn new(precision: Precision, threads: Option<NonZeroUsize>) -> Self {
+        // Told outright: the pool would otherwise take its size from an environment variable.
+        let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
         Self { precision, threads, instructions: Instructions::best(), pool: OnceLock::new() }
     }
 
@@ -49,17 +51,12 @@ impl Lanes {
         self.precision
     }
 
-    fn threads(&self) -> usize {
-        // Told outright: the pool would otherwise take its size from an environment variable.
-        self.threads.or(std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get)
-    }
-
     /// The threads, started when they are first needed.
     fn pool(&self) -> Result<&ThreadPool, RenderError> {
         if let Some(pool) = self.pool.get() {
             return Ok(pool);
         }
-        let threads = self.threads();
+        let threads = self.threads;
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
@@ -115,29 +112,42 @@ impl Renderer for Lanes {
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
-        let mut map = band::empty_map(scene, settings, self.name(), self.precision)?;
-        self.fill(scene, settings, &mut map)?;
-        Ok(map)
+        self.render_in(Vec::new(), scene, settings)
+    }
+
+    fn render_again(
+        &self,
+        scene: &PreparedScene,
+        settings: &RenderSettings<'_>,
+        earlier: Map,
+    ) -> Result<Map, RenderError> {
+        self.render_in(band::recycle(earlier), scene, settings)
     }
 }
 
 impl Lanes {
-    fn fill(&self, scene: &PreparedScene, settings: &RenderSettings<'_>, map: &mut Map) -> Result<(), RenderError> {
+    fn render_in(
+        &self,
+        memory: Vec<Values>,
+        scene: &PreparedScene,
+        settings: &RenderSettings<'_>,
+    ) -> Result<Map, RenderError> {
+        let mut map = band::empty_map(scene, settings, self.name(), self.precision, memory)?;
         let height = map.region.size.height;
-        let threads = self.threads();
-        let runs = if threads == 1 || estimated_time(scene, map) < WORTH_THREADS {
-            let bands = band::split(map, scene, height).into_iter();
+        let threads = self.threads;
+        let runs = if threads == 1 || estimated_time(scene, &map) < WORTH_THREADS {
+            let bands = band::split(&mut map, scene, height).into_iter();
             bands.map(|band| self.render_band(band, scene, settings)).collect::<Result<Vec<_>, _>>()?
         } else {
             let parts = u32::try_from(threads).unwrap_or(u32::MAX).saturating_mul(BANDS_A_THREAD);
             let rows = height.div_ceil(parts);
-            let bands = band::split(map, scene, rows);
+            let bands = band::split(&mut map, scene, rows);
             self.pool()?.install(|| {
                 let bands = bands.into_par_iter().with_max_len(1);
                 bands.map(|band| self.render_band(band, scene, settings)).collect::<Result<Vec<_>, _>>()
             })?
         };
-        band::finish(map, runs.into_iter().flatten().collect());
-        Ok(())
+        band::finish(&mut map, runs.into_iter().flatten().collect());
+        Ok(map)
     }
 }

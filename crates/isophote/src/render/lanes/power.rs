@@ -76,17 +76,23 @@ impl<V: Lane> Lobe<V> for NoPower {
 
 impl<V: Lane> Lobe<V> for EvenPower {
     #[inline(always)]
-    fn value(&self, cos_squared: V, _: V, inverse: V) -> V {
-        whole_power(cos_squared * inverse, self.half)
+    fn value(&self, _: V, sin_squared: V, inverse: V) -> V {
+        whole_power(cos_share(sin_squared, inverse), self.half)
     }
 }
 
 impl<V: Lane> Lobe<V> for OddPower {
     #[inline(always)]
-    fn value(&self, cos_squared: V, _: V, inverse: V) -> V {
-        let share = cos_squared * inverse;
+    fn value(&self, _: V, sin_squared: V, inverse: V) -> V {
+        let share = cos_share(sin_squared, inverse).or_zero();
         whole_power(share, self.half) * share.sqrt()
     }
+}
+
+/// cos²θ_h as 1 − sin²θ_h: near the peak, where the power would multiply it, that leaves the error of one rounding.
+#[inline(always)]
+fn cos_share<V: Lane>(sin_squared: V, inverse: V) -> V {
+    (-sin_squared).times_plus(inverse, inverse.constant(1.0))
 }
 
 /// By squaring, from the lowest digit of the exponent.
@@ -113,52 +119,49 @@ fn whole_power<V: Lane>(base: V, exponent: u32) -> V {
     result
 }
 
-/// cos² and the sum of the squares, each as a mantissa; their quotient is `cos/sum · 2^exponent`.
+/// The share of cos² in the sum of the squares as m·2ᵏ with m between √½ and √2.
 struct Split<V> {
-    cos: V,
+    /// (m − 1) times the sum of the squares.
+    difference: V,
+    /// Twice the sum of the squares.
     sum: V,
+    /// k.
     exponent: V,
 }
 
 impl AnyPower {
-    /// Scales cos² to within √2 of the sum, by a whole power of two.
     #[inline(always)]
-    fn split<V: Lane>(cos_squared: V, sum: V) -> Split<V> {
-        let one = cos_squared.constant(1.0);
-        // Zero has no exponent; what is smaller than this has no lobe.
+    fn split<V: Lane>(cos_squared: V, sin_squared: V) -> Split<V> {
+        let sum = cos_squared + sin_squared;
+        // Zero has no exponent, and what is smaller than this has no lobe.
         let cos_squared = cos_squared.max(sum * sum.constant(1e-30));
-        let (cos, sum_mantissa) = (cos_squared.mantissa(), sum.mantissa());
-        let exponent = cos_squared.exponent() - sum.exponent();
-        // The quotient of the mantissas is between ½ and 2.
-        let is_large = (sum_mantissa * sum.constant(std::f64::consts::SQRT_2)).is_less(cos);
-        let is_small = (cos * sum.constant(std::f64::consts::SQRT_2)).is_less(sum_mantissa);
-        let half = one.constant(0.5);
-        let cos = V::select(is_large, cos * half, V::select(is_small, cos + cos, cos));
-        let exponent = V::select(is_large, exponent + one, V::select(is_small, exponent - one, exponent));
-        Split { cos, sum: sum_mantissa, exponent }
+        // With the factor √2, shares from √½ on have the exponent 0 or more: then only 0, as shares end at 1.
+        let scaled = cos_squared * sum.constant(std::f64::consts::SQRT_2);
+        let exponent = scaled.exponent() - sum.exponent();
+        let one_less = exponent - sum.constant(1.0);
+        let exponent = V::select(scaled.mantissa().is_less(sum.mantissa()), one_less, exponent);
+        let is_far = exponent.is_less(sum.constant(0.0));
+        // Near the peak cos² − sum is −sin², with all its digits.
+        let difference = V::select(is_far, cos_squared * (-exponent).power_of_two() - sum, -sin_squared);
+        Split { difference, sum: sum + sum, exponent }
     }
 }
 
 impl<V: Lane> Lobe<V> for AnyPower {
-    /// Proportional to what the logarithm divides by: m + 1 for the mantissa m of cos²/(cos² + sin²).
+    /// What the logarithm divides by: see [`value`](Self::value).
     #[inline(always)]
     fn denominator(&self, cos_squared: V, sin_squared: V) -> V {
-        cos_squared + sin_squared
+        let split = Self::split(cos_squared, sin_squared);
+        split.sum + split.difference
     }
 
     #[inline(always)]
     fn value(&self, cos_squared: V, sin_squared: V, inverse: V) -> V {
-        let sum = cos_squared + sin_squared;
-        let split = Self::split(cos_squared, sum);
-        // ln m = 2 artanh s with s = (m − 1)/(m + 1) = (cos − sum)/(cos + sum). Where cos² is within √2 of the sum,
-        // their difference is −sin², with all its digits.
-        let is_far = split.exponent.is_less(sum.constant(0.0));
-        let sin_share = sin_squared * inverse;
-        let difference = V::select(is_far, split.cos - split.sum, -sin_share);
-        let total = V::select(is_far, split.cos + split.sum, sum.constant(2.0) - sin_share);
-        let s = difference / total;
-        let logarithm = split.exponent.times_plus(sum.constant(std::f64::consts::LN_2), twice_artanh(s));
-        exp(logarithm * sum.constant(self.half))
+        // ln m = 2 artanh s with s = (m − 1)/(m + 1), where m is the share of cos², times a power of two.
+        let split = Self::split(cos_squared, sin_squared);
+        let s = split.difference * inverse;
+        let logarithm = split.exponent.times_plus(s.constant(std::f64::consts::LN_2), twice_artanh(s));
+        exp(logarithm * s.constant(self.half))
     }
 }
 

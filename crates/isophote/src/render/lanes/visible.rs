@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::camera::ScreenPosition;
 use crate::map::Pixel;
 use crate::prepare::{ERROR_OF_DISTANCE, Hit, PreparedScene};
-use crate::shape::{Ellipse, Outline};
+use crate::shape::{Ellipse, Outline, RowOfEllipse};
 
 /// Columns of a row that see the same shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,12 +51,14 @@ struct Span {
 }
 
 /// A shape that may be seen, with its outline.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Candidate<'s> {
     /// The shape.
     pub shape: usize,
     /// Its outline.
     pub ellipse: &'s Ellipse,
+    /// The rows in which it can be seen.
+    pub rows: Range<u32>,
     radius: f64,
     doubtful: &'s Range<f64>,
 }
@@ -70,11 +72,14 @@ impl<'s> Candidate<'s> {
                 Outline::Unseen => {}
                 Outline::Unknown => return None,
                 Outline::Ellipse(ellipse) => {
+                    // With a row to spare on either side, for what is in doubt.
+                    let bound = |row: f64| whole(row.clamp(rows.start.into(), rows.end.into()));
                     let [first, last] = ellipse.rows.map(|row| row + ellipse.row);
-                    if first - 1.0 < f64::from(rows.end) && last + 1.0 > f64::from(rows.start) {
+                    let rows = bound(first - 1.0)..bound(last + 3.0);
+                    if !rows.is_empty() {
                         let doubtful = scene.doubtful_in_outline(shape);
                         let radius = scene.scene().shapes()[shape].geometry.size();
-                        candidates.push(Self { shape, ellipse, radius, doubtful });
+                        candidates.push(Self { shape, ellipse, rows, radius, doubtful });
                     }
                 }
             }
@@ -83,13 +88,14 @@ impl<'s> Candidate<'s> {
     }
 
     /// The columns of a row that the shape covers, and those in doubt.
+    #[inline(always)]
     fn span(&self, row: u32, columns: &Range<u32>, doubtful: &mut Vec<u32>) -> Option<Span> {
         let in_row = self.ellipse.in_row(row);
         let [first, last] = in_row.roots.map(|root| root + self.ellipse.column);
         // Whole columns strictly between the roots.
         let start = (first.floor() + 1.0).max(columns.start.into());
         let end = last.ceil().min(columns.end.into());
-        self.doubt(row, columns, [first, last], doubtful);
+        self.doubt(&in_row, columns, [first, last], doubtful);
         if start >= end {
             return None;
         }
@@ -100,8 +106,9 @@ impl<'s> Candidate<'s> {
     }
 
     /// Columns whose clearance leaves in doubt whether they hit, or what they see: from both roots inwards and outwards.
-    fn doubt(&self, row: u32, columns: &Range<u32>, roots: [f64; 2], doubtful: &mut Vec<u32>) {
-        let is_doubtful = |column: f64| self.doubtful.contains(&self.ellipse.clearance_at(row, column));
+    #[inline(always)]
+    fn doubt(&self, row: &RowOfEllipse, columns: &Range<u32>, roots: [f64; 2], doubtful: &mut Vec<u32>) {
+        let is_doubtful = |column: f64| self.doubtful.contains(&row.clearance_at(column - self.ellipse.column));
         let [first, last] = [f64::from(columns.start), f64::from(columns.end) - 1.0];
         let mut walk = |from: f64, step: f64| {
             let mut column = if step > 0.0 { from.max(first) } else { from.min(last) };
@@ -125,12 +132,13 @@ fn whole(column: f64) -> u32 {
 
 impl RowView {
     /// Looks at some columns of a row.
+    #[inline(always)]
     pub fn look(&mut self, scene: &PreparedScene, candidates: &[Candidate<'_>], row: u32, columns: &Range<u32>) {
         self.stretches.clear();
         self.traced.clear();
         self.spans.clear();
         self.doubtful.clear();
-        for candidate in candidates {
+        for candidate in candidates.iter().filter(|candidate| candidate.rows.contains(&row)) {
             self.spans.extend(candidate.span(row, columns, &mut self.doubtful));
         }
         match self.spans.as_slice() {
@@ -144,6 +152,7 @@ impl RowView {
     }
 
     /// Goes from edge to edge of the spans, from the left; between two edges the same shapes compete.
+    #[inline(never)]
     fn sweep(&mut self, candidates: &[Candidate<'_>], row: u32) {
         self.spans.sort_by_key(|span| span.start);
         self.edges.clear();
@@ -183,6 +192,7 @@ impl RowView {
     }
 
     /// Traces the columns in doubt and takes them out of the stretches.
+    #[inline(never)]
     fn trace_doubtful(&mut self, scene: &PreparedScene, candidates: &[Candidate<'_>], row: u32) {
         self.doubtful.sort_unstable();
         self.doubtful.dedup();
