@@ -17,6 +17,9 @@ pub fn empty_map(scene: &PreparedScene, settings: &RenderSettings<'_>, renderer:
     {
         return Err(RenderError::Region { region, full });
     }
+    if !region.size.fits_memory() {
+        return Err(RenderError::TooLarge { size: region.size });
+    }
     let mut channels: Vec<Channel> = Vec::new();
     for quantity in settings.quantities.iter().chain([&Quantity::Shape]) {
         if channels.iter().all(|channel| channel.quantity != *quantity) {
