@@ -116,7 +116,8 @@ impl ChannelArray {
             )
             .dimension_names(Some(if element.numbers == 1 { vec!["y", "x"] } else { vec!["y", "x", "component"] }))
             .attributes(attributes(&quantity, unit));
-        let array = builder.build(Arc::new(MemoryStore::new()), &format!("/{name}")).map_err(encode_error(&quantity))?;
+        let array =
+            builder.build(Arc::new(MemoryStore::new()), &format!("/{name}")).map_err(encode_error(&quantity))?;
         Ok(Self { quantity, array, element, plan })
     }
 

@@ -128,7 +128,8 @@ impl Identity {
             changes.extend(changed_line(&there.scene, &here.scene));
         }
         if changes.is_empty() && self != asked {
-            let [stored, asked] = [self, asked].map(|identity| format!("{:08x}", crc32c::crc32c(&identity.to_json(None))));
+            let [stored, asked] =
+                [self, asked].map(|identity| format!("{:08x}", crc32c::crc32c(&identity.to_json(None))));
             changes.push(Change { what: "the checksum of the description", stored, asked });
         }
         changes

@@ -122,7 +122,8 @@ impl Preview {
     fn pixels(&self, index: usize) -> f64 {
         let Boxes { full, side } = self.boxes;
         #[expect(clippy::cast_possible_truncation, reason = "a preview has at most 1024 columns and rows")]
-        let [column, row] = [index % self.size.width as usize, index / self.size.width as usize].map(|place| place as u32);
+        let [column, row] =
+            [index % self.size.width as usize, index / self.size.width as usize].map(|place| place as u32);
         f64::from(side.min(full.width - column * side)) * f64::from(side.min(full.height - row * side))
     }
 }

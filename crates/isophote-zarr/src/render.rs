@@ -141,8 +141,7 @@ impl Work<'_> {
     fn shard(&self, shard: Shard) -> Result<(), StoreError> {
         let Store { files, arrays, .. } = self.store;
         let region = Some(self.store.plan().region(shard));
-        let settings =
-            RenderSettings { region, quantities: rendered(&self.store.quantities()), observer: Some(self) };
+        let settings = RenderSettings { region, quantities: rendered(&self.store.quantities()), observer: Some(self) };
         let map = self.renderer.render(self.scene, &settings)?;
         Record::make(files, arrays, self.store.plan(), shard, &map, &|| match self.advance(0) {
             ControlFlow::Continue(()) => Ok(()),

@@ -139,8 +139,7 @@ fn combined(parts: impl Iterator<Item = ShardChannel>, visible: u64) -> Option<S
         }
         sum.add(part.sum);
     }
-    let extreme =
-        |place: Place| Extreme { value: place.value, pixel: Pixel { column: place.column, row: place.row } };
+    let extreme = |place: Place| Extreme { value: place.value, pixel: Pixel { column: place.column, row: place.row } };
     #[expect(clippy::cast_precision_loss, reason = "an image has fewer than 2^53 pixels")]
     let mean = sum.value() / visible as f64;
     Some(Statistics { max: extreme(max), min: extreme(min), mean })

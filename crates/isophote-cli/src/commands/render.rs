@@ -10,10 +10,11 @@ use isophote::export::figure::{self, FigureOptions, Mark};
 use isophote::export::png::Depth;
 use isophote::map::{Map, Quantity, Region};
 use isophote::prepare::PreparedScene;
-use isophote::render::{RenderSettings, Renderer, Threaded};
+use isophote::render::{RenderError, RenderSettings, Renderer, Threaded};
 use isophote::scene::Scene;
 
 use super::output::{FigureFormat, MapFile, MapStyle, figure_format, refuse_twice, write_figure};
+use super::store;
 use super::summary::Summary;
 use crate::args::RenderArguments;
 use crate::failure::{self, Usage};
@@ -22,6 +23,9 @@ use crate::{load, numbers};
 
 /// Renders a scene.
 pub fn run(arguments: &RenderArguments) -> Result<String> {
+    if let Some(path) = store::asked_for(arguments)? {
+        return store::render(arguments, path);
+    }
     let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.size, arguments.quiet)?);
     let job = Job::new(arguments, scene.scene())?;
     let mut map = job.render(&scene)?;
@@ -119,7 +123,8 @@ impl<'a> Job<'a> {
         let map = Threaded { threads: arguments.threads }.render(scene, &settings);
         progress.finish();
         map.map_err(|error| match error {
-            isophote::render::RenderError::Region { .. } => Usage(error.to_string()).into(),
+            RenderError::Region { .. } => Usage(error.to_string()).into(),
+            RenderError::TooLarge { .. } => Usage(format!("{error}; -o NAME.zarr takes larger ones")).into(),
             error => error.into(),
         })
     }
