@@ -9,7 +9,6 @@ use isophote::map::Quantity;
 use isophote::render::RenderError;
 
 use crate::identity::Change;
-use crate::plan::Shard;
 
 /// Why a store was not made, continued or read.
 #[derive(Debug, thiserror::Error)]
@@ -110,23 +109,18 @@ pub enum StoreError {
     },
 }
 
-/// What is wrong with a shard.
+/// What is wrong in a store, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Damage {
-    /// Which one.
-    pub shard: Shard,
-    /// The file that is wrong; none where the shard was not computed at all.
-    pub file: Option<String>,
-    /// What is wrong.
+    /// A shard, such as `shard 3/7`, or the name of a file.
+    pub place: String,
+    /// What is wrong with it.
     pub reason: String,
 }
 
 impl fmt::Display for Damage {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.file {
-            Some(file) => write!(formatter, "{file} {}", self.reason),
-            None => write!(formatter, "shard {} {}", self.shard, self.reason),
-        }
+        write!(formatter, "{} {}", self.place, self.reason)
     }
 }
 

@@ -7,6 +7,7 @@
 
 mod array;
 mod content;
+mod describe;
 mod error;
 mod files;
 mod identity;

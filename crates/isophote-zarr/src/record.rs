@@ -68,21 +68,21 @@ impl Record {
 
     /// The record of a shard whose files are there, with the lengths that they should have.
     pub fn read(files: &Files, arrays: &[ChannelArray], shard: Shard) -> Result<Result<Self, Damage>, StoreError> {
-        let damage = |file, reason: &str| Ok(Err(Damage { shard, file, reason: reason.into() }));
+        let damage = |place, reason: &str| Ok(Err(Damage { place, reason: reason.into() }));
         let key = Self::key(shard);
-        let Some(json) = files.get(&key)? else { return damage(None, "is not computed") };
-        let Ok(record) = serde_json::from_slice::<Self>(&json) else { return damage(Some(key), "is damaged") };
+        let Some(json) = files.get(&key)? else { return damage(format!("shard {shard}"), "is not computed") };
+        let Ok(record) = serde_json::from_slice::<Self>(&json) else { return damage(key, "is damaged") };
         if record.files.len() != arrays.len() {
-            return damage(Some(key), "is of another map");
+            return damage(key, "is of another map");
         }
         for (array, stored) in arrays.iter().zip(&record.files) {
             let key = array.key(shard);
             match (files.length(&key), stored.map(|stored| stored.bytes)) {
                 (found, expected) if found == expected => {}
-                (None, _) => return damage(Some(key), "is missing"),
-                (Some(_), None) => return damage(Some(key), "should not be there: nothing is seen in it"),
+                (None, _) => return damage(key, "is missing"),
+                (Some(_), None) => return damage(key, "should not be there: nothing is seen in it"),
                 (Some(found), Some(expected)) => {
-                    return damage(Some(key), &format!("has {found} bytes in place of {expected}"));
+                    return damage(key, &format!("has {found} bytes in place of {expected}"));
                 }
             }
         }
@@ -103,7 +103,7 @@ impl Record {
                 Some(format!("has the checksum {found:08x} in place of {expected:08x}"))
             };
             if let Some(reason) = reason {
-                return Ok(Some(Damage { shard, file: Some(file), reason }));
+                return Ok(Some(Damage { place: file, reason }));
             }
         }
         Ok(None)

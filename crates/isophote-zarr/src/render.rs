@@ -8,11 +8,12 @@ use std::sync::{Mutex, PoisonError};
 use isophote::prepare::PreparedScene;
 use isophote::render::{Observer, RenderError, RenderSettings, Renderer};
 
+use crate::describe::{need, rendered};
 use crate::error::StoreError;
 use crate::plan::{Part, Shard};
 use crate::record::Record;
 use crate::statistics::MapStatistics;
-use crate::store::{Check, Store, need, rendered};
+use crate::store::{Check, Store};
 
 /// What the program takes beside the shards in flight.
 const BASE: u64 = 48 << 20;

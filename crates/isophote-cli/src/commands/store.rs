@@ -138,13 +138,15 @@ fn options_without_effect(arguments: &RenderArguments) -> Vec<String> {
 fn explained(error: StoreError) -> Error {
     match &error {
         StoreError::Exists { done, shards, .. } if done == shards => {
-            anyhow!("{error}; isophote merge prints its results; to begin anew, remove it or choose another name")
+            let advice = "isophote merge prints its results; to begin anew, remove it or choose another name";
+            Usage(format!("{error}; {advice}")).into()
         }
         StoreError::Exists { .. } => {
-            anyhow!("{error}; --resume goes on with it; to begin anew, remove it or choose another name")
+            let advice = "--resume goes on with it; to begin anew, remove it or choose another name";
+            Usage(format!("{error}; {advice}")).into()
         }
         StoreError::Changed { .. } => {
-            anyhow!("{error}; go on with the same scene and options, or choose another name")
+            Usage(format!("{error}; go on with the same scene and options, or choose another name")).into()
         }
         StoreError::Incomplete { .. } => {
             anyhow!("{error}; isophote render with --resume computes what is missing or damaged")
