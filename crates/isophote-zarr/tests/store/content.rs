@@ -27,7 +27,7 @@ fn every_value_is_that_of_the_map_in_memory_to_the_last_bit() {
 
 #[test]
 fn statistics_are_those_of_the_map_in_memory() {
-    for side in [1, 7, 16, 512] {
+    for side in [5, 16, 512] {
         let scene = scene(TWO_LIGHTS, 40, 30);
         let map = map(&scene, &[Quantity::Brightness]);
         let (_, stored) = Job { side, ..Job::default() }.complete(&scene);
@@ -47,7 +47,7 @@ fn of_equal_extremes_the_first_in_reading_order_is_reported() {
     let scene = scene(include_str!("../../../../scenes/lab.toml"), 40, 30);
     let map = map(&scene, &[Quantity::Depth]);
     let known = statistics(&map, &Quantity::Depth).unwrap();
-    for side in [1, 8, 13] {
+    for side in [4, 13] {
         let (_, stored) = Job { side, quantities: vec![Quantity::Depth], ..Job::default() }.complete(&scene);
         let stored = stored.channels[0].statistics.unwrap();
         assert_eq!((stored.max, stored.min), (known.max, known.min), "side {side}");

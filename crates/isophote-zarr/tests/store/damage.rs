@@ -22,12 +22,15 @@ fn flip(path: &Path, at: usize) {
     fs::write(path, bytes).unwrap();
 }
 
+/// A file, what happens to it, how closely one must look, and what is said.
+type Harm = (&'static str, fn(&Path), Check, &'static str);
+
 #[test]
 fn damage_is_found_by_its_file_and_mended_by_continuing() {
     let scene = scene(TWO_LIGHTS, 70, 50);
     let (folder, _) = Job::default().complete(&scene);
     let before = folder.tree();
-    type Harm = (&'static str, fn(&Path), Check, &'static str);
+    assert!(!before.contains_key("brightness/c/3/4"), "nothing is seen there");
     let harms: [Harm; 7] = [
         ("brightness/c/1/2", |path| fs::remove_file(path).unwrap(), Check::Presence, "is missing"),
         ("normal/c/1/2/0", |path| fs::write(path, "short").unwrap(), Check::Presence, "has 5 bytes in place of"),
@@ -35,7 +38,7 @@ fn damage_is_found_by_its_file_and_mended_by_continuing() {
         ("shape/c/1/2", |path| flip(path, usize::MAX), Check::Content, "has the checksum"),
         (".isophote/shards/1/2.json", |path| fs::write(path, "{").unwrap(), Check::Presence, "is damaged"),
         ("brightness/zarr.json", |path| flip(path, 9), Check::Content, "is missing or changed"),
-        ("brightness/c/0/0", |path| put(path), Check::Presence, "should not be there"),
+        ("brightness/c/3/4", |path| put(path), Check::Presence, "should not be there"),
     ];
     for (file, harm, check, words) in harms {
         harm(&folder.file(file));
