@@ -161,8 +161,9 @@ impl Files {
             // Less the umask; the default of temporary files, 0600, would hide the result from everyone else.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
-        let mut file = builder.tempfile_in(self.path(UNFINISHED))?;
-        file.write_all(bytes)?;
+        let file = builder.tempfile_in(self.path(UNFINISHED))?;
+        // Not through `file` itself, whose errors name the hidden file in place of the one that is wanted.
+        file.as_file().write_all(bytes)?;
         // Or a power failure could leave the name and not the content.
         file.as_file().sync_data()?;
         Ok(file)

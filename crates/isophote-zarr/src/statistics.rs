@@ -57,35 +57,44 @@ pub struct ChannelStatistics {
 impl ShardStatistics {
     /// The statistics of these channels, and of the irradiance, which tells what is lit.
     pub fn of(map: &Map, spans: &[Span], quantities: &[Quantity]) -> Self {
-        let seen = || spans.iter().flat_map(|span| span.indices(map)).filter(|&index| map.is_visible(index));
+        let shapes = map.shapes();
         let irradiance = map.scalar(&Quantity::Irradiance).unwrap_or_default();
+        let (mut visible, mut lit) = (0, 0);
+        for indices in spans.iter().map(|span| span.indices(map)) {
+            let pixels = shapes[indices.clone()].iter().zip(&irradiance[indices]);
+            for (&shape, &irradiance) in pixels {
+                visible += u64::from(shape >= 0);
+                lit += u64::from(shape >= 0 && irradiance > 0.0);
+            }
+        }
         let channel = |quantity: &Quantity| match &map.channel(quantity)?.values {
-            Values::Scalar(values) => ShardChannel::of(map, seen(), |index| values[index]),
+            Values::Scalar(values) => ShardChannel::of(map, shapes, spans, values),
             Values::Vector(_) | Values::Index(_) => None,
         };
-        Self {
-            visible: seen().count() as u64,
-            lit: seen().filter(|&index| irradiance[index] > 0.0).count() as u64,
-            channels: quantities.iter().map(channel).collect(),
-        }
+        Self { visible, lit, channels: quantities.iter().map(channel).collect() }
     }
 }
 
 impl ShardChannel {
-    fn of(map: &Map, seen: impl Iterator<Item = usize>, value: impl Fn(usize) -> f64) -> Option<Self> {
-        let mut seen = seen.peekable();
-        let first = *seen.peek()?;
-        let (mut max, mut min) = ((first, value(first)), (first, value(first)));
+    fn of(map: &Map, shapes: &[i32], spans: &[Span], values: &[f64]) -> Option<Self> {
+        // A span begins with a pixel that sees a surface.
+        let first = spans.first()?.indices(map).start;
+        let (mut max, mut min) = ((first, values[first]), (first, values[first]));
         let mut sum = Sum::new();
-        for index in seen {
-            let value = value(index);
-            if value > max.1 {
-                max = (index, value);
+        for indices in spans.iter().map(|span| span.indices(map)) {
+            for index in indices {
+                if shapes[index] < 0 {
+                    continue;
+                }
+                let value = values[index];
+                if value > max.1 {
+                    max = (index, value);
+                }
+                if value < min.1 {
+                    min = (index, value);
+                }
+                sum.add(value);
             }
-            if value < min.1 {
-                min = (index, value);
-            }
-            sum.add(value);
         }
         let place = |(index, value)| {
             let Pixel { column, row } = map.pixel(index);
@@ -97,7 +106,7 @@ impl ShardChannel {
 
 impl MapStatistics {
     /// The statistics of a map from those of its shards, which come in the order of the plan, whenever each was made.
-    pub fn new(pixels: u64, quantities: &[Quantity], shards: &[ShardStatistics]) -> Self {
+    pub(crate) fn new(pixels: u64, quantities: &[Quantity], shards: &[ShardStatistics]) -> Self {
         let visible = shards.iter().map(|shard| shard.visible).sum();
         let channels = quantities.iter().enumerate().map(|(index, quantity)| {
             let parts = shards.iter().filter_map(move |shard| shard.channels.get(index).copied().flatten());

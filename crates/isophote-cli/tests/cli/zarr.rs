@@ -100,9 +100,12 @@ fn a_store_that_exists_is_kept_and_the_choices_are_named() {
     half.failed(2, &["19 of its 20 shards are done; --resume goes on with it; to begin anew, remove it"]);
     folder.run("merge map.zarr").failed(1, &["shard 1/1 is not computed; isophote render with --resume computes"]);
     folder.run("render lab.toml --size 80x60 -o map.zarr --resume").failed(2, &["the size is 40×30 there and 80×60"]);
-    folder.write("lab.toml", LAB.replacen("radius = 1", "radius = 1.5", 1));
+    folder.write("lab.toml", LAB.replacen("shininess = 20", "shininess = 21", 1));
     let changed = folder.run("render lab.toml --size 40x30 -o map.zarr --resume");
-    changed.failed(2, &["a line of the scene is ‘radius = 1.0’ there and ‘radius = 1.5’ here; go on with the same"]);
+    changed.failed(
+        2,
+        &["a line of the scene is ‘shininess = 20.0’ there and ‘shininess = 21.0’ here; go on with the same"],
+    );
     folder.write("lab.toml", LAB);
     folder.ok("render lab.toml --size 40x30 -o map.zarr --resume");
     assert_eq!(tree(&folder.path("map.zarr")), before);

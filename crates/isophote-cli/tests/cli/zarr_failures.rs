@@ -48,7 +48,7 @@ fn killed_at_ten_random_moments_it_resumes_to_the_same_bytes() {
 #[test]
 fn ctrl_c_stops_soon_and_says_how_to_go_on() {
     let folder = Folder::with("lab.toml", LAB);
-    let mut child = start(&folder, "render lab.toml --size 30000x20000 -o map.zarr");
+    let mut child = start(&folder, "render lab.toml --size 32000x24000 -o map.zarr");
     sleep(Duration::from_millis(1500));
     let since = Instant::now();
     assert!(Command::new("kill").arg("-INT").arg(child.id().to_string()).status().unwrap().success());
@@ -62,7 +62,7 @@ fn ctrl_c_stops_soon_and_says_how_to_go_on() {
     assert_eq!(output.status.code(), Some(130), "{said}");
     assert!(took < Duration::from_secs(2), "{took:?}");
     assert!(said.starts_with("interrupted; ") && said.ends_with(": --resume goes on from there\n"), "{said}");
-    assert!(said.contains(" of 150 shards are done and stay"), "{said}");
+    assert!(said.contains(" of 192 shards are done and stay"), "{said}");
     assert!(names_in(&folder.path("map.zarr/.isophote/unfinished")).is_empty());
 }
 
@@ -77,8 +77,8 @@ fn a_file_that_cannot_be_written_is_a_clear_error_and_what_is_done_stays() {
     let output = Command::new("sh").args(["-c", &script]).current_dir(folder.path("")).output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1), "{said}");
-    assert!(said.starts_with("error: cannot write ‘map.zarr/brightness/c/1/1’: File too large"), "{said}");
-    assert!(said.ends_with("; 5 of 12 shards are done and stay usable: --resume goes on\n"), "{said}");
+    assert!(said.starts_with("error: cannot write ‘map.zarr/.isophote/shards/0/1.json’: File too large (os"), "{said}");
+    assert!(said.ends_with("); 1 of 12 shards are done and stay usable: --resume goes on\n"), "{said}");
     assert!(names_in(&folder.path("map.zarr/.isophote/unfinished")).is_empty());
     folder.ok(&format!("{render} -o map.zarr --resume"));
     assert_eq!(tree(&folder.path("map.zarr")), tree(&folder.path("whole.zarr")));
