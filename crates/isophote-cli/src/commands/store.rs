@@ -49,9 +49,9 @@ pub fn asked_for(arguments: &RenderArguments) -> Result<Option<&Path>, Usage> {
 
 /// Renders a scene into a store.
 pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
+    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.size, arguments.quiet)?);
     // From here on there may be a store, and Ctrl-C has to say how to go on with it.
     end_in_order();
-    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.size, arguments.quiet)?);
     let available = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let workers = Workers { threads: arguments.threads.unwrap_or(available), memory: arguments.store.memory };
     let renderer = Threaded { threads: Some(NonZeroUsize::MIN) };
