@@ -65,7 +65,9 @@ pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
     };
     let store = Store::prepare(path, &scene, &renderer, &request).map_err(explained)?;
     if !arguments.quiet {
-        options_without_effect(arguments).iter().for_each(|note| failure::note(note));
+        for note in options_without_effect(arguments) {
+            failure::note(&note);
+        }
     }
     let progress = Progress::resumed(store.pixels(part), arguments.quiet);
     let outcome = store.render(&scene, &renderer, workers, part, Some(&progress));
