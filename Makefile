@@ -15,7 +15,7 @@ demo: ## Render the lab's scene: its numbers, lab.png, and lab-figure.png with a
 	$(ISOPHOTE) render -o lab.png --figure lab-figure.png
 
 test: python-env ## Run every test (with NumPy, zarr and xarray as foreign readers, where Python 3 can have them)
-	@if [ -e $(PYTHON_ENV)/ready ]; then export ISOPHOTE_PYTHON="$$PWD/$(PYTHON_ENV)/bin/python"; fi; \
+	@if [ -e $(PYTHON_ENV)/readers-ready ]; then export ISOPHOTE_PYTHON="$$PWD/$(PYTHON_ENV)/bin/python"; fi; \
 	$(CARGO) test --workspace
 
 check: generated-is-current ## Formatting, lints, documentation without warnings, generated files up to date
@@ -55,8 +55,8 @@ $(GENERATED):
 # NumPy, zarr and xarray read what we write for them. Without them two tests say that they are skipped, and all others run.
 .PHONY: python-env
 python-env:
-	@[ -e $(PYTHON_ENV)/ready ] || { \
+	@[ -e $(PYTHON_ENV)/readers-ready ] || { \
 		rm -rf $(PYTHON_ENV) && mkdir -p target && python3 -m venv $(PYTHON_ENV) && \
 		$(PYTHON_ENV)/bin/python -m pip install --quiet --disable-pip-version-check numpy 'zarr>=3' xarray && \
-		touch $(PYTHON_ENV)/ready; \
+		touch $(PYTHON_ENV)/readers-ready; \
 	} || { rm -rf $(PYTHON_ENV); echo "no Python with NumPy, zarr and xarray here: the tests that need them are skipped"; }
