@@ -14,8 +14,8 @@ help: ## List the targets
 demo: ## Render the lab's scene: its numbers, lab.png, and lab-figure.png with axes and isophotes
 	$(ISOPHOTE) render -o lab.png --figure lab-figure.png
 
-test: python-env ## Run every test (with NumPy as a foreign reader, where Python 3 can have it)
-	@if [ -e $(PYTHON_ENV)/ready ]; then export ISOPHOTE_PYTHON="$$PWD/$(PYTHON_ENV)/bin/python"; fi; \
+test: python-env ## Run every test (with NumPy, zarr and xarray as foreign readers, where Python 3 can have them)
+	@if [ -e $(PYTHON_ENV)/readers-ready ]; then export ISOPHOTE_PYTHON="$$PWD/$(PYTHON_ENV)/bin/python"; fi; \
 	$(CARGO) test --workspace
 
 check: generated-is-current ## Formatting, lints, documentation without warnings, generated files up to date
@@ -52,11 +52,11 @@ $(GENERATED):
 	$(CARGO) run --quiet -- section --quiet --row 300 -c brightness -c diffuse -c specular \
 		-o $@/docs/images/lab-section.png
 
-# NumPy reads what we write for it. Without it that one test says that it is skipped, and all others run.
+# NumPy, zarr and xarray read what we write for them. Without them two tests say that they are skipped, and all others run.
 .PHONY: python-env
 python-env:
-	@[ -e $(PYTHON_ENV)/ready ] || { \
+	@[ -e $(PYTHON_ENV)/readers-ready ] || { \
 		rm -rf $(PYTHON_ENV) && mkdir -p target && python3 -m venv $(PYTHON_ENV) && \
-		$(PYTHON_ENV)/bin/python -m pip install --quiet --disable-pip-version-check numpy && \
-		touch $(PYTHON_ENV)/ready; \
-	} || { rm -rf $(PYTHON_ENV); echo "no Python with NumPy here: the test that needs it is skipped"; }
+		$(PYTHON_ENV)/bin/python -m pip install --quiet --disable-pip-version-check numpy 'zarr>=3' xarray && \
+		touch $(PYTHON_ENV)/readers-ready; \
+	} || { rm -rf $(PYTHON_ENV); echo "no Python with NumPy, zarr and xarray here: the tests that need them are skipped"; }

@@ -1,14 +1,16 @@
 //! The command line as the user types it.
 
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use isophote::export::colormap::Colormap;
+use isophote::lanes::Precision;
 use isophote::map::{Pixel, Region, Resolution};
 use isophote::scene::library::Starter;
 use isophote::units::Choice;
+use isophote_zarr::Part;
 
 use crate::numbers;
 
@@ -32,6 +34,8 @@ pub enum Command {
     Probe(ProbeArguments),
     /// Print or plot the values along a line of the picture
     Section(SectionArguments),
+    /// Put the parts of a .zarr store together: print its extremes and probes, or what is missing
+    Merge(MergeArguments),
     /// Check a scene and print it as it is understood, in metres
     Check(CheckArguments),
     /// Write a commented scene file to start from
@@ -67,8 +71,8 @@ pub struct RenderArguments {
     #[command(flatten)]
     pub scene: SceneArgument,
 
-    /// Write the map to FILE: .png, .exr, .npy, .npz or .csv; may be given several times. Without SCENE, -o and
-    /// --figure: lab.png
+    /// Write the map to FILE: .png, .exr, .npy, .npz or .csv; may be given several times. Or, alone, to a .zarr store,
+    /// which may be larger than memory. Without SCENE, -o and --figure: lab.png
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
 
@@ -119,9 +123,16 @@ pub struct RenderArguments {
     #[arg(long)]
     pub visible_only: bool,
 
+    /// How brightness is computed: in 64 bits (double), or in 32 (single), faster and exact to about 3e-6
+    #[arg(long, value_name = "PRECISION", default_value = "double", value_parser = choice::<Precision>())]
+    pub precision: Precision,
+
     /// How many threads compute; as many as there are processors by default
     #[arg(long, value_name = "COUNT", value_parser = parse_threads)]
     pub threads: Option<NonZeroUsize>,
+
+    #[command(flatten)]
+    pub store: StoreArguments,
 
     /// Print the results as JSON
     #[arg(long)]
@@ -130,6 +141,27 @@ pub struct RenderArguments {
     /// No notes, no progress: only results and errors
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// What concerns .zarr stores alone.
+#[derive(Args, Default)]
+pub struct StoreArguments {
+    /// Continue a .zarr store that was not finished; begin it if there is none
+    #[arg(long)]
+    pub resume: bool,
+
+    /// Compute only every N-th shard of a .zarr store, the I-th of each N, beside other processes that compute the
+    /// others; `isophote merge` puts them together
+    #[arg(long, value_name = "I/N", value_parser = parse_part)]
+    pub shard: Option<Part>,
+
+    /// Memory that the computation of a .zarr store may take, such as 512M or 2G
+    #[arg(long, value_name = "SIZE", value_parser = numbers::memory)]
+    pub memory: Option<u64>,
+
+    /// Side of a shard in pixels, for tests that need many shards of a small image
+    #[arg(long, value_name = "PIXELS", hide = true)]
+    pub shard_side: Option<NonZeroU32>,
 }
 
 #[derive(Args)]
@@ -248,8 +280,22 @@ pub struct NewArguments {
 }
 
 #[derive(Args)]
+pub struct MergeArguments {
+    /// A .zarr store whose parts were computed by `isophote render --shard`
+    pub store: PathBuf,
+
+    /// Read every shard and compare it with its checksums
+    #[arg(long)]
+    pub check: bool,
+
+    /// Print the results as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args)]
 pub struct ShowArguments {
-    /// A file that this program wrote
+    /// A file or .zarr store that this program wrote
     pub file: PathBuf,
 
     /// Print the scene that the file carries, as a scene file
@@ -288,6 +334,12 @@ fn parse_range(text: &str) -> Result<[f64; 2], String> {
 fn parse_threads(text: &str) -> Result<NonZeroUsize, String> {
     let threads = text.parse().ok().filter(|threads: &NonZeroUsize| threads.get() <= 1024);
     threads.ok_or_else(|| "allowed: 1 to 1024".into())
+}
+
+fn parse_part(text: &str) -> Result<Part, String> {
+    let part =
+        text.split_once('/').and_then(|(number, of)| Part::new(number.trim().parse().ok()?, of.trim().parse().ok()?));
+    part.ok_or_else(|| "expected I/N with I from 1 to N, such as 3/16".into())
 }
 
 fn parse_gamma(text: &str) -> Result<f64, String> {

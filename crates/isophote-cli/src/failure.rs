@@ -31,6 +31,18 @@ impl fmt::Display for Interrupted {
 
 impl std::error::Error for Interrupted {}
 
+/// The user stopped a computation that can go on later: exit code 130.
+#[derive(Debug)]
+pub struct Paused(pub String);
+
+impl fmt::Display for Paused {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "interrupted; {}", self.0)
+    }
+}
+
+impl std::error::Error for Paused {}
+
 /// Writes an error to standard error and chooses the exit code.
 pub fn report(error: &anyhow::Error) -> ExitCode {
     if let Some(scene_error) = find::<SceneError>(error) {
@@ -39,6 +51,10 @@ pub fn report(error: &anyhow::Error) -> ExitCode {
         let report = scene_error.report(use_color());
         note(&format!("{report}\n\n{count} problem{plural} in {}; nothing was written", scene_error.name));
         return ExitCode::from(3);
+    }
+    if let Some(paused) = find::<Paused>(error) {
+        note(&paused.to_string());
+        return ExitCode::from(130);
     }
     if is_interruption(error) {
         note("interrupted; nothing was left half-written");

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::Result;
-use isophote::export::{Format, read_metadata};
+use isophote::export::{FileMetadata, Format, read_metadata};
 use isophote::map::Resolution;
 use isophote::scene::library::Starter;
 use isophote::scene::{Scene, SceneError, Syntax, error};
@@ -35,14 +35,24 @@ fn read(argument: &SceneArgument) -> Result<(String, Scene)> {
         let text = Scene::read_text(&mut std::io::stdin().lock(), name)?;
         let syntax = if text.trim_start().starts_with('{') { Syntax::Json } else { Syntax::Toml };
         Scene::from_text(name, &text, syntax)?
-    } else if Format::from_path(path).is_some() {
+    } else if Format::from_path(path).is_some() || is_store(path) {
         let no_scene = |error| SceneError::unreadable(&name, format!("no scene can be taken out of it: {error}"), None);
-        let metadata = read_metadata(path).map_err(no_scene)?;
+        let metadata = metadata(path).map_err(no_scene)?;
         Scene::from_text(&name, &metadata.scene, Syntax::Toml)?
     } else {
         Scene::from_file(path)?
     };
     Ok((name, scene))
+}
+
+/// What an output file or store says about itself.
+pub fn metadata(path: &Path) -> Result<FileMetadata> {
+    if path.is_dir() { Ok(isophote_zarr::read_metadata(path)?) } else { Ok(read_metadata(path)?) }
+}
+
+/// Whether a path is that of a store, by its suffix.
+pub fn is_store(path: &Path) -> bool {
+    path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("zarr"))
 }
 
 /// The scene is valid: it is the argument that is wrong.

@@ -42,6 +42,17 @@ pub fn pixel(text: &str) -> Result<Pixel, String> {
     Ok(Pixel { column, row })
 }
 
+/// `512M`: bytes, with powers of 1024.
+pub fn memory(text: &str) -> Result<u64, String> {
+    let text = text.trim();
+    let units = [('K', 10), ('M', 20), ('G', 30), ('T', 40)];
+    let size = units.into_iter().find_map(|(unit, power)| {
+        let number = text.strip_suffix([unit, unit.to_ascii_lowercase()])?;
+        number.parse::<u64>().ok()?.checked_mul(1 << power)
+    });
+    size.ok_or_else(|| "expected a whole number and K, M, G or T, such as 512M".into())
+}
+
 /// A JSON text whose numbers have 17 significant digits, which tell every double apart.
 pub fn json(value: &impl serde::Serialize) -> anyhow::Result<String> {
     let mut bytes = Vec::new();

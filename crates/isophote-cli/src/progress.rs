@@ -1,11 +1,12 @@
 //! Progress and interruption.
 
+use std::fmt;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use isophote::render::Observer;
 
 use crate::failure::{self, Interrupted};
@@ -45,10 +46,22 @@ pub struct Progress {
 
 impl Progress {
     pub fn new(pixels: u64, quiet: bool) -> Self {
+        Self::resumed([0, pixels], quiet)
+    }
+
+    /// A bar for work of which a part was done before.
+    pub fn resumed([done, pixels]: [u64; 2], quiet: bool) -> Self {
         end_in_order();
         let bar = ProgressBar::with_draw_target(Some(pixels), ProgressDrawTarget::hidden());
-        let style = "{bar:40} {percent}%  {per_sec} pixels  {eta} left";
-        bar.set_style(ProgressStyle::with_template(style).unwrap_or_else(|_| ProgressStyle::default_bar()));
+        let style = ProgressStyle::with_template("{bar:40} {percent}%  {rate}  {eta} left");
+        let rate = |state: &ProgressState, text: &mut dyn fmt::Write| {
+            // The bar leaves out what cannot be written.
+            let _ = write!(text, "{:.1} Mpixel/s", state.per_sec() / 1e6);
+        };
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).with_key("rate", rate));
+        bar.set_position(done);
+        // Pixels of earlier runs say nothing about the speed of this one.
+        bar.reset_eta();
         Self { bar, since: Instant::now(), is_shown: AtomicBool::new(quiet) }
     }
 

@@ -181,8 +181,10 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     let mut flanks = 0.0;
     let shading = scene.shade(hit.shape, &hit.point, |light, term| {
         by_light.push(term.irradiance.rounded());
-        let cosine = term.cos_theta_h.rounded().max(f64::MIN_POSITIVE);
-        flanks += shininess * (1.0 / (cosine * cosine) - 1.0).max(0.0).sqrt() * (term.irradiance * term.lobe).rounded();
+        let (cosine, lobe) = (term.cos_theta_h.rounded(), (term.irradiance * term.lobe).rounded());
+        if lobe > 0.0 {
+            flanks += shininess * (1.0 / (cosine * cosine) - 1.0).max(0.0).sqrt() * lobe;
+        }
         if DoubleDouble::zero().is_less(term.irradiance) {
             // cosγ of a Lambertian light, 1 of an isotropic one.
             let cos_gamma = term.intensity / DoubleDouble::from_f64(scene.scene().lights()[light].intensity);

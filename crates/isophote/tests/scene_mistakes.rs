@@ -71,7 +71,7 @@ mistakes! {
     a_negative_shininess: "shininess = 20" => "shininess = -5", 1;
     a_missing_shininess: "shininess = 20" => "", 1;
     a_resolution_of_zero: "resolution = [800, 600]" => "resolution = [800, 0]", 1;
-    an_absurd_resolution: "resolution = [800, 600]" => "resolution = [60000, 60000]", 1;
+    an_absurd_resolution: "resolution = [800, 600]" => "resolution = [2000000, 60000]", 1;
     a_negative_resolution: "resolution = [800, 600]" => "resolution = [-800, 600]", 1;
     a_fractional_resolution: "resolution = [800, 600]" => "resolution = [800.5, 600]", 1;
     an_unknown_convention: "convention = \"lab\"" => "convention = \"labb\"", 1;

@@ -7,6 +7,7 @@ mod probe;
 mod render;
 mod section;
 mod show;
+mod store;
 mod summary;
 
 use anyhow::Result;
@@ -23,6 +24,7 @@ pub fn run(arguments: Arguments) -> Result<String> {
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Probe(arguments)) => probe::run(&arguments),
         Some(Command::Section(arguments)) => section::run(&arguments),
+        Some(Command::Merge(arguments)) => store::merge(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments),
         Some(Command::New(arguments)) => new::run(&arguments),
         Some(Command::Show(arguments)) => show::run(&arguments),

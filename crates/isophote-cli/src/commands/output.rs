@@ -36,7 +36,8 @@ impl MapFile {
     /// A file whose suffix names a format and whose place can be written: known before anything is computed.
     pub fn new(path: &Path) -> Result<Self> {
         let format = Format::from_path(path).ok_or_else(|| {
-            let allowed: Vec<String> = Format::ALL.iter().map(|format| format!(".{}", format.name())).collect();
+            let mut allowed: Vec<String> = Format::ALL.iter().map(|format| format!(".{}", format.name())).collect();
+            allowed.push(".zarr".into());
             Usage(format!("cannot tell the format of {}; allowed: {}", path.display(), allowed.join(", ")))
         })?;
         atomic::check_target(path)?;

@@ -10,11 +10,11 @@ use isophote::export::figure::{self, FigureOptions, Mark};
 use isophote::export::png::Depth;
 use isophote::map::{Map, Quantity, Region};
 use isophote::prepare::PreparedScene;
-use isophote::lanes::Precision;
-use isophote::render::{Lanes, RenderSettings, Renderer};
+use isophote::render::{Lanes, RenderError, RenderSettings, Renderer};
 use isophote::scene::Scene;
 
 use super::output::{FigureFormat, MapFile, MapStyle, figure_format, refuse_twice, write_figure};
+use super::store;
 use super::summary::Summary;
 use crate::args::RenderArguments;
 use crate::failure::{self, Usage};
@@ -23,6 +23,9 @@ use crate::{load, numbers};
 
 /// Renders a scene.
 pub fn run(arguments: &RenderArguments) -> Result<String> {
+    if let Some(path) = store::asked_for(arguments)? {
+        return store::render(arguments, path);
+    }
     let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.size, arguments.quiet)?);
     let job = Job::new(arguments, scene.scene())?;
     let mut map = job.render(&scene)?;
@@ -120,10 +123,11 @@ impl<'a> Job<'a> {
         let region = arguments.region.unwrap_or(Region::all(scene.scene().camera().resolution));
         let progress = Progress::new(region.size.pixels() as u64, arguments.quiet);
         let settings = RenderSettings { region: Some(region), quantities, observer: Some(&progress) };
-        let map = Lanes::new(Precision::Double, arguments.threads).render(scene, &settings);
+        let map = Lanes::new(arguments.precision, arguments.threads).render(scene, &settings);
         progress.finish();
         map.map_err(|error| match error {
-            isophote::render::RenderError::Region { .. } => Usage(error.to_string()).into(),
+            RenderError::Region { .. } => Usage(error.to_string()).into(),
+            RenderError::TooLarge { .. } => Usage(format!("{error}; -o NAME.zarr takes larger ones")).into(),
             error => error.into(),
         })
     }

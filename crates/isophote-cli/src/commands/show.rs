@@ -3,15 +3,16 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use isophote::export::{FileMetadata, read_metadata};
+use isophote::export::FileMetadata;
 use isophote::text::significant;
 use isophote::units::Choice;
 
 use crate::args::ShowArguments;
+use crate::load;
 
 /// Prints the metadata of a file.
 pub fn run(arguments: &ShowArguments) -> Result<String> {
-    let metadata = read_metadata(&arguments.file)?;
+    let metadata = load::metadata(&arguments.file)?;
     if arguments.scene {
         return Ok(metadata.scene);
     }

@@ -6,6 +6,7 @@ use isophote::map::{Map, Quantity, Region};
 use isophote::prepare::PreparedScene;
 use isophote::text::significant;
 use isophote::units::Choice;
+use isophote_zarr::MapStatistics;
 use serde::Serialize;
 
 use super::probe::{self, ProbeJson};
@@ -19,21 +20,30 @@ pub struct Summary {
     region: Option<Region>,
     counts: Counts,
     statistics: Option<Statistics>,
-    probes: Vec<(String, ProbeReading, Option<f64>)>,
+    probes: Vec<Reading>,
 }
 
 impl Summary {
     pub fn new(map: &Map, main: &Quantity, scene: &PreparedScene) -> Self {
-        let reading = |probe: &isophote::scene::Probe| {
-            let reading = scene.probe(&Place::Point(probe.at)).ok()?;
-            Some((probe.name.clone(), reading, probe.published))
-        };
         Self {
             main: main.clone(),
             region: (map.region.size != map.full).then_some(map.region),
             counts: counts(map),
             statistics: statistics(map, main),
-            probes: scene.scene().probes().iter().filter_map(reading).collect(),
+            probes: readings(scene),
+        }
+    }
+
+    /// The numbers of a map that was never in memory as a whole, of its first channel.
+    pub fn of_store(map: &MapStatistics, scene: &PreparedScene) -> Self {
+        let count = |pixels: u64| usize::try_from(pixels).unwrap_or(usize::MAX);
+        let main = map.channels.first();
+        Self {
+            main: main.map_or(Quantity::Brightness, |main| main.quantity.clone()),
+            region: None,
+            counts: Counts { pixels: count(map.pixels), visible: count(map.visible), lit: Some(count(map.lit)) },
+            statistics: main.and_then(|main| main.statistics),
+            probes: readings(scene),
         }
     }
 
@@ -110,6 +120,17 @@ impl Summary {
                 .collect(),
         }
     }
+}
+
+type Reading = (String, ProbeReading, Option<f64>);
+
+/// The scene's own probes.
+fn readings(scene: &PreparedScene) -> Vec<Reading> {
+    let reading = |probe: &isophote::scene::Probe| {
+        let reading = scene.probe(&Place::Point(probe.at)).ok()?;
+        Some((probe.name.clone(), reading, probe.published))
+    };
+    scene.scene().probes().iter().filter_map(reading).collect()
 }
 
 /// The same for programs; lengths in the scene's unit.

@@ -18,3 +18,5 @@ mod schema;
 mod section;
 mod starters;
 mod usage;
+mod zarr;
+mod zarr_failures;

@@ -14,7 +14,7 @@ fn refused(arguments: &str, words: &[&str]) {
 
 #[test]
 fn an_unknown_suffix_is_refused_with_the_known_ones() {
-    refused("render -o map.bmp", &["cannot tell the format of map.bmp; allowed: .png, .exr, .npy, .npz, .csv"]);
+    refused("render -o map.bmp", &["cannot tell the format of map.bmp; allowed: .png, .exr, .npy, .npz, .csv, .zarr"]);
     refused("render -o map", &["cannot tell the format of map"]);
     refused("render -o map.png -o -", &["cannot tell the format of -"]);
     refused("render --figure map.pdf", &["allowed for figures: .svg, .png"]);
@@ -22,10 +22,12 @@ fn an_unknown_suffix_is_refused_with_the_known_ones() {
 
 #[test]
 fn a_size_that_makes_no_image_is_refused_with_what_is_allowed() {
-    let allowed = "allowed: width and height from 1 to 65536, together at most 134217728 pixels";
+    let allowed = "allowed: width and height from 1 to 1000000";
     refused("render --size 0x0", &["--size", "the resolution is 0 × 0 pixels", allowed]);
-    refused("render --size 70000x1", &["the resolution is 70000 × 1 pixels", allowed]);
-    refused("render --size 60000x60000", &["the resolution is 60000 × 60000 pixels", allowed]);
+    refused("render --size 1000001x1", &["the resolution is 1000001 × 1 pixels", allowed]);
+    let allowed = "allowed: sides up to 65536, together at most 134217728 pixels; -o NAME.zarr takes larger ones";
+    refused("render --size 70000x1", &["a map of 70000×1 pixels is too large to be held in memory", allowed]);
+    refused("render --size 60000x60000", &["60000×60000", allowed]);
     for size in ["800", "800x", "-8x6", "8.5x6", "99999999999x1"] {
         refused(&format!("render --size={size}"), &["expected WIDTHxHEIGHT, such as 1920x1080"]);
     }

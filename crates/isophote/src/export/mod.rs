@@ -11,7 +11,7 @@ pub mod csv;
 pub mod exr;
 pub mod figure;
 pub mod metadata;
-mod names;
+pub mod names;
 pub mod npy;
 pub mod npz;
 pub mod png;

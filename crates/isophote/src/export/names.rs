@@ -9,7 +9,11 @@ const LONGEST_LIGHT_NAME: usize = 200;
 
 /// One name per channel: that of its quantity, in which every character of a light's name that is not `allowed` is an
 /// underscore, an empty one is `unnamed`, and those that would then be equal are numbered from 2.
-pub(super) fn unique(channels: &[Channel], allowed: fn(char) -> bool) -> Vec<String> {
+///
+/// # Panics
+/// Never: numbers do not run out.
+#[must_use]
+pub fn unique(channels: &[Channel], allowed: fn(char) -> bool) -> Vec<String> {
     let mut used = HashSet::new();
     let mut names = Vec::with_capacity(channels.len());
     for channel in channels {

@@ -33,7 +33,6 @@ impl Mask {
     }
 
     /// The mask of these shapes, one index a pixel, negative where none is seen.
-    #[cfg(test)]
     pub(crate) fn of_shapes(size: Resolution, shapes: &[i32]) -> Self {
         let width = size.width as usize;
         let mut runs: Vec<Run> = Vec::new();

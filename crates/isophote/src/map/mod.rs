@@ -26,6 +26,17 @@ impl Resolution {
     pub fn pixels(self) -> usize {
         self.width as usize * self.height as usize
     }
+
+    /// The longest side of a map in memory: what the formats of pictures and their readers take.
+    pub const LONGEST_IN_MEMORY: u32 = 65_536;
+    /// Pixels of a map in memory: a channel of this many doubles takes 1 GiB.
+    pub const MOST_IN_MEMORY: usize = 1 << 27;
+
+    /// Whether a map of this size may be held in memory as a whole; larger images are rendered region by region.
+    #[must_use]
+    pub fn fits_memory(self) -> bool {
+        self.width.max(self.height) <= Self::LONGEST_IN_MEMORY && self.pixels() <= Self::MOST_IN_MEMORY
+    }
 }
 
 /// One pixel: column 0 is the left one, row 0 the top one (2.1).
@@ -172,7 +183,50 @@ pub struct Map {
     pub(crate) channels: Vec<Channel>,
 }
 
+/// Why there is no map of these channels.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum MapError {
+    /// A channel with too few or too many values.
+    #[error("the channel ‘{name}’ has {values} values for {pixels} pixels")]
+    Length {
+        /// The channel.
+        name: String,
+        /// How many values it has.
+        values: usize,
+        /// How many it should have.
+        pixels: usize,
+    },
+    /// Nothing says what is seen where.
+    #[error("there is no channel ‘shape’ with an index for each pixel")]
+    NoShape,
+}
+
 impl Map {
+    /// A map of a whole image, from numbers that were not rendered as one.
+    ///
+    /// # Errors
+    /// Channels whose lengths are not the number of pixels; none that holds the shapes.
+    pub fn new(
+        full: Resolution,
+        window: Window,
+        provenance: Provenance,
+        channels: Vec<Channel>,
+    ) -> Result<Self, MapError> {
+        let pixels = full.pixels();
+        for channel in &channels {
+            let values = channel.values.len();
+            if values != pixels {
+                return Err(MapError::Length { name: channel.quantity.name(), values, pixels });
+            }
+        }
+        let shapes = channels.iter().find_map(|channel| match &channel.values {
+            Values::Index(shapes) if channel.quantity == Quantity::Shape => Some(shapes),
+            _ => None,
+        });
+        let mask = Mask::of_shapes(full, shapes.ok_or(MapError::NoShape)?);
+        Ok(Self { full, region: Region::all(full), window, provenance, mask, channels })
+    }
+
     /// All channels, in the order in which they were asked for.
     #[must_use]
     pub fn channels(&self) -> &[Channel] {

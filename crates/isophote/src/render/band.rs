@@ -28,6 +28,9 @@ pub fn empty_map(
     {
         return Err(RenderError::Region { region, full });
     }
+    if !region.size.fits_memory() {
+        return Err(RenderError::TooLarge { size: region.size });
+    }
     let mut channels: Vec<Channel> = Vec::new();
     for quantity in &settings.quantities {
         if channels.iter().all(|channel| channel.quantity != *quantity) {

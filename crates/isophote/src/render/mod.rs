@@ -68,6 +68,13 @@ pub enum RenderError {
         /// The image.
         full: Resolution,
     },
+    /// The region is too large for one map; smaller regions of the same image can be rendered one after another.
+    #[error("a map of {}×{} pixels is too large to be held in memory; allowed: sides up to {}, together at most {} pixels",
+        size.width, size.height, Resolution::LONGEST_IN_MEMORY, Resolution::MOST_IN_MEMORY)]
+    TooLarge {
+        /// What was asked for.
+        size: Resolution,
+    },
     /// A channel of a light that the scene does not have.
     #[error("the scene has no light named \"{name}\"")]
     NoSuchLight {

@@ -83,17 +83,12 @@ impl Validator {
     }
 
     pub(super) fn resolution(&mut self, path: &Path, [width, height]: [u64; 2]) -> Option<Resolution> {
-        let allowed =
-            format!("allowed: width and height from 1 to {}, together at most {} pixels", limits::SIDE, limits::PIXELS);
         let side = |side: u64| u32::try_from(side).ok().filter(|side| (1..=limits::SIDE).contains(side));
-        match (side(width), side(height)) {
-            (Some(width), Some(height)) if u64::from(width) * u64::from(height) <= limits::PIXELS => {
-                Some(Resolution { width, height })
-            }
-            _ => {
-                self.wrong(path, format!("the resolution is {width} × {height} pixels"), &allowed);
-                None
-            }
+        let resolution = side(width).zip(side(height)).map(|(width, height)| Resolution { width, height });
+        if resolution.is_none() {
+            let allowed = format!("allowed: width and height from 1 to {}", limits::SIDE);
+            self.wrong(path, format!("the resolution is {width} × {height} pixels"), &allowed);
         }
+        resolution
     }
 }

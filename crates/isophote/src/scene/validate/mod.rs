@@ -20,10 +20,8 @@ use crate::units::{LengthUnit, Quantities};
 pub mod limits {
     /// Size of a scene file in bytes.
     pub const FILE_BYTES: u64 = 64 << 20;
-    /// Pixels in a row, and rows.
-    pub const SIDE: u32 = 65_536;
-    /// Pixels of an image: a channel of this many doubles takes 1 GiB.
-    pub const PIXELS: u64 = 1 << 27;
+    /// Pixels in a row, and rows. A map in memory has its own limits, [`crate::map::Resolution::fits_memory`].
+    pub const SIDE: u32 = 1_000_000;
     /// Lights in a scene.
     pub const LIGHTS: usize = 100_000;
     /// Shapes in a scene.

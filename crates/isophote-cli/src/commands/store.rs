@@ -1,0 +1,172 @@
+//! Maps larger than memory: `isophote render -o NAME.zarr` and `isophote merge`.
+
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use anyhow::{Error, Result, anyhow};
+use isophote::map::Quantity;
+use isophote::prepare::PreparedScene;
+use isophote::render::{Lanes, RenderError};
+use isophote::scene::{Scene, Syntax};
+use isophote_zarr::{Check, MapStatistics, Opening, Outcome, Request, Store, StoreError, Workers};
+use serde_json::json;
+
+use super::render::{DEFAULT_ISOPHOTES, channels};
+use super::summary::Summary;
+use crate::args::{MergeArguments, RenderArguments};
+use crate::failure::{self, Paused, Usage};
+use crate::progress::{Progress, end_in_order};
+use crate::{load, numbers};
+
+/// The store that is to be rendered, if one is; refuses what does not go with it, or not without it.
+pub fn asked_for(arguments: &RenderArguments) -> Result<Option<&Path>, Usage> {
+    let Some(store) = arguments.output.iter().find(|path| load::is_store(path)) else {
+        let store = &arguments.store;
+        let given = [
+            ("--resume", store.resume),
+            ("--shard", store.shard.is_some()),
+            ("--memory", store.memory.is_some()),
+            ("--shard-side", store.shard_side.is_some()),
+        ];
+        return match given.into_iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(Usage(format!("{option} needs -o NAME.zarr"))),
+            None => Ok(None),
+        };
+    };
+    let refused = [
+        ("another -o", arguments.output.len() > 1),
+        ("--figure", !arguments.figure.is_empty()),
+        ("--region", arguments.region.is_some()),
+    ];
+    match refused.into_iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => Err(Usage(format!(
+            "-o {} does not go with {option}: the map is never in memory as a whole; render that by itself",
+            store.display()
+        ))),
+        None => Ok(Some(store)),
+    }
+}
+
+/// Renders a scene into a store.
+pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
+    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.size, arguments.quiet)?);
+    // From here on there may be a store, and Ctrl-C has to say how to go on with it.
+    end_in_order();
+    let available = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    let workers = Workers { threads: arguments.threads.unwrap_or(available), memory: arguments.store.memory };
+    let renderer = Lanes::new(arguments.precision, Some(NonZeroUsize::MIN));
+    let part = arguments.store.shard;
+    let is_continued = arguments.store.resume || part.is_some();
+    let request = Request {
+        quantities: wanted(arguments, scene.scene())?,
+        opening: if is_continued { Opening::Continue } else { Opening::New },
+        part,
+        shard_side: arguments.store.shard_side,
+    };
+    let store = Store::prepare(path, &scene, &renderer, &request).map_err(explained)?;
+    if !arguments.quiet {
+        for note in options_without_effect(arguments) {
+            failure::note(&note);
+        }
+    }
+    let progress = Progress::resumed(store.pixels(part), arguments.quiet);
+    let outcome = store.render(&scene, &renderer, workers, part, Some(&progress));
+    progress.finish();
+    match outcome.map_err(|error| resumable(error, &store, arguments))? {
+        Outcome::Complete(statistics) => {
+            if !arguments.quiet {
+                failure::note(&format!("wrote {}: {} shards", path.display(), store.plan().count()));
+            }
+            printed(&statistics, &scene, arguments.json)
+        }
+        Outcome::Part { done, left } => {
+            if !arguments.quiet {
+                let advice = if left == 0 { "; isophote merge finishes it" } else { "" };
+                failure::note(&format!("{}: {done} shards are done, {left} are left{advice}", path.display()));
+            }
+            let counts = json!({ "shards_done": done, "shards_left": left });
+            if arguments.json { numbers::json(&counts) } else { Ok(String::new()) }
+        }
+    }
+}
+
+/// Puts the parts of a store together.
+pub fn merge(arguments: &MergeArguments) -> Result<String> {
+    let store = Store::open(&arguments.store).map_err(explained)?;
+    let name = arguments.store.display().to_string();
+    let scene = PreparedScene::new(&Scene::from_text(&name, &store.metadata().scene, Syntax::Toml)?);
+    let check = if arguments.check { Check::Content } else { Check::Presence };
+    let statistics = store.merge(check).map_err(explained)?;
+    printed(&statistics, &scene, arguments.json)
+}
+
+fn printed(statistics: &MapStatistics, scene: &PreparedScene, as_json: bool) -> Result<String> {
+    let summary = Summary::of_store(statistics, scene);
+    if as_json { numbers::json(&summary.to_json(scene)) } else { Ok(summary.to_text(scene)) }
+}
+
+/// The channels of the store: the brightness, unless others are named.
+fn wanted(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Quantity>> {
+    let mut named = channels(&arguments.channel, scene)?;
+    if named.is_empty() {
+        named.push(Quantity::Brightness);
+    }
+    if arguments.lights {
+        named.extend(scene.lights().iter().map(|light| Quantity::Light(light.name.clone())));
+    }
+    let mut wanted = Vec::with_capacity(named.len());
+    for quantity in named {
+        if !wanted.contains(&quantity) {
+            wanted.push(quantity);
+        }
+    }
+    Ok(wanted)
+}
+
+fn options_without_effect(arguments: &RenderArguments) -> Vec<String> {
+    let options = [
+        ("--range", arguments.range.is_some()),
+        ("--colormap", arguments.colormap.is_some()),
+        ("--gamma", arguments.gamma != 1.0),
+        ("--bits", arguments.bits == "16"),
+        ("--isophotes", arguments.isophotes != DEFAULT_ISOPHOTES),
+        ("--visible-only", arguments.visible_only),
+    ];
+    let given = options.into_iter().filter(|(_, is_given)| *is_given);
+    given.map(|(option, _)| format!("{option} has no effect: it is not for .zarr stores")).collect()
+}
+
+/// What the user can do about it.
+fn explained(error: StoreError) -> Error {
+    match &error {
+        StoreError::Exists { done, shards, .. } if done == shards => {
+            let advice = "isophote merge prints its results; to begin anew, remove it or choose another name";
+            Usage(format!("{error}; {advice}")).into()
+        }
+        StoreError::Exists { .. } => {
+            let advice = "--resume goes on with it; to begin anew, remove it or choose another name";
+            Usage(format!("{error}; {advice}")).into()
+        }
+        StoreError::Changed { .. } => {
+            Usage(format!("{error}; go on with the same scene and options, or choose another name")).into()
+        }
+        StoreError::Incomplete { .. } => {
+            anyhow!("{error}; isophote render with --resume computes what is missing or damaged")
+        }
+        StoreError::Memory { .. } => Usage(format!("--memory: {error}")).into(),
+        _ => error.into(),
+    }
+}
+
+/// The same for a computation that has begun: what is done stays.
+fn resumable(error: StoreError, store: &Store, arguments: &RenderArguments) -> Error {
+    let (done, shards) = (store.done(), store.plan().count());
+    let way = if arguments.store.shard.is_some() { "the same command goes on" } else { "--resume goes on" };
+    match error {
+        StoreError::Render(RenderError::Interrupted) => {
+            Paused(format!("{done} of {shards} shards are done and stay: {way} from there")).into()
+        }
+        StoreError::Write { .. } => anyhow!("{error}; {done} of {shards} shards are done and stay usable: {way}"),
+        error => explained(error),
+    }
+}

@@ -1,0 +1,117 @@
+//! What a store says of its map and of each array, before anything is computed.
+
+use std::path::Path;
+
+use isophote::camera::ScreenPosition;
+use isophote::export::{FileMetadata, names};
+use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Window};
+use isophote::prepare::PreparedScene;
+use isophote::render::{RenderSettings, Renderer};
+use isophote::units::Choice;
+use serde_json::Value;
+
+use crate::array::{ChannelArray, Element, coordinate};
+use crate::error::StoreError;
+use crate::identity::{Identity, ZARR_JSON};
+use crate::plan::Plan;
+
+/// One pixel of the map tells what the renderer will give.
+pub fn sample(scene: &PreparedScene, renderer: &dyn Renderer, quantities: &[Quantity]) -> Result<Map, StoreError> {
+    let size = Resolution { width: 1, height: 1 };
+    let region = Region { corner: Pixel { column: 0, row: 0 }, size };
+    let settings = RenderSettings { region: Some(region), quantities: rendered(quantities), observer: None };
+    Ok(renderer.render(scene, &settings)?)
+}
+
+/// The channels that are computed: those wanted, and the irradiance, which tells what is lit.
+pub fn rendered(quantities: &[Quantity]) -> Vec<Quantity> {
+    quantities.iter().cloned().chain([Quantity::Irradiance]).collect()
+}
+
+/// Bytes that a pixel of a shard takes while the shard is made: all channels of the map, and of the largest one the
+/// copy at the edge of the image, the encoded chunks and the encoded shard.
+pub fn need_per_pixel(sample: &Map) -> u64 {
+    let sizes = || sample.channels().iter().map(|channel| Element::of(&channel.values).size() as u64);
+    sizes().sum::<u64>() + 3 * sizes().max().unwrap_or(0)
+}
+
+/// How many bytes a pixel of a shard takes while it is made.
+pub fn need(scene: &PreparedScene, renderer: &dyn Renderer, quantities: &[Quantity]) -> Result<u64, StoreError> {
+    Ok(need_per_pixel(&sample(scene, renderer, quantities)?))
+}
+
+/// The description of the whole map, from that of one pixel of it.
+pub fn metadata(sample: &Map, scene: &PreparedScene, quantities: &[Quantity]) -> FileMetadata {
+    let is_allowed = |character: char| character.is_alphanumeric() || "-_.".contains(character);
+    let camera = scene.scene().camera();
+    let length = scene.scene().length();
+    let edges = |edges: [f64; 2]| edges.map(|edge| length.from_metres(edge));
+    let mut metadata = FileMetadata::of(sample);
+    for (channel, name) in metadata.channels.iter_mut().zip(names::unique(sample.channels(), is_allowed)) {
+        channel.stored_as = vec![name];
+    }
+    metadata.channels.retain(|channel| quantities.iter().any(|quantity| quantity.name() == channel.name));
+    metadata.region = Region::all(camera.resolution);
+    metadata.window = Window { x: edges(camera.screen.x), y: edges(camera.screen.y), length };
+    metadata
+}
+
+/// The arrays of the channels, by their names in the store.
+pub fn sample_arrays(
+    sample: &Map,
+    metadata: &FileMetadata,
+    plan: Plan,
+) -> Result<Vec<(String, ChannelArray)>, StoreError> {
+    let mut arrays = Vec::new();
+    for description in &metadata.channels {
+        let channel = sample.channels().iter().find(|channel| channel.quantity.name() == description.name);
+        let (Some(channel), Some(name)) = (channel, description.stored_as.first()) else { continue };
+        let element = Element::of(&channel.values);
+        let array = ChannelArray::new(channel.quantity.clone(), name, &channel.unit, element, plan)?;
+        arrays.push((name.clone(), array));
+    }
+    Ok(arrays)
+}
+
+/// The arrays of a store by its own description.
+pub fn stored_arrays(identity: &Identity, path: &Path) -> Result<Vec<ChannelArray>, StoreError> {
+    let damaged = |name: &str| StoreError::Damaged {
+        path: path.join(ZARR_JSON),
+        reason: format!("its channel ‘{name}’ is not described as this program does it"),
+    };
+    let mut arrays = Vec::new();
+    for channel in &identity.metadata.channels {
+        let name = channel.stored_as.first().ok_or_else(|| damaged(&channel.name))?;
+        let described = identity.arrays.get(name).ok_or_else(|| damaged(name))?;
+        let element = Element::from_metadata(described).ok_or_else(|| damaged(name))?;
+        let quantity = Quantity::from_name(&channel.name).ok_or_else(|| damaged(name))?;
+        let array = ChannelArray::new(quantity, name, &channel.unit, element, identity.plan)?;
+        if array.metadata()? != *described {
+            return Err(damaged(name));
+        }
+        arrays.push(array);
+    }
+    Ok(arrays)
+}
+
+/// The name of a coordinate's array, its description, and its only chunk.
+pub type Coordinate = (&'static str, Value, Vec<u8>);
+
+/// The centres of columns and rows on the screen, in the scene's length unit.
+pub fn coordinates(scene: &PreparedScene, window: &Window) -> Result<[Coordinate; 2], StoreError> {
+    let Resolution { width, height } = scene.scene().camera().resolution;
+    let centre = |pixel| {
+        let point = scene.frame().point_on_screen(ScreenPosition::PixelCenter(pixel));
+        point.map(|metres| window.length.from_metres(metres))
+    };
+    let x: Vec<f64> = (0..width).map(|column| centre(Pixel { column, row: 0 })[0]).collect();
+    let y: Vec<f64> = (0..height).map(|row| centre(Pixel { column: 0, row })[1]).collect();
+    let unit = window.length.name();
+    let array = |name: &'static str, centres: &[f64]| -> Result<Coordinate, StoreError> {
+        let encoded = coordinate(name, unit, centres);
+        let (metadata, bytes) =
+            encoded.map_err(|reason| StoreError::Encode { quantity: Quantity::Position, reason })?;
+        Ok((name, metadata, bytes))
+    };
+    Ok([array("x", &x)?, array("y", &y)?])
+}

@@ -1,0 +1,179 @@
+//! What a store says about itself, and whether it is the one that is asked for.
+
+use std::fmt;
+use std::io;
+use std::path::Path;
+
+use isophote::export::FileMetadata;
+use serde::Deserialize;
+use serde_json::{Map as JsonMap, Value, json};
+
+use crate::error::StoreError;
+use crate::plan::Plan;
+
+/// The file that describes a group or an array.
+pub const ZARR_JSON: &str = "zarr.json";
+
+/// The description of a store without its results: what has to be the same for a computation to be continued.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Identity {
+    /// The map, as in every output file.
+    pub metadata: FileMetadata,
+    /// How it is cut.
+    pub plan: Plan,
+    /// The description of each array by its name.
+    pub arrays: JsonMap<String, Value>,
+}
+
+/// Something that is different from what was asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Change {
+    /// What: `the size`, `the scene`, …
+    pub what: &'static str,
+    /// As it is in the store.
+    pub stored: String,
+    /// As it was asked for.
+    pub asked: String,
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{} is {} there and {} here", self.what, self.stored, self.asked)
+    }
+}
+
+/// The description that a store carries, as every output file does.
+///
+/// # Errors
+/// No store of Isophote, or one that cannot be read.
+pub fn read_metadata(path: &Path) -> Result<FileMetadata, StoreError> {
+    let file = path.join(ZARR_JSON);
+    let text = match std::fs::read(&file) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            return Err(StoreError::Foreign { path: path.into(), what: "no Zarr store of Isophote".into() });
+        }
+        text => text.map_err(|reason| StoreError::Read { path: file, reason })?,
+    };
+    Identity::from_json(&text, path).map(|identity| identity.metadata)
+}
+
+impl Identity {
+    /// The group's `zarr.json`, with the description of all arrays for readers of consolidated metadata, and with the
+    /// results once they are known.
+    pub fn to_json(&self, statistics: Option<Value>) -> Vec<u8> {
+        let FileMetadata { title, convention, program, renderer, .. } = &self.metadata;
+        let mut attributes = json!({
+            "title": title,
+            "convention": convention,
+            "program": program,
+            "renderer": renderer,
+            "isophote": self.metadata,
+            "isophote_plan": self.plan,
+        });
+        if let Some(statistics) = statistics {
+            attributes["statistics"] = statistics;
+        }
+        let group = json!({
+            "zarr_format": 3,
+            "node_type": "group",
+            "attributes": attributes,
+            "consolidated_metadata": { "kind": "inline", "must_understand": false, "metadata": self.arrays },
+        });
+        pretty(&group)
+    }
+
+    /// What a group's `zarr.json` in the store at `path` says.
+    pub fn from_json(text: &[u8], path: &Path) -> Result<Self, StoreError> {
+        #[derive(Deserialize)]
+        struct Version {
+            isophote: u32,
+        }
+        let damaged = |reason: String| StoreError::Damaged { path: path.join(ZARR_JSON), reason };
+        let mut json: Value = serde_json::from_slice(text).map_err(|error| damaged(error.to_string()))?;
+        let attributes = &mut json["attributes"];
+        let [metadata, plan] = ["isophote", "isophote_plan"].map(|key| attributes[key].take());
+        match Version::deserialize(&metadata) {
+            Err(_) => {
+                return Err(StoreError::Foreign { path: path.into(), what: "no Zarr store of Isophote".into() });
+            }
+            Ok(Version { isophote: version }) if version > FileMetadata::VERSION => {
+                return Err(StoreError::Newer { path: path.into(), version });
+            }
+            Ok(_) => {}
+        }
+        let metadata: FileMetadata = serde_json::from_value(metadata).map_err(|error| damaged(error.to_string()))?;
+        let plan: Plan = serde_json::from_value(plan).map_err(|error| damaged(error.to_string()))?;
+        if !plan.is_sound() || plan.full != metadata.full {
+            return Err(damaged("its plan does not fit its image".into()));
+        }
+        let arrays = crate::array::object(json["consolidated_metadata"]["metadata"].take());
+        Ok(Self { metadata, plan, arrays })
+    }
+
+    /// In what the one asked for differs from this one.
+    pub fn changes(&self, asked: &Self) -> Vec<Change> {
+        let (here, there) = (&asked.metadata, &self.metadata);
+        let mut changes = Vec::new();
+        let mut compare = |what, stored: String, asked: String| {
+            if stored != asked {
+                changes.push(Change { what, stored, asked });
+            }
+        };
+        compare("the program", there.program.clone(), here.program.clone());
+        compare("the renderer", there.renderer.clone(), here.renderer.clone());
+        compare("the size", size(there), size(here));
+        compare("the list of channels", channels(there), channels(here));
+        compare("the side of a shard", self.plan.shard_side.to_string(), asked.plan.shard_side.to_string());
+        if changes.is_empty() {
+            changes.extend(changed_line(&there.scene, &here.scene));
+        }
+        if changes.is_empty() && self != asked {
+            let [stored, asked] =
+                [self, asked].map(|identity| format!("{:08x}", crc32c::crc32c(&identity.to_json(None))));
+            changes.push(Change { what: "the checksum of the description", stored, asked });
+        }
+        changes
+    }
+}
+
+/// JSON as people read it, with a line's end.
+pub fn pretty(value: &Value) -> Vec<u8> {
+    format!("{value:#}\n").into_bytes()
+}
+
+fn size(metadata: &FileMetadata) -> String {
+    format!("{}×{}", metadata.full.width, metadata.full.height)
+}
+
+fn channels(metadata: &FileMetadata) -> String {
+    metadata.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>().join(", ")
+}
+
+/// The first line that differs: the scene as a whole would bury it.
+fn changed_line(stored: &str, asked: &str) -> Option<Change> {
+    let quoted = |line: Option<&str>| line.map_or("absent".into(), |line| format!("‘{line}’"));
+    let (mut stored, mut asked) = (stored.lines(), asked.lines());
+    loop {
+        match (stored.next(), asked.next()) {
+            (None, None) => return None,
+            (there, here) if there == here => {}
+            (there, here) => {
+                return Some(Change { what: "a line of the scene", stored: quoted(there), asked: quoted(here) });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_line_that_changed_is_named() {
+        let change = changed_line("a = 1\nb = 2\n", "a = 1\nb = 3\nc = 4\n").unwrap();
+        assert_eq!(change.to_string(), "a line of the scene is ‘b = 2’ there and ‘b = 3’ here");
+        let change = changed_line("a = 1\n", "a = 1\nb = 3\n").unwrap();
+        assert_eq!(change.to_string(), "a line of the scene is absent there and ‘b = 3’ here");
+        assert_eq!(changed_line("a", "a"), None);
+    }
+}

@@ -1,0 +1,26 @@
+//! Brightness maps larger than memory, as sharded [Zarr v3](https://zarr-specs.readthedocs.io) stores.
+//!
+//! An image is cut into [shards](Plan), each is rendered by itself and written whole, and a small record beside it says
+//! that it is done and what is in it. So a computation can be [stopped at any moment and resumed](Store::render),
+//! [shared out](Part) among processes and computers, and [put together and checked](Store::merge) in the end, and the
+//! bytes are always those of one uninterrupted run.
+
+mod array;
+mod content;
+mod describe;
+mod error;
+mod files;
+mod identity;
+mod plan;
+mod preview;
+mod record;
+mod render;
+mod statistics;
+mod store;
+
+pub use error::{Damage, StoreError};
+pub use identity::{Change, read_metadata};
+pub use plan::{Part, Plan, Shard};
+pub use render::{Outcome, Workers};
+pub use statistics::{ChannelStatistics, MapStatistics};
+pub use store::{Check, Opening, Request, Store};

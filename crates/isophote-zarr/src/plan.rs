@@ -1,0 +1,174 @@
+//! How an image is cut into shards.
+
+use std::fmt;
+use std::num::NonZeroU32;
+
+use isophote::map::{Pixel, Region, Resolution};
+use serde::{Deserialize, Serialize};
+
+/// Side of the inner chunks: what a reader decodes to get at one pixel, 2 MiB of doubles.
+const LARGEST_INNER: u32 = 512;
+/// Shards are no larger, whatever fits.
+const LARGEST_SIDE: u32 = 2048;
+/// What a shard may need while it is made, in bytes: two fit into 512 MiB beside the program.
+const LARGEST_NEED: u64 = 192 << 20;
+
+/// How an image is cut. It depends on the image and its channels alone, so that a computation can be continued with
+/// other threads, in other memory, on another computer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Plan {
+    /// The image.
+    pub full: Resolution,
+    /// Side of a shard in pixels, a multiple of the inner side.
+    pub shard_side: NonZeroU32,
+    /// Side of an inner chunk in pixels.
+    pub inner_side: NonZeroU32,
+}
+
+/// A shard by its place in the grid of shards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Shard {
+    /// From the top, from 0.
+    pub row: u32,
+    /// From the left, from 0.
+    pub column: u32,
+}
+
+/// Every `of`-th shard of a plan, for jobs that share one store.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Which part, from 1 to `of`.
+    number: u32,
+    /// How many parts there are.
+    of: u32,
+}
+
+impl Plan {
+    /// The plan for an image whose shards need so many bytes a pixel while they are made.
+    #[must_use]
+    pub fn new(full: Resolution, need_per_pixel: u64) -> Self {
+        let need = |side: u32| u64::from(side) * u64::from(side) * need_per_pixel;
+        let mut side = LARGEST_SIDE;
+        while side > LARGEST_INNER && need(side) > LARGEST_NEED {
+            side /= 2;
+        }
+        Self::with_sides(full, side, LARGEST_INNER.min(side))
+    }
+
+    /// A plan with shards of another size, in inner chunks of a quarter of its side, if that is a whole number.
+    #[must_use]
+    pub fn with_shard_side(full: Resolution, side: NonZeroU32) -> Self {
+        let side = side.get();
+        Self::with_sides(full, side, if side.is_multiple_of(4) { side / 4 } else { side })
+    }
+
+    fn with_sides(full: Resolution, shard: u32, inner: u32) -> Self {
+        let side = |side| NonZeroU32::new(side).unwrap_or(NonZeroU32::MIN);
+        Self { full, shard_side: side(shard), inner_side: side(inner) }
+    }
+
+    /// Whether it cuts the image into whole shards of whole chunks; a damaged description may not.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.full.width > 0 && self.full.height > 0 && self.shard_side.get().is_multiple_of(self.inner_side.get())
+    }
+
+    /// Rows and columns of shards.
+    fn grid(&self) -> [u32; 2] {
+        let side = self.shard_side.get();
+        [self.full.height.div_ceil(side), self.full.width.div_ceil(side)]
+    }
+
+    /// How many shards there are.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        let [rows, columns] = self.grid();
+        u64::from(rows) * u64::from(columns)
+    }
+
+    /// The shards in the order of the plan: row by row from the top.
+    pub fn shards(&self) -> impl Iterator<Item = Shard> + use<> {
+        let [rows, columns] = self.grid();
+        (0..rows).flat_map(move |row| (0..columns).map(move |column| Shard { row, column }))
+    }
+
+    /// The pixels of a shard that are in the image: shards at the right and lower edge hang over.
+    #[must_use]
+    pub fn region(&self, shard: Shard) -> Region {
+        let side = self.shard_side.get();
+        let (column, row) = (shard.column * side, shard.row * side);
+        let size = Resolution { width: side.min(self.full.width - column), height: side.min(self.full.height - row) };
+        Region { corner: Pixel { column, row }, size }
+    }
+
+    /// Pixels of a whole shard.
+    pub(crate) fn shard_pixels(&self) -> u64 {
+        u64::from(self.shard_side.get()) * u64::from(self.shard_side.get())
+    }
+}
+
+impl Part {
+    /// Part `number` of `of`, counted from 1; nothing if there is no such part.
+    #[must_use]
+    pub fn new(number: u32, of: u32) -> Option<Self> {
+        (1..=of).contains(&number).then_some(Self { number, of })
+    }
+
+    /// Whether the shard with this index in the plan belongs to the part.
+    pub(crate) fn has(self, index: u64) -> bool {
+        index % u64::from(self.of) == u64::from(self.number - 1)
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}/{}", self.row, self.column)
+    }
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}/{}", self.number, self.of)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(width: u32, height: u32, side: u32) -> Plan {
+        Plan::with_shard_side(Resolution { width, height }, NonZeroU32::new(side).unwrap())
+    }
+
+    #[test]
+    fn the_shards_cover_every_pixel_once() {
+        let plan = plan(101, 37, 16);
+        let mut seen = vec![0; 101 * 37];
+        for shard in plan.shards() {
+            let Region { corner, size } = plan.region(shard);
+            for row in corner.row..corner.row + size.height {
+                for column in corner.column..corner.column + size.width {
+                    seen[(row * 101 + column) as usize] += 1;
+                }
+            }
+        }
+        assert!(seen.iter().all(|&count| count == 1));
+        assert_eq!(plan.count(), plan.shards().count() as u64);
+    }
+
+    #[test]
+    fn the_parts_share_the_plan_out() {
+        for of in [1, 2, 3, 16] {
+            let parts: Vec<Part> = (1..=of).map(|number| Part::new(number, of).unwrap()).collect();
+            assert!((0..40).all(|index| parts.iter().filter(|part| part.has(index)).count() == 1), "{of}");
+        }
+        assert_eq!((Part::new(0, 3), Part::new(4, 3), Part::new(0, 0)), (None, None, None));
+    }
+
+    #[test]
+    fn shards_are_smaller_where_a_pixel_holds_more() {
+        let full = Resolution { width: 100_000, height: 75_000 };
+        let sides = [44, 150, 800, 100_000].map(|need| Plan::new(full, need).shard_side.get());
+        assert_eq!(sides, [2048, 1024, 512, 512]);
+        assert_eq!(Plan::new(full, 44).count(), 49 * 37);
+    }
+}

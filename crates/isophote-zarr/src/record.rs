@@ -1,0 +1,116 @@
+//! What is known of a shard that is done: its files, and its share of the results.
+
+use isophote::map::Map;
+use serde::{Deserialize, Serialize};
+
+use crate::array::ChannelArray;
+use crate::content::spans;
+use crate::error::{Damage, StoreError};
+use crate::files::Files;
+use crate::plan::{Plan, Shard};
+use crate::preview::Boxes;
+use crate::statistics::ShardStatistics;
+
+/// The record of a shard. It is written after the shard's files: where it is, they are.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// One for each channel; none where all of the shard is the fill value and there is no file.
+    files: Vec<Option<StoredFile>>,
+    pub statistics: ShardStatistics,
+    /// The shard's part of the preview.
+    pub preview: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct StoredFile {
+    bytes: u64,
+    crc32c: u32,
+}
+
+impl Record {
+    /// The name of its file in the store.
+    pub fn key(shard: Shard) -> String {
+        format!(".isophote/shards/{shard}.json")
+    }
+
+    /// Writes a shard that was rendered, and then its record. Asks before each channel whether to go on.
+    pub fn make(
+        files: &Files,
+        arrays: &[ChannelArray],
+        plan: Plan,
+        shard: Shard,
+        map: &Map,
+        go_on: &dyn Fn() -> Result<(), StoreError>,
+    ) -> Result<(), StoreError> {
+        let spans = spans(map);
+        let mut stored = Vec::with_capacity(arrays.len());
+        for array in arrays {
+            go_on()?;
+            let channel = map.channel(&array.quantity).filter(|_| !spans.is_empty());
+            let bytes = channel.map(|channel| array.encode(channel, map.region)).transpose()?.flatten();
+            match &bytes {
+                Some(bytes) => files.put(&array.key(shard), bytes)?,
+                None => files.remove(&array.key(shard))?,
+            }
+            stored.push(bytes.map(|bytes| StoredFile { bytes: bytes.len() as u64, crc32c: crc32c::crc32c(&bytes) }));
+        }
+        let quantities: Vec<_> = arrays.iter().map(|array| array.quantity.clone()).collect();
+        let preview = quantities.first().map(|main| Boxes::new(plan.full).part(map, &spans, main));
+        let record = Self {
+            files: stored,
+            statistics: ShardStatistics::of(map, &quantities),
+            preview: preview.unwrap_or_default(),
+        };
+        let path = files.path(&Self::key(shard));
+        let json = serde_json::to_vec(&record).map_err(|error| StoreError::Write { path, reason: error.into() })?;
+        files.put(&Self::key(shard), &json)
+    }
+
+    /// The record of a shard whose files are there, with the lengths that they should have.
+    pub fn read(files: &Files, arrays: &[ChannelArray], shard: Shard) -> Result<Result<Self, Damage>, StoreError> {
+        let damage = |place, reason: &str| Ok(Err(Damage { place, reason: reason.into() }));
+        let key = Self::key(shard);
+        let Some(json) = files.get(&key)? else { return damage(format!("shard {shard}"), "is not computed") };
+        let Ok(record) = serde_json::from_slice::<Self>(&json) else { return damage(key, "is damaged") };
+        if record.files.len() != arrays.len() {
+            return damage(key, "is of another map");
+        }
+        for (array, stored) in arrays.iter().zip(&record.files) {
+            let key = array.key(shard);
+            match (files.length(&key), stored.map(|stored| stored.bytes)) {
+                (found, expected) if found == expected => {}
+                (None, _) => return damage(key, "is missing"),
+                (Some(_), None) => return damage(key, "should not be there: nothing is seen in it"),
+                (Some(found), Some(expected)) => {
+                    return damage(key, &format!("has {found} bytes in place of {expected}"));
+                }
+            }
+        }
+        Ok(Ok(record))
+    }
+
+    /// What is wrong with the content of the shard's files.
+    pub fn check(&self, files: &Files, arrays: &[ChannelArray], shard: Shard) -> Result<Option<Damage>, StoreError> {
+        for (array, stored) in arrays.iter().zip(&self.files) {
+            let Some(stored) = stored else { continue };
+            let file = array.key(shard);
+            let bytes = files.get(&file)?.unwrap_or_default();
+            let found = crc32c::crc32c(&bytes);
+            let expected = stored.crc32c;
+            let reason = if found == expected {
+                array.check(&bytes).err().map(|reason| format!("cannot be decoded: {reason}"))
+            } else {
+                Some(format!("has the checksum {found:08x} in place of {expected:08x}"))
+            };
+            if let Some(reason) = reason {
+                return Ok(Some(Damage { place: file, reason }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Forgets that a shard was done, so that it is computed again.
+    pub fn forget(files: &Files, shard: Shard) -> Result<(), StoreError> {
+        files.remove(&Self::key(shard))
+    }
+}

@@ -1,0 +1,163 @@
+//! The computation: each worker renders a shard, writes it, and takes the next.
+
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use isophote::prepare::PreparedScene;
+use isophote::render::{Observer, RenderError, RenderSettings, Renderer};
+
+use crate::describe::{need, rendered};
+use crate::error::StoreError;
+use crate::plan::{Part, Shard};
+use crate::record::Record;
+use crate::statistics::MapStatistics;
+use crate::store::{Check, Store};
+
+/// What the program takes beside the shards in flight.
+const BASE: u64 = 48 << 20;
+const MIB: u64 = 1 << 20;
+
+/// Who works.
+#[derive(Clone, Copy, Debug)]
+pub struct Workers {
+    /// At most so many shards at a time, each on its own thread.
+    pub threads: NonZeroUsize,
+    /// And at most so many as fit into this memory together with the program, in bytes.
+    pub memory: Option<u64>,
+}
+
+/// How far the store has got.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It is complete.
+    Complete(MapStatistics),
+    /// The part that was asked for is done.
+    Part {
+        /// Shards of the whole store that are done.
+        done: u64,
+        /// Shards that are left.
+        left: u64,
+    },
+}
+
+impl Store {
+    /// Pixels of the part: those that are done, and all.
+    #[must_use]
+    pub fn pixels(&self, part: Option<Part>) -> [u64; 2] {
+        let mut pixels = [0, 0];
+        for ((shard, &is_done), index) in self.plan().shards().zip(&self.was_done).zip(0..) {
+            if part.is_none_or(|part| part.has(index)) {
+                let count = self.plan().region(shard).size.pixels() as u64;
+                pixels[0] += if is_done { count } else { 0 };
+                pixels[1] += count;
+            }
+        }
+        pixels
+    }
+
+    /// Computes what is not done yet, and puts the results together unless only a part was asked for. The renderer
+    /// works in each thread by itself: it should use no threads of its own.
+    ///
+    /// # Errors
+    /// A file that cannot be written, too little memory, an interruption. Shards that are done stay.
+    pub fn render(
+        &self,
+        scene: &PreparedScene,
+        renderer: &(dyn Renderer + Sync),
+        workers: Workers,
+        part: Option<Part>,
+        observer: Option<&dyn Observer>,
+    ) -> Result<Outcome, StoreError> {
+        let shards = self.plan().shards().zip(&self.was_done).zip(0..);
+        let is_due = |index, is_done: bool| !is_done && part.is_none_or(|part| part.has(index));
+        let due: Vec<Shard> =
+            shards.filter(|((_, is_done), index)| is_due(*index, **is_done)).map(|((shard, _), _)| shard).collect();
+        let count = self.workers(workers, need(scene, renderer, &self.quantities())?)?.min(due.len());
+        let work = Work {
+            store: self,
+            scene,
+            renderer,
+            observer,
+            due: &due,
+            next: AtomicUsize::new(0),
+            is_stopped: AtomicBool::new(false),
+            error: Mutex::new(None),
+        };
+        std::thread::scope(|scope| {
+            for _ in 0..count {
+                scope.spawn(|| work.run());
+            }
+        });
+        if let Some(error) = work.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            return Err(error);
+        }
+        if part.is_none() {
+            return self.merge(Check::Presence).map(Outcome::Complete);
+        }
+        let mut done = 0;
+        for shard in self.plan().shards() {
+            done += u64::from(Record::read(&self.files, &self.arrays, shard)?.is_ok());
+        }
+        Ok(Outcome::Part { done, left: self.plan().count() - done })
+    }
+
+    /// How many shards may be in flight.
+    fn workers(&self, workers: Workers, need_per_pixel: u64) -> Result<usize, StoreError> {
+        let Some(limit) = workers.memory else { return Ok(workers.threads.get()) };
+        let shard = need_per_pixel * self.plan().shard_pixels();
+        let count = limit.saturating_sub(BASE) / shard;
+        if count == 0 {
+            return Err(StoreError::Memory { limit: limit / MIB, needed: (BASE + shard).div_ceil(MIB) });
+        }
+        Ok(workers.threads.get().min(usize::try_from(count).unwrap_or(usize::MAX)))
+    }
+}
+
+/// What the workers share.
+struct Work<'w> {
+    store: &'w Store,
+    scene: &'w PreparedScene,
+    renderer: &'w (dyn Renderer + Sync),
+    observer: Option<&'w dyn Observer>,
+    due: &'w [Shard],
+    next: AtomicUsize,
+    is_stopped: AtomicBool,
+    error: Mutex<Option<StoreError>>,
+}
+
+impl Work<'_> {
+    fn run(&self) {
+        while let Some(&shard) = self.due.get(self.next.fetch_add(1, Ordering::Relaxed)) {
+            if let Err(error) = self.shard(shard) {
+                self.is_stopped.store(true, Ordering::Relaxed);
+                // What comes after the first error is its consequence.
+                self.error.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                return;
+            }
+        }
+    }
+
+    fn shard(&self, shard: Shard) -> Result<(), StoreError> {
+        let Store { files, arrays, .. } = self.store;
+        let region = Some(self.store.plan().region(shard));
+        let settings = RenderSettings { region, quantities: rendered(&self.store.quantities()), observer: Some(self) };
+        let map = self.renderer.render(self.scene, &settings)?;
+        Record::make(files, arrays, self.store.plan(), shard, &map, &|| match self.advance(0) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(RenderError::Interrupted.into()),
+        })?;
+        self.store.count_one();
+        Ok(())
+    }
+}
+
+impl Observer for Work<'_> {
+    fn advance(&self, pixels: u64) -> ControlFlow<()> {
+        if self.is_stopped.load(Ordering::Relaxed) {
+            return ControlFlow::Break(());
+        }
+        self.observer.map_or(ControlFlow::Continue(()), |observer| observer.advance(pixels))
+    }
+}

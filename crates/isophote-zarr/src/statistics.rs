@@ -1,0 +1,138 @@
+//! Statistics of a map that is never in memory as a whole: by shard, then together.
+
+use isophote::analysis::statistics::{Extreme, Statistics};
+use isophote::map::{Map, Pixel, Quantity, Scalars};
+use isophote::real::Sum;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+
+/// The statistics of one shard.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ShardStatistics {
+    visible: u64,
+    lit: u64,
+    /// One for each channel; none where nothing is seen or where the channel is not one quantity a pixel.
+    channels: Vec<Option<ShardChannel>>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct ShardChannel {
+    max: Place,
+    min: Place,
+    sum: f64,
+}
+
+/// A value and its pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Place {
+    value: f64,
+    row: u32,
+    column: u32,
+}
+
+/// What a whole map holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapStatistics {
+    /// Pixels of the image.
+    pub pixels: u64,
+    /// Pixels that see a surface.
+    pub visible: u64,
+    /// Visible pixels to which any light comes.
+    pub lit: u64,
+    /// Every channel of the store.
+    pub channels: Vec<ChannelStatistics>,
+}
+
+/// The statistics of a channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelStatistics {
+    /// The channel.
+    pub quantity: Quantity,
+    /// None where no surface is seen or where the channel is not one quantity a pixel.
+    pub statistics: Option<Statistics>,
+}
+
+impl ShardStatistics {
+    /// The statistics of these channels, and of the irradiance, which tells what is lit.
+    pub fn of(map: &Map, quantities: &[Quantity]) -> Self {
+        let irradiance = map.scalar(&Quantity::Irradiance);
+        let is_lit = |index: &usize| irradiance.is_some_and(|irradiance| irradiance.at(*index) > 0.0);
+        let lit = map.mask().indices().filter(is_lit).count() as u64;
+        let channel = |quantity: &Quantity| ShardChannel::of(map, map.scalar(quantity)?);
+        Self { visible: map.mask().visible() as u64, lit, channels: quantities.iter().map(channel).collect() }
+    }
+}
+
+impl ShardChannel {
+    fn of(map: &Map, values: Scalars<'_>) -> Option<Self> {
+        let first = map.mask().indices().next()?;
+        let (mut max, mut min) = ((first, values.at(first)), (first, values.at(first)));
+        let mut sum = Sum::new();
+        for index in map.mask().indices() {
+            let value = values.at(index);
+            if value > max.1 {
+                max = (index, value);
+            }
+            if value < min.1 {
+                min = (index, value);
+            }
+            sum.add(value);
+        }
+        let place = |(index, value)| {
+            let Pixel { column, row } = map.pixel(index);
+            Place { value, row, column }
+        };
+        Some(Self { max: place(max), min: place(min), sum: sum.value() })
+    }
+}
+
+impl MapStatistics {
+    /// The statistics of a map from those of its shards, which come in the order of the plan, whenever each was made.
+    pub(crate) fn new(pixels: u64, quantities: &[Quantity], shards: &[ShardStatistics]) -> Self {
+        let visible = shards.iter().map(|shard| shard.visible).sum();
+        let channels = quantities.iter().enumerate().map(|(index, quantity)| {
+            let parts = shards.iter().filter_map(move |shard| shard.channels.get(index).copied().flatten());
+            ChannelStatistics { quantity: quantity.clone(), statistics: combined(parts, visible) }
+        });
+        Self { pixels, visible, lit: shards.iter().map(|shard| shard.lit).sum(), channels: channels.collect() }
+    }
+
+    /// As the store's attributes have them.
+    pub(crate) fn to_json(&self) -> Value {
+        let extreme = |extreme: &Extreme| json!({ "value": extreme.value, "pixel": extreme.pixel });
+        let channels = self.channels.iter().filter_map(|channel| {
+            let Statistics { max, min, mean } = channel.statistics.as_ref()?;
+            Some((channel.quantity.name(), json!({ "max": extreme(max), "min": extreme(min), "mean": mean })))
+        });
+        json!({
+            "pixels": self.pixels,
+            "visible_pixels": self.visible,
+            "lit_pixels": self.lit,
+            "channels": channels.collect::<serde_json::Map<_, _>>(),
+        })
+    }
+}
+
+fn combined(parts: impl Iterator<Item = ShardChannel>, visible: u64) -> Option<Statistics> {
+    let mut parts = parts.peekable();
+    let ShardChannel { mut max, mut min, .. } = *parts.peek()?;
+    let mut sum = Sum::new();
+    for part in parts {
+        // Of equal values the first in reading order, which is not the order of the plan.
+        let is_earlier = |part: &Place, known: &Place| {
+            part.value == known.value && (part.row, part.column) < (known.row, known.column)
+        };
+        if part.max.value > max.value || is_earlier(&part.max, &max) {
+            max = part.max;
+        }
+        if part.min.value < min.value || is_earlier(&part.min, &min) {
+            min = part.min;
+        }
+        sum.add(part.sum);
+    }
+    let extreme = |place: Place| Extreme { value: place.value, pixel: Pixel { column: place.column, row: place.row } };
+    #[expect(clippy::cast_precision_loss, reason = "an image has fewer than 2^53 pixels")]
+    let mean = sum.value() / visible as f64;
+    Some(Statistics { max: extreme(max), min: extreme(min), mean })
+}

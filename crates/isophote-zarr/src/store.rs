@@ -1,0 +1,271 @@
+//! A store: made or found, and in the end complete.
+
+use std::fs;
+use std::io;
+use std::num::NonZeroU32;
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use isophote::export::FileMetadata;
+use isophote::map::Quantity;
+use isophote::prepare::PreparedScene;
+use isophote::render::Renderer;
+
+use crate::array::ChannelArray;
+use crate::describe;
+use crate::error::{Damage, StoreError};
+use crate::files::{Files, Lock, Sharing};
+use crate::identity::{Identity, ZARR_JSON, pretty};
+use crate::plan::{Part, Plan, Shard};
+use crate::preview::{Boxes, Preview};
+use crate::record::Record;
+use crate::statistics::MapStatistics;
+
+/// The small picture of the whole map.
+const PREVIEW: &str = "preview.png";
+
+/// A store that this process may write into.
+pub struct Store {
+    pub(crate) files: Files,
+    pub(crate) identity: Identity,
+    pub(crate) arrays: Vec<ChannelArray>,
+    /// For each shard of the plan, whether it was done when the store was opened.
+    pub(crate) was_done: Vec<bool>,
+    done: AtomicU64,
+    _lock: Lock,
+}
+
+/// What store is asked for.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The channels, without duplicates; the first one is pictured.
+    pub quantities: Vec<Quantity>,
+    /// What to do with a store that is there already.
+    pub opening: Opening,
+    /// The part to compute, of a store that others write into at the same time; all of it by default.
+    pub part: Option<Part>,
+    /// Side of the shards of a new store; by default what suits the channels.
+    pub shard_side: Option<NonZeroU32>,
+}
+
+/// What to do with a store that is there already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Opening {
+    /// Refuse: nothing is ever replaced.
+    New,
+    /// Continue it, if it holds the same map; begin it, if there is none.
+    Continue,
+}
+
+/// How closely a store is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Check {
+    /// Every shard has its record and its files have the right length.
+    Presence,
+    /// Every byte has the right checksum, and every chunk can be decoded.
+    Content,
+}
+
+impl Store {
+    /// Makes a store for a scene, or finds it.
+    ///
+    /// # Errors
+    /// A name that is taken, a store that holds another map or is being written, a folder that cannot be written in.
+    pub fn prepare(
+        path: &Path,
+        scene: &PreparedScene,
+        renderer: &dyn Renderer,
+        request: &Request,
+    ) -> Result<Self, StoreError> {
+        let files = Files::new(path);
+        let stored = check_place(&files, request.opening)?;
+        let sample = describe::sample(scene, renderer, &request.quantities)?;
+        let full = scene.scene().camera().resolution;
+        let plan = match (request.shard_side, &stored) {
+            (Some(side), _) => Plan::with_shard_side(full, side),
+            (None, Some(stored)) => Plan { full, ..stored.plan },
+            (None, None) => Plan::new(full, describe::need_per_pixel(&sample)),
+        };
+        let metadata = describe::metadata(&sample, scene, &request.quantities);
+        let arrays = describe::sample_arrays(&sample, &metadata, plan)?;
+        let coordinates = describe::coordinates(scene, &metadata.window)?;
+        let described = arrays.iter().map(|(name, array)| Ok((name.clone(), array.metadata()?)));
+        let described = described.collect::<Result<Vec<_>, StoreError>>()?;
+        let centres = coordinates.iter().map(|(name, metadata, _)| ((*name).to_owned(), metadata.clone()));
+        let identity = Identity { metadata, plan, arrays: described.into_iter().chain(centres).collect() };
+        if let Some(stored) = &stored {
+            refuse_changes(stored, &identity, path)?;
+        }
+        let lock = files.lock(if request.part.is_some() { Sharing::Together } else { Sharing::Alone })?;
+        if stored.is_none() && !files.put_new(ZARR_JSON, &identity.to_json(None))? {
+            // Another process was faster.
+            let text = files.get(ZARR_JSON)?.unwrap_or_default();
+            refuse_changes(&Identity::from_json(&text, path)?, &identity, path)?;
+        }
+        for (name, metadata) in &identity.arrays {
+            files.put_changed(&format!("{name}/{ZARR_JSON}"), &pretty(metadata))?;
+        }
+        for (name, _, bytes) in &coordinates {
+            files.put_changed(&format!("{name}/c/0"), bytes)?;
+        }
+        Self::new(files, identity, arrays.into_iter().map(|(_, array)| array).collect(), lock)
+    }
+
+    /// Opens a store that is there, to put it together.
+    ///
+    /// # Errors
+    /// No store of Isophote, a damaged one, one that is being written.
+    pub fn open(path: &Path) -> Result<Self, StoreError> {
+        let files = Files::new(path);
+        let identity = stored_identity(&files)?.ok_or_else(|| foreign(path, "no Zarr store of Isophote"))?;
+        let arrays = describe::stored_arrays(&identity, path)?;
+        let lock = files.lock(Sharing::Alone)?;
+        Self::new(files, identity, arrays, lock)
+    }
+
+    fn new(files: Files, identity: Identity, arrays: Vec<ChannelArray>, lock: Lock) -> Result<Self, StoreError> {
+        let is_done = |shard| Ok(Record::read(&files, &arrays, shard)?.is_ok());
+        let was_done = identity.plan.shards().map(is_done).collect::<Result<Vec<bool>, StoreError>>()?;
+        let done = AtomicU64::new(count(&was_done));
+        Ok(Self { files, identity, arrays, was_done, done, _lock: lock })
+    }
+
+    /// What the store says about itself.
+    #[must_use]
+    pub fn metadata(&self) -> &FileMetadata {
+        &self.identity.metadata
+    }
+
+    /// How it is cut.
+    #[must_use]
+    pub fn plan(&self) -> Plan {
+        self.identity.plan
+    }
+
+    /// The channels.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<Quantity> {
+        self.arrays.iter().map(|array| array.quantity.clone()).collect()
+    }
+
+    /// How many shards are done, as far as this process knows.
+    #[must_use]
+    pub fn done(&self) -> u64 {
+        self.done.load(Ordering::Relaxed)
+    }
+
+    pub(crate) fn count_one(&self) {
+        self.done.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Puts the results of all shards together: the statistics into the description of the store, and the preview.
+    ///
+    /// A shard whose content is wrong is forgotten, so that it is computed again when the store is continued.
+    ///
+    /// # Errors
+    /// Shards that are missing or damaged, all of them in one error.
+    pub fn merge(&self, check: Check) -> Result<MapStatistics, StoreError> {
+        let mut records = Vec::new();
+        let mut damages = if check == Check::Content { self.damaged_descriptions()? } else { Vec::new() };
+        for shard in self.identity.plan.shards() {
+            match Record::read(&self.files, &self.arrays, shard)? {
+                Err(damage) => damages.push(damage),
+                Ok(record) => {
+                    let damage = match check {
+                        Check::Presence => None,
+                        Check::Content => record.check(&self.files, &self.arrays, shard)?,
+                    };
+                    if damage.is_some() {
+                        Record::forget(&self.files, shard)?;
+                    }
+                    damages.extend(damage);
+                    records.push((shard, record));
+                }
+            }
+        }
+        if damages.is_empty() {
+            self.finish(records)
+        } else {
+            Err(StoreError::Incomplete { path: self.files.root().into(), damages })
+        }
+    }
+
+    /// The descriptions of arrays that are not those which the group lists.
+    fn damaged_descriptions(&self) -> Result<Vec<Damage>, StoreError> {
+        let mut damages = Vec::new();
+        for (name, metadata) in &self.identity.arrays {
+            let file = format!("{name}/{ZARR_JSON}");
+            if self.files.get(&file)?.as_deref() != Some(&pretty(metadata)) {
+                let reason = "is missing or changed".into();
+                damages.push(Damage { place: file, reason });
+            }
+        }
+        Ok(damages)
+    }
+
+    fn finish(&self, records: Vec<(Shard, Record)>) -> Result<MapStatistics, StoreError> {
+        let Identity { metadata, plan, .. } = &self.identity;
+        let quantities = self.quantities();
+        let mut preview = Preview::new(Boxes::new(plan.full));
+        let mut shards = Vec::with_capacity(records.len());
+        for (shard, record) in records {
+            let damaged = |reason| StoreError::Damaged { path: self.files.path(&Record::key(shard)), reason };
+            preview.add(plan.region(shard), &record.preview).map_err(damaged)?;
+            shards.push(record.statistics);
+        }
+        let statistics = MapStatistics::new(plan.full.pixels() as u64, &quantities, &shards);
+        if let (Some(main), Some(channel)) = (quantities.first(), metadata.channels.first())
+            && !matches!(main, Quantity::Position | Quantity::Normal | Quantity::Shape)
+        {
+            self.files.put_changed(PREVIEW, &preview.to_png(metadata, main, &channel.unit)?)?;
+        }
+        self.files.put_changed(ZARR_JSON, &self.identity.to_json(Some(statistics.to_json())))?;
+        Ok(statistics)
+    }
+}
+
+/// The store that is there, if it may be continued; nothing if the place is free.
+fn check_place(files: &Files, opening: Opening) -> Result<Option<Identity>, StoreError> {
+    let path = files.root();
+    match fs::metadata(path) {
+        Ok(found) if !found.is_dir() => return Err(foreign(path, "a file")),
+        Ok(_) => {}
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+            return match parent.filter(|parent| !parent.is_dir()) {
+                Some(parent) => Err(foreign(path, &format!("in a folder ‘{}’ that does not exist", parent.display()))),
+                None => Ok(None),
+            };
+        }
+        Err(reason) => return Err(StoreError::Read { path: path.into(), reason }),
+    }
+    let Some(stored) = stored_identity(files)? else {
+        return if files.is_unused()? { Ok(None) } else { Err(foreign(path, "a folder with other things in it")) };
+    };
+    if opening == Opening::Continue {
+        return Ok(Some(stored));
+    }
+    let arrays = describe::stored_arrays(&stored, path)?;
+    let mut done = 0;
+    for shard in stored.plan.shards() {
+        done += u64::from(Record::read(files, &arrays, shard)?.is_ok());
+    }
+    Err(StoreError::Exists { path: path.into(), done, shards: stored.plan.count() })
+}
+
+fn stored_identity(files: &Files) -> Result<Option<Identity>, StoreError> {
+    files.get(ZARR_JSON)?.map(|text| Identity::from_json(&text, files.root())).transpose()
+}
+
+fn foreign(path: &Path, what: &str) -> StoreError {
+    StoreError::Foreign { path: path.into(), what: what.into() }
+}
+
+fn refuse_changes(stored: &Identity, asked: &Identity, path: &Path) -> Result<(), StoreError> {
+    let changes = stored.changes(asked);
+    if changes.is_empty() { Ok(()) } else { Err(StoreError::Changed { path: path.into(), changes }) }
+}
+
+fn count(flags: &[bool]) -> u64 {
+    flags.iter().filter(|&&flag| flag).count() as u64
+}
