@@ -1,0 +1,125 @@
+"""Measures Isophote beside what people use instead, in one run, and writes docs/speed.md. `make compare` starts it."""
+
+import argparse
+import datetime
+import json
+import os
+import string
+import subprocess
+import sys
+from dataclasses import asdict
+from pathlib import Path
+
+import ceilings
+import cold
+import environment
+import machine
+import report
+import warm
+from cases import Case, all_cases
+from participants import Participants
+
+HERE = Path(__file__).parent
+ROOT = HERE.parent.parent
+# Flags of the release profile, as Cargo.toml has them; nothing is compiled for this processor alone.
+OUR_FLAGS = "release profile: optimisation level 3, thin LTO, 4 codegen units, baseline instruction set of the target"
+
+
+def main() -> None:
+    arguments = parse_arguments()
+    surroundings = environment.prepare(arguments.scratch)
+    binaries = build()
+    participants = Participants(surroundings, binaries / "examples")
+    cases = [case for case in all_cases() if not arguments.case or case.name in arguments.case]
+    try:
+        results = measure(participants, cases, binaries)
+    finally:
+        participants.close()
+    raw = arguments.scratch / "results.json"
+    raw.write_text(json.dumps(results, default=asdict, indent=1))
+    if arguments.case:
+        print(f"only some cases: {raw} is written, docs/speed.md stays", file=sys.stderr)
+        return
+    arguments.output.write_text(page(participants, cases, results))
+    print(f"wrote {arguments.output} and {raw}", file=sys.stderr)
+
+
+def parse_arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--scratch", type=Path, default=ROOT / "target" / "compare", help="folder for everything else")
+    parser.add_argument("--output", type=Path, default=ROOT / "docs" / "speed.md", help="the page to write")
+    names = [case.name for case in all_cases()]
+    parser.add_argument("--case", action="append", choices=names, help="measure this case only; may be repeated")
+    arguments = parser.parse_args()
+    arguments.scratch = arguments.scratch.resolve()
+    return arguments
+
+
+def build() -> Path:
+    """Builds our side and says where it is."""
+    cargo = os.environ.get("CARGO", "cargo")
+    for part in (["-p", "isophote", "--examples"], ["-p", "isophote-cli", "--bin", "isophote"]):
+        subprocess.run([cargo, "build", "--release", "--quiet", *part], cwd=ROOT, check=True)
+    metadata = [cargo, "metadata", "--no-deps", "--format-version", "1"]
+    described = subprocess.run(metadata, cwd=ROOT, capture_output=True, text=True, check=True)
+    return Path(json.loads(described.stdout)["target_directory"]) / "release"
+
+
+def measure(participants: Participants, cases: list[Case], binaries: Path) -> dict:
+    """Everything, in one run. The ceilings come first and last: what else the machine does may change in between."""
+    start, load = datetime.datetime.now(datetime.UTC), machine.load()
+    rates = [ceilings.measure(binaries / "examples")]
+    warm_results = {}
+    for case in cases:
+        print(case.title, file=sys.stderr)
+        warm_results[case.name] = warm.measure(participants, case)
+    cold_results = {}
+    by_name = {case.name: case for case in cases}
+    for job in cold.JOBS:
+        if job.case in by_name:
+            print(f"cold: {job.title}", file=sys.stderr)
+            cold_results[job.case] = cold.measure(participants, binaries / "isophote", job, by_name[job.case])
+    rates.append(ceilings.measure(binaries / "examples"))
+    return {
+        "date": start.date().isoformat(),
+        "minutes": (datetime.datetime.now(datetime.UTC) - start).total_seconds() / 60,
+        "load": {"start": load, "end": machine.load()},
+        "machine": machine.description(),
+        "versions": {"rustc": machine.rustc(), **participants.environment.versions()},
+        "missing": participants.environment.missing,
+        "ceilings": ceilings.best_of(rates),
+        "warm": warm_results,
+        "cold": cold_results,
+    }
+
+
+def page(participants: Participants, cases: list[Case], results: dict) -> str:
+    """The template, filled in."""
+    contestants, measured = participants.contestants, results["warm"]
+    by_name = {case.name: case for case in cases}
+    one_light = [case for case in cases if len(case.scene.lights) == 1]
+    many_lights = [case for case in cases if len(case.scene.lights) > 1]
+    filled = by_name[ceilings.CASE]
+    shares = ceilings.shares(participants, filled, measured[filled.name], results["ceilings"])
+    return string.Template((HERE / "template.md").read_text()).substitute(
+        date=results["date"],
+        minutes=f"{results['minutes']:.0f}",
+        load=f"{results['load']['start']:.1f} at the start, {results['load']['end']:.1f} at the end",
+        **results["machine"],
+        flags=OUR_FLAGS,
+        versions=", ".join(f"{name} {version}" for name, version in results["versions"].items()),
+        missing="; ".join(f"{name} ({why})" for name, why in results["missing"].items()) or "nothing",
+        baselines=" / ".join(contestant.how for contestant in report.baselines(contestants)),
+        one_light=report.warm_table(contestants, one_light, measured),
+        many_lights=report.warm_table(contestants, many_lights, measured),
+        best=report.best_table(contestants, cases, measured),
+        cold=report.cold_table(results["cold"]),
+        ceilings=report.ceilings_table(results["ceilings"]),
+        flops=ceilings.FLOPS_PER_PIXEL_AND_LIGHT,
+        shares=report.shares_table(shares),
+        agreement=report.agreement_table(contestants, cases, measured),
+    )
+
+
+if __name__ == "__main__":
+    main()
