@@ -58,8 +58,8 @@ def parse_arguments() -> argparse.Namespace:
 def build() -> Path:
     """Builds our side and says where it is."""
     cargo = os.environ.get("CARGO", "cargo")
-    for part in (["-p", "isophote", "--examples"], ["-p", "isophote-cli", "--bin", "isophote"]):
-        subprocess.run([cargo, "build", "--release", "--quiet", *part], cwd=ROOT, check=True)
+    parts = ["-p", "isophote", "-p", "isophote-cli", "--examples", "--bin", "isophote"]
+    subprocess.run([cargo, "build", "--release", "--quiet", *parts], cwd=ROOT, check=True)
     metadata = [cargo, "metadata", "--no-deps", "--format-version", "1"]
     described = subprocess.run(metadata, cwd=ROOT, capture_output=True, text=True, check=True)
     return Path(json.loads(described.stdout)["target_directory"]) / "release"
