@@ -24,6 +24,7 @@ test: python-env ## Run every test (with NumPy as a foreign reader, where Python
 check: generated-is-current ## Formatting, lints, documentation without warnings, generated files up to date
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets -- -D warnings
+	$(CARGO) clippy --workspace --bench instructions -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --quiet
 
 bench: ## Time every stage, the whole program from start to picture, and all that beside other programs
@@ -36,7 +37,7 @@ compare: ## Measure beside NumPy, Numba, Dr.Jit, Mitsuba, Radiance and POV-Ray, 
 bench-instructions: ## Count the instructions of every stage (needs valgrind; installs gungraun-runner)
 	@command -v valgrind >/dev/null || { echo "valgrind is missing: install it by your system's package manager"; exit 1; }
 	@[ -x $(GUNGRAUN_RUNNER) ] || $(CARGO) install --locked --root target/gungraun gungraun-runner@$(GUNGRAUN)
-	GUNGRAUN_RUNNER="$(CURDIR)/$(GUNGRAUN_RUNNER)" $(CARGO) bench -p isophote --bench instructions
+	GUNGRAUN_RUNNER="$(CURDIR)/$(GUNGRAUN_RUNNER)" $(CARGO) bench --workspace --bench instructions
 
 audit: ## Licences, sources and bans of all dependencies (installs cargo-deny if it is missing)
 	@$(CARGO) deny --version >/dev/null 2>&1 || $(CARGO) install --locked cargo-deny

@@ -11,11 +11,9 @@ from statistics import median
 
 from cases import Case, write_scene
 from contestants import Contestant
-from participants import Participants
+from participants import Effort, Participants
 from processes import Unavailable
 
-ROUNDS = 9
-LIMIT_SECONDS = 60.0
 OURS = "isophote render"
 
 
@@ -55,7 +53,7 @@ class Result:
         return median(self.seconds) if self.seconds else None
 
 
-def measure(participants: Participants, isophote: Path, job: Job, case: Case) -> dict[str, Result]:
+def measure(participants: Participants, isophote: Path, job: Job, case: Case, effort: Effort) -> dict[str, Result]:
     """Everybody once without the clock, then all in turn."""
     files = write_scene(participants.folder / "scenes", case.name, case.scene)
     ours = Result("**Isophote**, `isophote render`", "(3.3)", job.suffix)
@@ -66,13 +64,13 @@ def measure(participants: Participants, isophote: Path, job: Job, case: Case) ->
         result = results[contestant.name] = Result(contestant.title, str(contestant.formula))
         result.suffix = job.substitutes.get(contestant.name.split("-")[0], job.suffix)
         try:
-            commands[contestant.name] = _command(participants, contestant, case, result.suffix)
+            commands[contestant.name] = _command(participants, contestant, case, result.suffix, effort.limit)
         except Unavailable as why:
             result.reason = str(why)
-    for turn in range(ROUNDS + 1):
+    for turn in range(effort.rounds + 1):
         for name, command in commands.items():
             if results[name].reason is None:
-                _run(participants, command, results[name], is_timed=turn > 0)
+                _run(participants, command, results[name], effort.limit, is_timed=turn > 0)
     for name, result in results.items():
         print(f"  {name}: {result.reason or f'{result.median:.3f} s'}", file=sys.stderr)
     return results
@@ -83,27 +81,27 @@ def _our_command(participants: Participants, isophote: Path, job: Job, scene: Pa
     return [str(isophote), "render", "--quiet", str(scene), "-o", str(image), *job.options]
 
 
-def _command(participants: Participants, contestant: Contestant, case: Case, suffix: str) -> list[str]:
+def _command(participants: Participants, contestant: Contestant, case: Case, suffix: str, limit: float) -> list[str]:
     scene, name = case.scene, case.name
     if contestant.has_square_pixels_only:
         scene, name = scene.with_square_pixels(), f"{name}-square"
     json = write_scene(participants.folder / "scenes", name, scene).json
     if contestant.is_command:
         worker = participants.worker(contestant)
-        worker.ask(LIMIT_SECONDS, do="load", scene=str(json))
-        return ["sh", "-c", worker.ask(LIMIT_SECONDS, do="command", image=f"cold.{suffix}")["command"]]
+        worker.ask(limit, do="load", scene=str(json))
+        return ["sh", "-c", worker.ask(limit, do="command", image=f"cold.{suffix}")["command"]]
     participants.require(contestant)
     return [*participants.command(contestant), str(json), str(participants.folder / f"cold.{suffix}")]
 
 
-def _run(participants: Participants, command: list[str], result: Result, is_timed: bool) -> None:
+def _run(participants: Participants, command: list[str], result: Result, limit: float, is_timed: bool) -> None:
     start = time.perf_counter()
     try:
         done = subprocess.run(
-            command, capture_output=True, text=True, timeout=LIMIT_SECONDS, env=participants.environment.variables()
+            command, capture_output=True, text=True, timeout=limit, env=participants.environment.variables()
         )
     except subprocess.TimeoutExpired:
-        result.reason = f"skipped: over {LIMIT_SECONDS:.0f} s"
+        result.reason = f"skipped: over {limit:.0f} s"
         return
     seconds = time.perf_counter() - start
     if done.returncode != 0:

@@ -17,7 +17,7 @@ import machine
 import report
 import warm
 from cases import Case, all_cases
-from participants import Participants
+from participants import Effort, Participants
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
@@ -32,7 +32,7 @@ def main() -> None:
     participants = Participants(surroundings, binaries / "examples")
     cases = [case for case in all_cases() if not arguments.case or case.name in arguments.case]
     try:
-        results = measure(participants, cases, binaries)
+        results = measure(participants, cases, binaries, Effort(arguments.rounds, arguments.limit))
     finally:
         participants.close()
     raw = arguments.scratch / "results.json"
@@ -50,6 +50,8 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--output", type=Path, default=ROOT / "docs" / "speed.md", help="the page to write")
     names = [case.name for case in all_cases()]
     parser.add_argument("--case", action="append", choices=names, help="measure this case only; may be repeated")
+    parser.add_argument("--rounds", type=int, default=9, help="turns that everybody has in a case (9)")
+    parser.add_argument("--limit", type=float, default=90.0, help="seconds that one answer may take (90)")
     arguments = parser.parse_args()
     arguments.scratch = arguments.scratch.resolve()
     return arguments
@@ -58,31 +60,32 @@ def parse_arguments() -> argparse.Namespace:
 def build() -> Path:
     """Builds our side and says where it is."""
     cargo = os.environ.get("CARGO", "cargo")
-    parts = ["-p", "isophote", "-p", "isophote-cli", "--examples", "--bin", "isophote"]
+    parts = ["--workspace", "--examples", "--bin", "isophote"]
     subprocess.run([cargo, "build", "--release", "--quiet", *parts], cwd=ROOT, check=True)
     metadata = [cargo, "metadata", "--no-deps", "--format-version", "1"]
     described = subprocess.run(metadata, cwd=ROOT, capture_output=True, text=True, check=True)
     return Path(json.loads(described.stdout)["target_directory"]) / "release"
 
 
-def measure(participants: Participants, cases: list[Case], binaries: Path) -> dict:
+def measure(participants: Participants, cases: list[Case], binaries: Path, effort: Effort) -> dict:
     """Everything, in one run. The ceilings come first and last: what else the machine does may change in between."""
     start, load = datetime.datetime.now(datetime.UTC), machine.load()
     rates = [ceilings.measure(binaries / "examples")]
     warm_results = {}
     for case in cases:
         print(case.title, file=sys.stderr)
-        warm_results[case.name] = warm.measure(participants, case)
+        warm_results[case.name] = warm.measure(participants, case, effort)
     cold_results = {}
     by_name = {case.name: case for case in cases}
     for job in cold.JOBS:
         if job.case in by_name:
             print(f"cold: {job.title}", file=sys.stderr)
-            cold_results[job.case] = cold.measure(participants, binaries / "isophote", job, by_name[job.case])
+            cold_results[job.case] = cold.measure(participants, binaries / "isophote", job, by_name[job.case], effort)
     rates.append(ceilings.measure(binaries / "examples"))
     return {
         "date": start.date().isoformat(),
         "minutes": (datetime.datetime.now(datetime.UTC) - start).total_seconds() / 60,
+        "rounds": effort.rounds,
         "load": {"start": load, "end": machine.load()},
         "machine": machine.description(),
         "versions": {"rustc": machine.rustc(), **participants.environment.versions()},
@@ -103,6 +106,7 @@ def page(participants: Participants, cases: list[Case], results: dict) -> str:
     shares = ceilings.shares(participants, filled, measured[filled.name], results["ceilings"])
     return string.Template((HERE / "template.md").read_text()).substitute(
         date=results["date"],
+        rounds=results["rounds"],
         minutes=f"{results['minutes']:.0f}",
         load=f"{results['load']['start']:.1f} at the start, {results['load']['end']:.1f} at the end",
         **results["machine"],

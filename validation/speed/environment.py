@@ -79,7 +79,8 @@ def prepare(folder: Path) -> Environment:
             shutil.rmtree(folder / "python", ignore_errors=True)
             environment.missing.update(dict.fromkeys(PYTHON_PACKAGES, f"no virtual environment: {failure}"))
     if environment.python.exists():
-        for package in PYTHON_PACKAGES:
+        present = environment.versions()
+        for package in (name for name in PYTHON_PACKAGES if name not in present):
             pip = [environment.python, "-m", "pip", "--disable-pip-version-check", "install", "--quiet", package]
             if failure := _failure(pip):
                 environment.missing[package] = f"pip: {failure}"

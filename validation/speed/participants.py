@@ -1,6 +1,7 @@
 """Everybody who takes part, and the processes in which they do."""
 
 import subprocess
+from dataclasses import dataclass
 from pathlib import Path
 
 from contestants import PEERS, REFERENCE, Contestant, ours
@@ -8,6 +9,14 @@ from environment import Environment
 from processes import Unavailable, Worker
 
 WORKERS = Path(__file__).parent / "workers"
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How often everybody has a turn, and how many seconds one answer may take."""
+
+    rounds: int
+    limit: float
 
 
 class Participants:
@@ -21,12 +30,20 @@ class Participants:
         self.contestants: list[Contestant] = [*map(ours, listed.stdout.split()), *PEERS]
         self.reference = Worker([str(self.speed_worker), REFERENCE], environment.variables())
         self._workers: dict[str, Worker] = {}
+        self._expected: dict[Path, list[float]] = {}
 
     def require(self, contestant: Contestant) -> None:
         """Raises when a package that the contestant needs could not be had."""
         for package in contestant.packages:
             if reason := self.environment.missing.get(package):
                 raise Unavailable(f"not available: {package}: {reason}")
+
+    def expected(self, scene: Path, pixels: list[tuple[int, int]], limit: float) -> list[float]:
+        """Our own values at pixels of a scene; they are computed once."""
+        if scene not in self._expected:
+            self.reference.ask(limit, do="load", scene=str(scene))
+            self._expected[scene] = self.reference.ask(limit, do="values", pixels=pixels)["values"]
+        return self._expected[scene]
 
     def worker(self, contestant: Contestant) -> Worker:
         self.require(contestant)

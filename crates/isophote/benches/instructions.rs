@@ -2,6 +2,8 @@
 //!
 //! `make bench-instructions` runs it. The images are small, because valgrind is some fifty times slower than the machine.
 
+#![expect(missing_docs, reason = "the macros of gungraun make public things without documentation")]
+
 use std::hint::black_box;
 use std::io::Cursor;
 

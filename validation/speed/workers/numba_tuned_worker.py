@@ -33,7 +33,7 @@ def kernel(number, shininess):
         lobe = (along * along / (two - two * (lx * x + ly * y + lz * z) * (nearness * inverse))) ** chain
         return intensity * cos_i * nearness_squared * (kd * cos_o + ks * lobe)
 
-    @njit(parallel=True, fastmath=True)
+    @njit(parallel=True, fastmath=True, cache=True)
     def render(image, half_x, half_y, distance, center, radius, diffuse, specular, lights):
         height, width = image.shape
         beyond = center[0] ** 2 + center[1] ** 2 + center[2] ** 2 - radius**2
