@@ -12,7 +12,7 @@ from statistics import median
 from cases import Case, write_scene
 from contestants import Contestant
 from participants import Effort, Participants
-from processes import Unavailable
+from processes import Unavailable, end
 
 OURS = "isophote render"
 
@@ -96,16 +96,19 @@ def _command(participants: Participants, contestant: Contestant, case: Case, suf
 
 def _run(participants: Participants, command: list[str], result: Result, limit: float, is_timed: bool) -> None:
     start = time.perf_counter()
+    process = subprocess.Popen(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        env=participants.environment.variables(),
+    )  # fmt: skip
     try:
-        done = subprocess.run(
-            command, capture_output=True, text=True, timeout=limit, env=participants.environment.variables()
-        )
+        _, said = process.communicate(timeout=limit)
     except subprocess.TimeoutExpired:
+        end(process)
         result.reason = f"skipped: over {limit:.0f} s"
         return
     seconds = time.perf_counter() - start
-    if done.returncode != 0:
-        said = done.stderr.strip().splitlines()
-        result.reason = f"failed: {said[-1] if said else shlex.join(command)}"
+    if process.returncode != 0:
+        lines = said.strip().splitlines()
+        result.reason = f"failed: {lines[-1] if lines else shlex.join(command)}"
     elif is_timed:
         result.seconds.append(seconds)

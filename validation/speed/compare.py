@@ -7,7 +7,7 @@ import os
 import string
 import subprocess
 import sys
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from pathlib import Path
 
 import ceilings
@@ -30,18 +30,32 @@ def main() -> None:
     surroundings = environment.prepare(arguments.scratch)
     binaries = build()
     participants = Participants(surroundings, binaries / "examples")
-    cases = [case for case in all_cases() if not arguments.case or case.name in arguments.case]
+    raw = arguments.scratch / "results.json"
     try:
-        results = measure(participants, cases, binaries, Effort(arguments.rounds, arguments.limit))
+        if not arguments.page_only:
+            cases = [case for case in all_cases() if not arguments.case or case.name in arguments.case]
+            measure(participants, cases, binaries, Effort(arguments.rounds, arguments.limit), raw)
     finally:
         participants.close()
-    raw = arguments.scratch / "results.json"
-    raw.write_text(json.dumps(results, default=asdict, indent=1))
-    if arguments.case:
-        print(f"only some cases: {raw} is written, docs/speed.md stays", file=sys.stderr)
+    results = read(raw)
+    if missing := [case.name for case in all_cases() if case.name not in results["warm"]]:
+        print(f"{raw} lacks {', '.join(missing)}: docs/speed.md stays as it is", file=sys.stderr)
         return
-    arguments.output.write_text(page(participants, cases, results))
-    print(f"wrote {arguments.output} and {raw}", file=sys.stderr)
+    arguments.output.write_text(page(participants, all_cases(), results))
+    print(f"wrote {arguments.output}; every single time is in {raw}", file=sys.stderr)
+
+
+def read(raw: Path) -> dict:
+    """The results as they were measured."""
+    results = json.loads(raw.read_text())
+    for kind, entry in (("warm", warm.Entry), ("cold", cold.Result)):
+        for by_name in results[kind].values():
+            by_name.update({name: _restored(entry, found) for name, found in by_name.items()})
+    return results
+
+
+def _restored(entry: type, found: dict):
+    return entry(**{field.name: found[field.name] for field in fields(entry)})
 
 
 def parse_arguments() -> argparse.Namespace:
@@ -52,6 +66,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--case", action="append", choices=names, help="measure this case only; may be repeated")
     parser.add_argument("--rounds", type=int, default=9, help="turns that everybody has in a case (9)")
     parser.add_argument("--limit", type=float, default=90.0, help="seconds that one answer may take (90)")
+    parser.add_argument("--page-only", action="store_true", help="write the page from the results that are there")
     arguments = parser.parse_args()
     arguments.scratch = arguments.scratch.resolve()
     return arguments
@@ -67,33 +82,39 @@ def build() -> Path:
     return Path(json.loads(described.stdout)["target_directory"]) / "release"
 
 
-def measure(participants: Participants, cases: list[Case], binaries: Path, effort: Effort) -> dict:
-    """Everything, in one run. The ceilings come first and last: what else the machine does may change in between."""
-    start, load = datetime.datetime.now(datetime.UTC), machine.load()
+def measure(participants: Participants, cases: list[Case], binaries: Path, effort: Effort, raw: Path) -> None:
+    """Everything, in one run; what is there so far lies in the file `raw` after every step. The ceilings come first and
+    last: what else the machine does may change in between."""
+    start = datetime.datetime.now(datetime.UTC)
     rates = [ceilings.measure(binaries / "examples")]
-    warm_results = {}
-    for case in cases:
-        print(case.title, file=sys.stderr)
-        warm_results[case.name] = warm.measure(participants, case, effort)
-    cold_results = {}
-    by_name = {case.name: case for case in cases}
-    for job in cold.JOBS:
-        if job.case in by_name:
-            print(f"cold: {job.title}", file=sys.stderr)
-            cold_results[job.case] = cold.measure(participants, binaries / "isophote", job, by_name[job.case], effort)
-    rates.append(ceilings.measure(binaries / "examples"))
-    return {
+    results = {
         "date": start.date().isoformat(),
-        "minutes": (datetime.datetime.now(datetime.UTC) - start).total_seconds() / 60,
         "rounds": effort.rounds,
-        "load": {"start": load, "end": machine.load()},
+        "load": {"start": machine.load()},
         "machine": machine.description(),
         "versions": {"rustc": machine.rustc(), **participants.environment.versions()},
         "missing": participants.environment.missing,
-        "ceilings": ceilings.best_of(rates),
-        "warm": warm_results,
-        "cold": cold_results,
+        "warm": {},
+        "cold": {},
     }
+
+    def save() -> None:
+        results["minutes"] = (datetime.datetime.now(datetime.UTC) - start).total_seconds() / 60
+        results["load"]["end"] = machine.load()
+        results["ceilings"] = ceilings.best_of(rates)
+        raw.write_text(json.dumps(results, default=asdict, indent=1))
+
+    for case in cases:
+        print(case.title, file=sys.stderr)
+        results["warm"][case.name] = warm.measure(participants, case, effort)
+        save()
+    for job in cold.JOBS:
+        for case in (case for case in cases if case.name == job.case):
+            print(f"cold: {job.title}", file=sys.stderr)
+            results["cold"][case.name] = cold.measure(participants, binaries / "isophote", job, case, effort)
+            save()
+    rates.append(ceilings.measure(binaries / "examples"))
+    save()
 
 
 def page(participants: Participants, cases: list[Case], results: dict) -> str:

@@ -3,6 +3,7 @@
 import json
 import os
 import selectors
+import signal
 import subprocess
 import tempfile
 from typing import Any
@@ -18,8 +19,9 @@ class Worker:
     def __init__(self, command: list[str], variables: dict[str, str]):
         self.errors = tempfile.TemporaryFile(mode="w+")
         self.process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.errors, env=variables
-        )
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.errors, env=variables,
+            start_new_session=True,
+        )  # fmt: skip
         self.said = b""
 
     def ask(self, within: float, **request: Any) -> dict[str, Any]:
@@ -39,7 +41,7 @@ class Worker:
             selector.register(self.process.stdout, selectors.EVENT_READ)
             while b"\n" not in self.said:
                 if not selector.select(within):
-                    self.process.kill()
+                    end(self.process)
                     raise Unavailable(f"skipped: over {within:.0f} s")
                 part = os.read(self.process.stdout.fileno(), 1 << 20)
                 if not part:
@@ -62,5 +64,11 @@ class Worker:
         try:
             self.process.wait(10)
         except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
+            end(self.process)
+
+
+def end(process: subprocess.Popen) -> None:
+    """Ends a process that leads a session of its own, with the programs that it has started: they would go on computing
+    and slow down everybody who comes after."""
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()

@@ -51,9 +51,9 @@ def _cell(contestant: Contestant, contestants: list[Contestant], entries: dict[s
         return entry.reason
     ratios = []
     for baseline in baselines(contestants):
-        pairs = zip(entry.medians, entries[baseline.name].medians)
-        ratios.append(ratio(median(theirs / ours for theirs, ours in pairs)))
-    return f"{duration(entry.median)} (×{' / '.join(ratios)})"
+        rounds = [theirs / ours for theirs, ours in zip(entry.medians, entries[baseline.name].medians)]
+        ratios.append(f"×{ratio(median(rounds))}" if rounds else "–")
+    return f"{duration(entry.median)} ({' / '.join(ratios)})"
 
 
 def best_table(contestants: list[Contestant], cases: list[Case], warm: Warm) -> str:
