@@ -92,7 +92,7 @@ def measure(participants: Participants, cases: list[Case], binaries: Path, effor
         "rounds": effort.rounds,
         "load": {"start": machine.load()},
         "machine": machine.description(),
-        "versions": {"rustc": machine.rustc(), **participants.environment.versions()},
+        "versions": {"rustc": machine.rustc().removeprefix("rustc "), **participants.environment.versions()},
         "missing": participants.environment.missing,
         "warm": {},
         "cold": {},

@@ -7,6 +7,9 @@ from cold import JOBS, OURS, Result
 from contestants import BASELINES, Contestant
 from warm import Entry
 
+# A run that was ended early has cases without times.
+NOT_MEASURED = "not measured in this run"
+
 Warm = dict[str, dict[str, Entry]]
 
 
@@ -21,7 +24,7 @@ def duration(seconds: float) -> str:
 
 
 def ratio(number: float) -> str:
-    return f"{number:.2f}" if number < 10 else f"{number:.0f}"
+    return f"{number:.2g}" if number < 10 else f"{number:.0f}"
 
 
 def table(head: list[str], rows: list[list[str]]) -> str:
@@ -47,8 +50,8 @@ def warm_table(contestants: list[Contestant], cases: list[Case], warm: Warm) -> 
 
 def _cell(contestant: Contestant, contestants: list[Contestant], entries: dict[str, Entry]) -> str:
     entry = entries[contestant.name]
-    if entry.reason:
-        return entry.reason
+    if entry.reason or not entry.turns:
+        return entry.reason or NOT_MEASURED
     ratios = []
     for baseline in baselines(contestants):
         rounds = [theirs / ours for theirs, ours in zip(entry.medians, entries[baseline.name].medians)]
@@ -79,16 +82,22 @@ def agreement_table(contestants: list[Contestant], cases: list[Case], warm: Warm
 
 def cold_table(cold: dict[str, dict[str, Result]]) -> str:
     head = ["program", "formula", *(job.title for job in JOBS)]
+    if not cold:
+        return NOT_MEASURED
+    programs = {name: result for results in cold.values() for name, result in results.items()}
     rows = []
-    for name, first in cold[JOBS[0].case].items():
-        cells = [_cold_cell(cold[job.case][name], cold[job.case][OURS], job.suffix) for job in JOBS]
-        rows.append([first.title, first.formula, *cells])
+    for name, program in programs.items():
+        cells = [_cold_cell(name, cold.get(job.case), job.suffix) for job in JOBS]
+        rows.append([program.title, program.formula, *cells])
     return table(head, rows)
 
 
-def _cold_cell(result: Result, ours: Result, suffix: str) -> str:
-    if result.reason:
-        return result.reason
+def _cold_cell(name: str, results: dict[str, Result] | None, suffix: str) -> str:
+    if not results:
+        return NOT_MEASURED
+    result, ours = results[name], results[OURS]
+    if result.reason or not result.seconds:
+        return result.reason or NOT_MEASURED
     cell = duration(result.median)
     if ours.median:
         cell += f" (×{ratio(result.median / ours.median)})"
