@@ -4,12 +4,15 @@ CARGO := cargo
 ISOPHOTE := $(CARGO) run --quiet --release --
 PYTHON_ENV := target/python
 GENERATED := target/generated
+# gungraun refuses a runner of another version than its own.
+GUNGRAUN := 0.20.0
+GUNGRAUN_RUNNER := target/gungraun/bin/gungraun-runner
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check bench audit docs generate generated-is-current
+.PHONY: help demo test check bench bench-instructions compare audit docs generate generated-is-current
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-18s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: ## Render the lab's scene: its numbers, lab.png, and lab-figure.png with axes and isophotes
 	$(ISOPHOTE) render -o lab.png --figure lab-figure.png
@@ -21,10 +24,20 @@ test: python-env ## Run every test (with NumPy, zarr and xarray as foreign reade
 check: generated-is-current ## Formatting, lints, documentation without warnings, generated files up to date
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets -- -D warnings
+	$(CARGO) clippy --workspace --bench instructions -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --quiet
 
-bench: ## Time every stage, and the whole program from start to picture
+bench: ## Time every stage, the whole program from start to picture, and all that beside other programs
 	$(CARGO) bench --workspace
+	@$(MAKE) --no-print-directory compare
+
+compare: ## Measure beside NumPy, Numba, Dr.Jit, Mitsuba, Radiance and POV-Ray, and write docs/speed.md (20 minutes)
+	python3 validation/speed/compare.py
+
+bench-instructions: ## Count the instructions of every stage (needs valgrind; installs gungraun-runner)
+	@command -v valgrind >/dev/null || { echo "valgrind is missing: install it by your system's package manager"; exit 1; }
+	@[ -x $(GUNGRAUN_RUNNER) ] || $(CARGO) install --locked --root target/gungraun gungraun-runner@$(GUNGRAUN)
+	GUNGRAUN_RUNNER="$(CURDIR)/$(GUNGRAUN_RUNNER)" $(CARGO) bench --workspace --bench instructions
 
 audit: ## Licences, sources and bans of all dependencies (installs cargo-deny if it is missing)
 	@$(CARGO) deny --version >/dev/null 2>&1 || $(CARGO) install --locked cargo-deny

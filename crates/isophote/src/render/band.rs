@@ -303,7 +303,7 @@ impl Band<'_> {
 /// Adds a run, or lengthens the last one if it goes on there in the same row.
 pub fn extend(runs: &mut Vec<Run>, run: Run, width: usize) {
     match runs.last_mut() {
-        Some(last) if last.end == run.start && last.shape == run.shape && run.start % width != 0 => last.end = run.end,
+        Some(last) if last.end == run.start && last.shape == run.shape && !run.start.is_multiple_of(width) => last.end = run.end,
         _ => runs.push(run),
     }
 }

@@ -7,12 +7,12 @@ use crate::real::{Real, Scalar};
 use crate::vector::Vector;
 
 /// Where a shape appears on the screen.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Outline {
     /// Nowhere: it is behind the eye.
     Unseen,
     /// Within an ellipse.
-    Ellipse(Ellipse),
+    Ellipse(Box<Ellipse>),
     /// In a place that has no such simple form: the eye is inside, or the shape reaches beside or behind it.
     Unknown,
 }
@@ -174,7 +174,7 @@ impl Ellipse {
         let column_growth = frame.right * screen.column_step;
         let row_growth = frame.up * screen.row_step;
         let directions = [direction, column_growth, row_growth];
-        Outline::Ellipse(Self {
+        Outline::Ellipse(Box::new(Self {
             column,
             row,
             rows: [first.min(last), first.max(last)],
@@ -187,7 +187,7 @@ impl Ellipse {
             direction: directions.map(|vector| vector.map(DoubleDouble::rounded)),
             moment: directions.map(|vector| vector.cross(from_eye).map(DoubleDouble::rounded)),
             center: from_eye.map(DoubleDouble::rounded),
-        })
+        }))
     }
 
     /// A row of the image.

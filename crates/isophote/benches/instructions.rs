@@ -1,0 +1,90 @@
+//! Instructions counted by valgrind, one bench per stage: numbers without noise, which two versions can be compared by.
+//!
+//! `make bench-instructions` runs it. The images are small, because valgrind is some fifty times slower than the machine.
+
+#![expect(missing_docs, reason = "the macros of gungraun make public things without documentation")]
+
+use std::hint::black_box;
+use std::io::Cursor;
+
+use gungraun::{library_benchmark, library_benchmark_group, main};
+use isophote::export::png::PictureOptions;
+use isophote::export::{exr, png};
+use isophote::map::{Map, Quantity, Resolution};
+use isophote::prepare::PreparedScene;
+use isophote::render::{Reference, RenderSettings, Renderer};
+use isophote::scene::library::Starter;
+use isophote::scene::source::LightSource;
+use isophote::scene::{Scene, Syntax};
+
+const SMALL: Resolution = Resolution { width: 80, height: 60 };
+
+fn lab() -> Scene {
+    let scene = Scene::from_text("lab", Starter::Lab.text(), Syntax::Toml).expect("the lab's scene is valid");
+    scene.with_resolution(SMALL).expect("the size is allowed")
+}
+
+fn prepared_lab() -> PreparedScene {
+    PreparedScene::new(&lab())
+}
+
+/// The lab's sphere under as many lights on a spiral around the eye.
+fn many_lights(count: u32) -> PreparedScene {
+    let mut source = lab().source().clone();
+    let light = source.light[0].clone();
+    let on_spiral = |index| {
+        let angle = f64::from(index) * 2.4;
+        let position = Some([10.0 * angle.cos(), 10.0 * angle.sin(), -f64::from(index % 16)]);
+        LightSource { name: None, position, ..light.clone() }
+    };
+    source.light = (0..count).map(on_spiral).collect();
+    PreparedScene::new(&Scene::try_from(source).expect("the lights are outside the sphere"))
+}
+
+fn brightness(scene: &PreparedScene) -> Map {
+    let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
+    Reference.render(scene, &settings).expect("the scene renders")
+}
+
+fn lab_map() -> Map {
+    brightness(&prepared_lab())
+}
+
+#[library_benchmark]
+fn read() -> Scene {
+    let text = black_box(Starter::Lab.text());
+    black_box(Scene::from_text("lab", text, Syntax::Toml).expect("the lab's scene is valid"))
+}
+
+#[library_benchmark]
+#[bench::lab(lab())]
+fn prepare(scene: Scene) -> PreparedScene {
+    black_box(PreparedScene::new(black_box(&scene)))
+}
+
+#[library_benchmark]
+#[bench::lab(prepared_lab())]
+#[bench::lights_64(many_lights(64))]
+fn render_reference(scene: PreparedScene) -> Map {
+    black_box(brightness(black_box(&scene)))
+}
+
+#[library_benchmark]
+#[bench::lab(lab_map())]
+fn write_png(map: Map) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let options = PictureOptions::new(Quantity::Brightness);
+    png::write(black_box(&map), &options, &mut bytes).expect("memory is there");
+    black_box(bytes)
+}
+
+#[library_benchmark]
+#[bench::lab(lab_map())]
+fn write_exr(map: Map) -> Vec<u8> {
+    let mut file = Cursor::new(Vec::new());
+    exr::write(black_box(&map), &mut file).expect("memory is there");
+    black_box(file.into_inner())
+}
+
+library_benchmark_group!(name = stages, benchmarks = [read, prepare, render_reference, write_png, write_exr]);
+main!(library_benchmark_groups = stages);

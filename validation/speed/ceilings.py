@@ -1,0 +1,58 @@
+"""What the machine can do at most, and which share of it our kernel reaches."""
+
+import json
+import subprocess
+from pathlib import Path
+
+from cases import Case
+from contestants import Contestant
+from participants import Participants
+from warm import Entry
+
+# Operations on numbers that one isotropic light takes at one pixel by (3.3) with n = 20, counted for the cheapest way
+# that is known to us; sqrt and division count as one each, an FMA as two, a maximum as one:
+#   S − P 3, r² 5, N·(S − P) 5, V·(S − P) 5, 1/r 2 (sqrt, division), cosθ_i 2 (product, maximum),
+#   N·(L + V) = cosθ_i + cosθ_o 1, ‖L + V‖² = 2 + 2 L·V 3, (N·H)² 2 (product, division), its 10th power 4,
+#   E_j = I cosθ_i / r² 3, k_s (N·H)ⁿ + k_d cosθ_o 2 (k_d cosθ_o is the pixel's), times E_j and summed 2.
+FLOPS_PER_PIXEL_AND_LIGHT = 39
+
+# The case with the most arithmetic for each value that is stored.
+CASE = "fill-256"
+
+
+def measure(examples: Path) -> dict:
+    """The rates that the example program `ceilings` prints."""
+    done = subprocess.run([examples / "ceilings"], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def best_of(measured: list[dict]) -> dict:
+    """The largest of each rate: a ceiling that another program's work has lowered is none."""
+    largest = lambda *keys: max(_at(one, keys) for one in measured)
+    return {
+        "level": measured[0]["level"],
+        "gflops": {p: {t: largest("gflops", p, t) for t in ("1", "2")} for p in ("f32", "f64")},
+        "store_gb_per_s": {t: largest("store_gb_per_s", t) for t in ("1", "2")},
+    }
+
+
+def _at(value: dict, keys: tuple[str, ...]) -> float:
+    for key in keys:
+        value = value[key]
+    return value
+
+
+def shares(
+    participants: Participants, case: Case, entries: dict[str, Entry], ceilings: dict
+) -> list[tuple[Contestant, float, float]]:
+    """For each of our renderers its GFLOP/s in the case, and the share of the ceiling that this is."""
+    width, height = case.scene.resolution
+    work = FLOPS_PER_PIXEL_AND_LIGHT * width * height * len(case.scene.lights)
+    found = []
+    for contestant in participants.contestants:
+        seconds = entries[contestant.name].median
+        if contestant.is_ours and seconds:
+            precision, threads = contestant.name.split("-")[1:3]
+            ceiling = ceilings["gflops"]["f32" if precision == "single" else "f64"][threads]
+            found.append((contestant, work / seconds / 1e9, work / seconds / 1e9 / ceiling))
+    return found
