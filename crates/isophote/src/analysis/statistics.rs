@@ -176,7 +176,9 @@ mod tests {
         assert_eq!(found.max, Extreme { value: highest, pixel: first(highest) });
         assert_eq!(found.min, Extreme { value: lowest, pixel: first(lowest) });
         let mut sum = Sum::<f64>::new();
-        seen.iter().for_each(|(_, value)| sum.add(*value));
+        for (_, value) in &seen {
+            sum.add(*value);
+        }
         #[expect(clippy::cast_precision_loss, reason = "a small map")]
         let mean = sum.value() / seen.len() as f64;
         assert!((found.mean - mean).abs() <= mean * f64::EPSILON, "{} {mean}", found.mean);
@@ -197,7 +199,9 @@ mod tests {
         let mut map = sample();
         let exact = |value: f64| f64::from((value * 64.0).round() as i16) / 64.0;
         let Values::Scalar(values) = &mut map.channels[0].values else { panic!("the sample is in double precision") };
-        values.iter_mut().for_each(|value| *value = exact(*value));
+        for value in values.iter_mut() {
+            *value = exact(*value);
+        }
         let (double, counted) = (statistics(&map, &Quantity::Irradiance), counts(&map));
         let Values::Scalar(values) = &map.channels[0].values else { unreachable!("it was above") };
         map.channels[0].values = Values::Single(values.iter().map(|value| *value as f32).collect());

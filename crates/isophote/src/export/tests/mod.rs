@@ -110,7 +110,7 @@ fn the_same_map_gives_the_same_bytes() {
     let mut tall = sample();
     only(&mut tall, &(0..8 * 1000).map(|index| f64::from(index).sqrt()).collect::<Vec<_>>());
     tall.region.size = Resolution { width: 8, height: 1000 };
-    tall.mask = Mask::of_shapes(tall.region.size, &[0; 8 * 1000]);
+    tall.mask = Mask::of_shapes(tall.region.size, &vec![0; 8 * 1000]);
     for (map, format) in Format::ALL.iter().flat_map(|format| [(sample(), *format), (tall.clone(), *format)]) {
         let first = encoded(&map, format).unwrap();
         let second = std::thread::spawn(move || encoded(&map, format).unwrap()).join().unwrap();
