@@ -199,7 +199,7 @@ mod tests {
         let mut map = sample();
         let exact = |value: f64| f64::from((value * 64.0).round() as i16) / 64.0;
         let Values::Scalar(values) = &mut map.channels[0].values else { panic!("the sample is in double precision") };
-        for value in values.iter_mut() {
+        for value in values {
             *value = exact(*value);
         }
         let (double, counted) = (statistics(&map, &Quantity::Irradiance), counts(&map));
