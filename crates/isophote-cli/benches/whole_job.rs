@@ -23,6 +23,10 @@ fn whole_job(criterion: &mut Criterion) {
         ("no work: --version", ["--version"].as_slice()),
         ("800×600 to png", &[]),
         ("800×600 to exr, all channels", &["render", "-o", "lab.exr"]),
+        (
+            "3840×2160 to exr, brightness",
+            &["render", "-o", "lab.exr", "--size", "3840x2160", "--channel", "brightness"],
+        ),
         ("3840×2160 to png", &["render", "-o", "lab.png", "--size", "3840x2160"]),
         ("a probe, explained", &["probe", "--at", "0,0,4", "--explain"]),
     ] {

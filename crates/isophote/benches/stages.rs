@@ -4,9 +4,10 @@ use std::hint::black_box;
 use std::io::Cursor;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use isophote::analysis::statistics::statistics;
 use isophote::export::png::PictureOptions;
 use isophote::export::{exr, figure, npz, png};
-use isophote::map::{Map, Quantity};
+use isophote::map::{Map, Quantity, Resolution};
 use isophote::prepare::PreparedScene;
 use isophote::lanes::Precision;
 use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
@@ -86,5 +87,23 @@ fn export(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(stages, read, prepare, kernel, many_lights, export);
+/// An image whose buffers no longer fit into a cache: what is done for each pixel of the background shows here.
+fn large(criterion: &mut Criterion) {
+    let scene = lab().with_resolution(Resolution { width: 3840, height: 2160 }).expect("an allowed size");
+    let quantities = [Quantity::Brightness, Quantity::Shape];
+    let map = render(&Lanes::new(Precision::Double, None), &PreparedScene::new(&scene), &quantities);
+    let mut group = criterion.benchmark_group("export 3840×2160");
+    group.sample_size(20);
+    group.bench_function("statistics", |bencher| bencher.iter(|| black_box(statistics(&map, &Quantity::Brightness))));
+    group.bench_function("png", |bencher| {
+        let options = PictureOptions::new(Quantity::Brightness);
+        bencher.iter(|| png::write(&map, &options, &mut Vec::new()).expect("memory is there"));
+    });
+    group.bench_function("exr, brightness and shape", |bencher| {
+        bencher.iter(|| exr::write(&map, &mut Cursor::new(Vec::new())).expect("memory is there"));
+    });
+    group.finish();
+}
+
+criterion_group!(stages, read, prepare, kernel, many_lights, export, large);
 criterion_main!(stages);

@@ -1,6 +1,6 @@
 //! Extremes and mean of a channel.
 
-use crate::map::{Map, Pixel, Quantity, Scalars};
+use crate::map::{Map, Mask, Pixel, Quantity, Run, Scalars};
 use crate::real::Sum;
 
 /// Statistics of a scalar channel over the pixels that see a surface.
@@ -35,35 +35,185 @@ pub struct Counts {
 }
 
 /// Statistics of a channel; nothing if no surface is visible, or if the map has no such scalar channel.
+///
+/// The mean is that of eight compensated sums: the i-th pixel of a run goes into sum i mod 8, and in the end they are
+/// added in order, with compensation too. It is the same on every machine.
 #[must_use]
 pub fn statistics(map: &Map, quantity: &Quantity) -> Option<Statistics> {
-    let values = map.scalar(quantity)?;
-    let first = map.mask().indices().next()?;
-    let (mut max, mut min) = ((first, values.at(first)), (first, values.at(first)));
-    let mut sum = Sum::new();
-    let mut count = 0.0;
-    for index in map.mask().indices() {
-        let value = values.at(index);
-        if value > max.1 {
-            max = (index, value);
+    match map.scalar(quantity)? {
+        Scalars::Double(values) => statistics_of(map, values),
+        Scalars::Single(values) => statistics_of(map, values),
+    }
+}
+
+fn statistics_of<T: Copy + Into<f64>>(map: &Map, values: &[T]) -> Option<Statistics> {
+    let mask = map.mask();
+    let first = mask.runs().first()?.start;
+    let (mut max, mut min) = ((first, values[first].into()), (first, values[first].into()));
+    let mut lanes = Lanes::default();
+    for run in mask.runs() {
+        let values = &values[run.start..run.end];
+        let find = |extreme: f64| run.start + values.iter().position(|value| (*value).into() == extreme).unwrap_or(0);
+        let [low, high] = lanes.add(values);
+        if high > max.1 {
+            max = (find(high), high);
         }
-        if value < min.1 {
-            min = (index, value);
+        if low < min.1 {
+            min = (find(low), low);
         }
-        sum.add(value);
-        count += 1.0;
     }
     let extreme = |(index, value)| Extreme { value, pixel: map.pixel(index) };
-    Some(Statistics { max: extreme(max), min: extreme(min), mean: sum.value() / count })
+    #[expect(clippy::cast_precision_loss, reason = "an image has fewer than 2^53 pixels")]
+    let count = mask.visible() as f64;
+    Some(Statistics { max: extreme(max), min: extreme(min), mean: lanes.sum() / count })
+}
+
+/// The largest value at pixels that see a surface; nothing if there is none.
+pub(crate) fn largest(mask: &Mask, values: Scalars<'_>) -> Option<f64> {
+    let of_run = |run: &Run| match values {
+        Scalars::Double(values) => largest_of(&values[run.start..run.end]),
+        Scalars::Single(values) => largest_of(&values[run.start..run.end]),
+    };
+    mask.runs().iter().map(of_run).reduce(f64::max)
 }
 
 /// Counts the pixels of a map.
 #[must_use]
 pub fn counts(map: &Map) -> Counts {
-    let lit = |values: Scalars<'_>| map.mask().indices().filter(|&index| values.at(index) > 0.0).count();
+    let mask = map.mask();
+    let lit_in_run = |values: Scalars<'_>, run: &Run| match values {
+        Scalars::Double(values) => positive(&values[run.start..run.end]),
+        Scalars::Single(values) => positive(&values[run.start..run.end]),
+    };
+    let lit = |values| mask.runs().iter().map(|run| lit_in_run(values, run)).sum();
     Counts {
         pixels: map.region.size.pixels(),
-        visible: map.mask().visible(),
+        visible: mask.visible(),
         lit: map.scalar(&Quantity::Irradiance).map(lit),
+    }
+}
+
+/// Values that are taken at once: the compiler makes vectors of these arrays, which it does not of a [`Sum`] each.
+const LANES: usize = 8;
+
+/// Compensated sums, as [`Sum`] makes them: the i-th value goes into lane i mod [`LANES`].
+#[derive(Default)]
+struct Lanes {
+    totals: [f64; LANES],
+    lost: [f64; LANES],
+}
+
+impl Lanes {
+    /// Adds the values; gives the smallest and the largest of them.
+    fn add<T: Copy + Into<f64>>(&mut self, values: &[T]) -> [f64; 2] {
+        let (mut low, mut high) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
+        let mut add = |lane: usize, value: f64| {
+            low[lane] = if value < low[lane] { value } else { low[lane] };
+            high[lane] = if value > high[lane] { value } else { high[lane] };
+            let total = self.totals[lane] + value;
+            let kept = total - self.totals[lane];
+            self.lost[lane] += (self.totals[lane] - (total - kept)) + (value - kept);
+            self.totals[lane] = total;
+        };
+        let (blocks, rest) = values.as_chunks::<LANES>();
+        for block in blocks {
+            for (lane, value) in block.iter().enumerate() {
+                add(lane, (*value).into());
+            }
+        }
+        for (lane, value) in rest.iter().enumerate() {
+            add(lane, (*value).into());
+        }
+        [low.into_iter().fold(f64::INFINITY, f64::min), high.into_iter().fold(f64::NEG_INFINITY, f64::max)]
+    }
+
+    fn sum(&self) -> f64 {
+        let mut sum = Sum::new();
+        for term in self.totals.iter().chain(&self.lost) {
+            sum.add(*term);
+        }
+        sum.value()
+    }
+}
+
+fn largest_of<T: Copy + Into<f64>>(values: &[T]) -> f64 {
+    let larger = |largest: f64, value: &T| if (*value).into() > largest { (*value).into() } else { largest };
+    values.iter().fold(f64::NEG_INFINITY, larger)
+}
+
+fn positive<T: Copy + Into<f64>>(values: &[T]) -> usize {
+    values.iter().filter(|value| (**value).into() > 0.0).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::Values;
+    use crate::sample_map::{Seen, square_map};
+
+    /// Runs of every length from 0 to 37, at both ends of rows; the extremes come twice.
+    fn sample() -> Map {
+        let value = |x: f64, y: f64| 2.0 + (3.0 * x).sin() * (5.0 * y).cos();
+        let mut map =
+            square_map(37, 37.0, |x, y| (x.abs() > y).then(|| Seen { brightness: value(x.abs(), y), shape: 0 }));
+        map.channels[0].quantity = Quantity::Irradiance;
+        map
+    }
+
+    fn seen(map: &Map) -> Vec<(usize, f64)> {
+        let values = map.scalar(&Quantity::Irradiance).unwrap();
+        map.mask().indices().map(|index| (index, values.at(index))).collect()
+    }
+
+    #[test]
+    fn extremes_are_the_first_ones_and_the_mean_is_that_of_all_visible_pixels() {
+        let map = sample();
+        let seen = seen(&map);
+        let found = statistics(&map, &Quantity::Irradiance).unwrap();
+        let highest = seen.iter().map(|(_, value)| *value).fold(f64::MIN, f64::max);
+        let lowest = seen.iter().map(|(_, value)| *value).fold(f64::MAX, f64::min);
+        let first = |wanted: f64| map.pixel(seen.iter().find(|(_, value)| *value == wanted).unwrap().0);
+        assert_eq!(found.max, Extreme { value: highest, pixel: first(highest) });
+        assert_eq!(found.min, Extreme { value: lowest, pixel: first(lowest) });
+        let mut sum = Sum::<f64>::new();
+        for (_, value) in &seen {
+            sum.add(*value);
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a small map")]
+        let mean = sum.value() / seen.len() as f64;
+        assert!((found.mean - mean).abs() <= mean * f64::EPSILON, "{} {mean}", found.mean);
+        assert_eq!(largest(map.mask(), map.scalar(&Quantity::Irradiance).unwrap()), Some(highest));
+    }
+
+    #[test]
+    fn a_lane_keeps_what_plain_addition_loses() {
+        let mut lanes = Lanes::default();
+        lanes.add(&[1.0; LANES]);
+        lanes.add(&vec![1e-17; 1_000_000 * LANES]);
+        assert_eq!(lanes.sum(), 8.0 * (1.0 + 1e-11));
+    }
+
+    #[test]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded first to what single precision has exactly")]
+    fn single_precision_has_the_statistics_of_its_values() {
+        let mut map = sample();
+        let exact = |value: f64| f64::from((value * 64.0).round() as i16) / 64.0;
+        let Values::Scalar(values) = &mut map.channels[0].values else { panic!("the sample is in double precision") };
+        for value in values {
+            *value = exact(*value);
+        }
+        let (double, counted) = (statistics(&map, &Quantity::Irradiance), counts(&map));
+        let Values::Scalar(values) = &map.channels[0].values else { unreachable!("it was above") };
+        map.channels[0].values = Values::Single(values.iter().map(|value| *value as f32).collect());
+        assert_eq!(statistics(&map, &Quantity::Irradiance), double);
+        assert_eq!(counts(&map), counted);
+        assert_eq!(counted.lit, Some(seen(&map).iter().filter(|(_, value)| *value > 0.0).count()));
+    }
+
+    #[test]
+    fn a_map_without_a_surface_has_no_statistics() {
+        let map = square_map(3, 1.0, |_, _| None);
+        assert_eq!(statistics(&map, &Quantity::Brightness), None);
+        assert_eq!(counts(&map), Counts { pixels: 9, visible: 0, lit: None });
     }
 }

@@ -12,6 +12,9 @@ use super::ExportError;
 ///
 /// The bytes go into a hidden file in the same folder, which is renamed in the end, and removed on any error. A link
 /// is followed: its target is replaced, not the link. The file gets the permissions of any newly created one.
+/// Whatever ends the program, the file is whole, old or new. After a loss of power it may be neither: that would take
+/// waiting for the disk (measured: 0.4 to 4 ms for 10 kB, 30 to 70 ms for 20 MB), and a map can be computed again.
+///
 /// To interrupt, let `write` return an error; its kind must not be `Interrupted`, at which `write_all` tries again.
 ///
 /// # Errors

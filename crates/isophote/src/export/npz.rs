@@ -26,7 +26,11 @@ pub fn write(map: &Map, out: &mut (impl Write + Seek)) -> Result<(), ExportError
     write_text(&mut archive, &FileMetadata::of_stored(map, stored_as).to_json())?;
     start(&mut archive, "mask", size.pixels() as u64)?;
     archive.write_all(&npy::header("|b1", &format!("({}, {})", size.height, size.width)))?;
-    npy::write_numbers(&mut archive, &map.mask().shapes(), |shape| [u8::from(shape >= 0)])?;
+    let mut mask = vec![0; size.pixels()];
+    for run in map.mask().runs() {
+        mask[run.start..run.end].fill(1);
+    }
+    archive.write_all(&mask)?;
     for (channel, name) in map.channels().iter().zip(&names) {
         start(&mut archive, name, bytes(&channel.values))?;
         npy::write_array(&mut archive, size, &channel.values)?;

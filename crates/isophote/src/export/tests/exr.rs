@@ -2,7 +2,7 @@ use std::{collections::BTreeMap, io::Cursor};
 
 use exr::prelude::*;
 
-use super::{encoded, only, sample};
+use super::{encoded, in_single_precision, only, rows, sample};
 use crate::{
     export::Format,
     map::{Channel, Map, Quantity, Values},
@@ -73,6 +73,34 @@ fn every_channel_reads_back_rounded_to_32_bits() {
     assert_eq!(channels["P.Z"], [1e-7, 0.0, 2.5, 1.0, 1.0, 0.0]);
     assert_eq!(channels["N.Y"], [-1.0_f32 / 3.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     assert_eq!(channels["shape.index"], [0.0, -1.0, 7.0, 0.0, 1.0, -1.0]);
+}
+
+/// Blocks of 16 rows: with runs at both ends of rows, two of background alone, one of noise that does not become
+/// shorter, and one that is cut off by the image's end.
+#[test]
+#[expect(clippy::cast_possible_truncation, reason = "the format's rounding is what is compared")]
+fn blocks_with_and_without_a_surface_read_back_as_they_are() {
+    let noise =
+        |index: u32| f64::from(f32::from_bits(0x3f00_0000 + (index + 1).wrapping_mul(2_654_435_761) % (1 << 24)));
+    let brightness: Vec<f64> = (0..7 * 90)
+        .map(|index| match (index / 7, index % 7) {
+            (0..16, 0 | 1 | 6) | (80.., 3..) => f64::from(index) + 0.1,
+            (48..64, _) => noise(index),
+            _ => 0.0,
+        })
+        .collect();
+    let map = rows(7, &brightness);
+    let channels = channels(&image(&map));
+    assert_eq!(channels["Y"], brightness.iter().map(|value| *value as f32).collect::<Vec<_>>());
+    let shapes = brightness.iter().map(|value| if *value == 0.0 { -1.0 } else { 0.0 });
+    assert_eq!(channels["shape.index"], shapes.collect::<Vec<f32>>());
+}
+
+#[test]
+fn single_precision_gives_the_same_file_as_double() {
+    let mut map = sample();
+    map.channels[5].values = Values::Scalar(vec![0.25; 6]);
+    assert!(encoded(&in_single_precision(&map), Format::Exr).unwrap() == encoded(&map, Format::Exr).unwrap());
 }
 
 #[test]

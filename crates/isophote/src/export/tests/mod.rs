@@ -65,6 +65,29 @@ fn only(map: &mut Map, brightness: &[f64]) {
     ];
 }
 
+/// So many pixels of one row or many, seen where the value is not 0.
+fn rows(width: u32, brightness: &[f64]) -> Map {
+    let mut map = sample();
+    only(&mut map, brightness);
+    let shapes: Vec<i32> = brightness.iter().map(|value| if *value == 0.0 { -1 } else { 0 }).collect();
+    map.region.size = Resolution { width, height: u32::try_from(brightness.len()).unwrap() / width };
+    map.mask = Mask::of_shapes(map.region.size, &shapes);
+    map.channels[1].values = Values::Index(shapes);
+    map
+}
+
+/// The same map with its scalar channels in single precision.
+#[expect(clippy::cast_possible_truncation, reason = "that is what it is for")]
+fn in_single_precision(map: &Map) -> Map {
+    let mut map = map.clone();
+    for channel in &mut map.channels {
+        if let Values::Scalar(values) = &channel.values {
+            channel.values = Values::Single(values.iter().map(|value| *value as f32).collect());
+        }
+    }
+    map
+}
+
 fn encode(map: &Map, format: Format, out: &mut (impl Write + Seek)) -> Result<(), ExportError> {
     match format {
         Format::Png => super::png::write(map, &PictureOptions::new(Quantity::Brightness), out).map(|_| ()),
@@ -87,6 +110,7 @@ fn the_same_map_gives_the_same_bytes() {
     let mut tall = sample();
     only(&mut tall, &(0..8 * 1000).map(|index| f64::from(index).sqrt()).collect::<Vec<_>>());
     tall.region.size = Resolution { width: 8, height: 1000 };
+    tall.mask = Mask::of_shapes(tall.region.size, &vec![0; 8 * 1000]);
     for (map, format) in Format::ALL.iter().flat_map(|format| [(sample(), *format), (tall.clone(), *format)]) {
         let first = encoded(&map, format).unwrap();
         let second = std::thread::spawn(move || encoded(&map, format).unwrap()).join().unwrap();

@@ -1,8 +1,8 @@
 use image::{DynamicImage, ImageFormat};
 
-use super::{only, sample};
+use super::{in_single_precision, only, rows, sample};
 use crate::{
-    export::png::{Depth, PictureColor, PictureOptions, PictureReport, write},
+    export::png::{Depth, PictureColor, PictureOptions, PictureReport, rounded, write},
     map::{Map, Quantity},
 };
 
@@ -35,6 +35,36 @@ fn sixteen_bits_reach_65535() {
     let (image, _) = picture(&sample(), &PictureOptions { depth: Depth::Sixteen, ..brightness() });
     assert_eq!(image, DynamicImage::ImageLuma16(image.to_luma16()));
     assert_eq!(image.to_luma16().into_raw(), [16384, 0, 65535, 3277, 32768, 0]);
+}
+
+#[test]
+fn levels_are_rounded_to_nearest_and_halves_upwards() {
+    assert_eq!(rounded(0.5_f64.next_down()), 0, "adding a half would make it 1");
+    for level in 0..=u16::MAX {
+        let middle = f64::from(level) + 0.5;
+        assert_eq!((rounded(f64::from(level)), rounded(middle.next_down())), (level, level));
+        if level < u16::MAX {
+            assert_eq!((rounded(middle), rounded(middle.next_up())), (level + 1, level + 1));
+        }
+    }
+}
+
+#[test]
+fn runs_that_begin_and_end_with_rows_stay_where_they_are() {
+    let values = [1.0, 0.0, 0.0, 0.0, 0.0, 2.0, 4.0, 4.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 1.0];
+    let map = rows(3, &values);
+    let (image, _) = picture(&map, &PictureOptions { range: Some([-1.0, 4.0]), ..brightness() });
+    assert_eq!(image.to_luma8().into_raw(), [102, 0, 0, 0, 0, 153, 255, 255, 0, 0, 0, 0, 204, 0, 102]);
+}
+
+#[test]
+fn single_precision_gives_the_same_picture_as_double() {
+    let mut map = sample();
+    only(&mut map, &[0.25, 0.5, 1.0, 3.0, 1e-9, 2.5]);
+    for depth in [Depth::Eight, Depth::Sixteen] {
+        let options = PictureOptions { depth, range: Some([0.0, 2.5]), ..brightness() };
+        assert_eq!(picture(&in_single_precision(&map), &options), picture(&map, &options));
+    }
 }
 
 #[test]
