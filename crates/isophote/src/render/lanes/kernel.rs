@@ -175,6 +175,18 @@ struct Sums<V> {
     cos_theta_o: V,
 }
 
+impl<V: Lane> Sums<V> {
+    #[inline(always)]
+    fn diffuse(&self, formula: &BrightnessFormula) -> V {
+        self.irradiance * formula.diffuse_factor(self.cos_theta_o)
+    }
+
+    #[inline(always)]
+    fn specular(&self, formula: &BrightnessFormula) -> V {
+        self.lobes * formula.specular_factor(self.cos_theta_o)
+    }
+}
+
 impl StretchWork<'_, '_> {
     #[inline(always)]
     fn shade<V: Lane>(&mut self, kind: V::Kind, lights: &ShapeLights<V::Element>) {
@@ -188,7 +200,10 @@ impl StretchWork<'_, '_> {
 
     #[inline(always)]
     fn shade_with<V: Lane, L: Lobe<V>>(&mut self, kind: V::Kind, lights: &ShapeLights<V::Element>, lobe: &L) {
-        let row = self.row.map(|value| V::splat(kind, V::Element::from_f64(value)));
+        let row = self.row.map(
+            #[inline(always)]
+            |value| V::splat(kind, V::Element::from_f64(value)),
+        );
         let mut chosen = Vec::new();
         let Stretch { start, end, .. } = self.stretch;
         for chunk in (start..end).step_by(CHUNK as usize) {
@@ -256,13 +271,11 @@ impl StretchWork<'_, '_> {
                 BandChannel::Double(quantity, _) | BandChannel::Single(quantity, _) => *quantity,
                 BandChannel::Position(_) | BandChannel::Normal(_) => continue,
             };
-            let diffuse = || sums.irradiance * formula.diffuse_factor(sums.cos_theta_o);
-            let specular = || sums.lobes * formula.specular_factor(sums.cos_theta_o);
             let values = match quantity {
-                Scalar::Brightness => diffuse() + specular(),
+                Scalar::Brightness => sums.diffuse(formula) + sums.specular(formula),
                 Scalar::Irradiance => sums.irradiance,
-                Scalar::Diffuse => diffuse(),
-                Scalar::Specular => specular(),
+                Scalar::Diffuse => sums.diffuse(formula),
+                Scalar::Specular => sums.specular(formula),
                 Scalar::Light(_) => match singles.next() {
                     Some(light) => sum(kind, point, std::slice::from_ref(light), &NoPower).0,
                     None => unreachable!("a light was placed for every such channel"),
@@ -279,7 +292,10 @@ impl StretchWork<'_, '_> {
 
     #[inline(always)]
     fn store_geometry<V: Lane<Element = f64>>(&mut self, kind: V::Kind) {
-        let row = self.row.map(|value| V::splat(kind, value));
+        let row = self.row.map(
+            #[inline(always)]
+            |value| V::splat(kind, value),
+        );
         let length = self.band.length;
         let mut first = self.stretch.start;
         while first < self.stretch.end {
@@ -361,26 +377,38 @@ fn sum<V: Lane, L: Lobe<V>>(
     lights: &[PlacedLight<V::Element>],
     lobe: &L,
 ) -> (V, V) {
-    let zero = point.cos_theta_o.constant(0.0);
-    let one = point.cos_theta_o.constant(1.0);
-    let plain = |block: &[PlacedLight<V::Element>]| {
-        let (mut irradiance, mut lobes) = (zero, zero);
-        for light in block {
-            let light = light.map(#[inline(always)] |element| V::splat(kind, element));
-            let term = light_term(point, &light, one, lobe);
-            irradiance = irradiance + term.irradiance;
-            lobes = term.irradiance.times_plus(term.lobe, lobes);
-        }
-        (irradiance, lobes)
-    };
     if lights.len() <= BLOCK {
-        return plain(lights);
+        return plain_sum(kind, point, lights, lobe);
     }
+    let zero = point.cos_theta_o.constant(0.0);
     let (mut irradiance, mut lobes) = (Sum::starting_at(zero), Sum::starting_at(zero));
     for block in lights.chunks(BLOCK) {
-        let (of_block, lobes_of_block) = plain(block);
+        let (of_block, lobes_of_block) = plain_sum(kind, point, block, lobe);
         irradiance.add(of_block);
         lobes.add(lobes_of_block);
     }
     (irradiance.value(), lobes.value())
+}
+
+/// The same, by plain addition.
+#[inline(always)]
+fn plain_sum<V: Lane, L: Lobe<V>>(
+    kind: V::Kind,
+    point: &SurfacePoint<V>,
+    lights: &[PlacedLight<V::Element>],
+    lobe: &L,
+) -> (V, V) {
+    let zero = point.cos_theta_o.constant(0.0);
+    let one = point.cos_theta_o.constant(1.0);
+    let (mut irradiance, mut lobes) = (zero, zero);
+    for light in lights {
+        let light = light.map(
+            #[inline(always)]
+            |element| V::splat(kind, element),
+        );
+        let term = light_term(point, &light, one, lobe);
+        irradiance = irradiance + term.irradiance;
+        lobes = term.irradiance.times_plus(term.lobe, lobes);
+    }
+    (irradiance, lobes)
 }
