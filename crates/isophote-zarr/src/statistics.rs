@@ -6,7 +6,6 @@ use isophote::real::Sum;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-
 /// The statistics of one shard.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShardStatistics {

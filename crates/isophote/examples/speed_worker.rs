@@ -130,7 +130,9 @@ fn values(map: &Map, pixels: &[[u32; 2]]) -> Result<Answer, Box<dyn Error>> {
     let value = |&[column, row]: &[u32; 2]| {
         let pixel = Pixel { column, row };
         let index = pixel.row as usize * map.full.width as usize + pixel.column as usize;
-        (index < brightness.len()).then(|| brightness.at(index)).ok_or(format!("column {column}, row {row}: outside the image"))
+        (index < brightness.len())
+            .then(|| brightness.at(index))
+            .ok_or(format!("column {column}, row {row}: outside the image"))
     };
     Ok(Answer::Values(pixels.iter().map(value).collect::<Result<_, _>>()?))
 }

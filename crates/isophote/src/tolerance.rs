@@ -19,6 +19,8 @@ pub struct Tolerance {
     /// On the flank of a highlight the problem itself loses digits too, as n tanθ_h (weighted by the share of each
     /// highlight in the value): `relative` grows by itself for every such flank.
     pub flank: f64,
+    /// Where a channel's peak is less, its numbers have lost digits already by being so small.
+    pub least_peak: f64,
     /// Relative, whatever the cosines, for values above a thousandth of the peak; it grows as `of_peak` does.
     pub at_edges: f64,
 }
@@ -34,6 +36,7 @@ pub const DOUBLE: Tolerance = Tolerance {
     above_value: 1e-6,
     above_cosine: 0.1,
     flank: f64::INFINITY,
+    least_peak: 1e-290,
     at_edges: 1e-9,
 };
 
@@ -50,6 +53,7 @@ pub const SINGLE: Tolerance = Tolerance {
     above_value: 1e-3,
     above_cosine: 0.1,
     flank: 20.0,
+    least_peak: 1e-30,
     at_edges: 1e-4,
 };
 

@@ -5,12 +5,12 @@ mod random;
 use isophote::analysis::probe::Place;
 use isophote::conformance::conforms;
 use isophote::double_double::DoubleDouble;
-use isophote::map::{Pixel, Quantity, Region, Resolution, Values};
+use isophote::lanes::{Instructions, Precision};
+use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::PreparedScene;
 use isophote::real::Scalar;
-use isophote::lanes::{Instructions, Precision};
 use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
-use isophote::scene::source::MaterialSource;
+use isophote::scene::source::{EmissionName, LightSource, MaterialSource};
 use isophote::scene::{Scene, SceneSource, Syntax};
 use isophote::shape::{Geometry, SurfacePoint};
 use isophote::tolerance::{DOUBLE, PROBE, SINGLE};
@@ -39,7 +39,9 @@ fn renderers() -> Vec<Box<dyn Renderer>> {
     let lanes = |instructions| -> Box<dyn Renderer> {
         Box::new(Lanes::new(Precision::Double, None).with_instructions(instructions))
     };
-    std::iter::once::<Box<dyn Renderer>>(Box::new(Reference)).chain(Instructions::all().into_iter().map(lanes)).collect()
+    std::iter::once::<Box<dyn Renderer>>(Box::new(Reference))
+        .chain(Instructions::all().into_iter().map(lanes))
+        .collect()
 }
 
 /// The surface point nearest to `point`, all of it in 32 digits; the eye is outside.
@@ -85,6 +87,95 @@ fn single_precision_is_within_its_tolerance_on_the_scenes_of_the_repository() {
                 .unwrap_or_else(|error| panic!("{name}, {}: {error}", instructions.name()));
             println!("{name} {}: {deviation:?}", instructions.name());
         }
+    }
+}
+
+/// Lights on all sides, of both kinds: blocks of them are skipped below the horizon, and the sums have many terms.
+fn with_many_lights(count: u32) -> SceneSource {
+    let mut source = scene_file("lab.toml");
+    source.probe.clear();
+    let lamp = source.light[0].clone();
+    let light = |index: u32| {
+        let (turn, height) = (f64::from(index) * 2.399_963, 1.0 - 2.0 * (f64::from(index) + 0.5) / f64::from(count));
+        let (ring, distance) = ((1.0 - height * height).sqrt(), 1.5 + f64::from(index % 7));
+        let is_lambertian = index % 3 == 0;
+        LightSource {
+            name: None,
+            position: Some([distance * ring * turn.cos(), distance * height, 5.0 + distance * ring * turn.sin()]),
+            emission: Some(if is_lambertian { EmissionName::Lambertian } else { EmissionName::Isotropic }),
+            target: is_lambertian.then_some([0.0, 0.0, 5.0]),
+            intensity: Some(f64::from(index % 5)),
+            ..lamp.clone()
+        }
+    };
+    source.light = (0..count).map(light).collect();
+    source.camera.get_or_insert_default().screen.get_or_insert_default().x = Some([-1.2, 1.2]);
+    source.camera.get_or_insert_default().screen.get_or_insert_default().y = Some([-1.2, 1.2]);
+    source.camera.get_or_insert_default().resolution = Some([31, 29]);
+    source
+}
+
+#[test]
+fn many_lights_are_summed_within_tolerance() {
+    for count in [64, 65, 1000] {
+        let scene = prepared(with_many_lights(count));
+        for renderer in renderers() {
+            let deviation = conforms(renderer.as_ref(), &scene, &DOUBLE)
+                .unwrap_or_else(|error| panic!("{count} lights, {}: {error}", renderer.name()));
+            assert!(deviation.visible > 400, "{deviation:?}");
+        }
+        conforms(&Lanes::new(Precision::Single, None), &scene, &SINGLE)
+            .unwrap_or_else(|error| panic!("{count} lights: {error}"));
+    }
+}
+
+fn bytes(map: &Map) -> Vec<Vec<u64>> {
+    let pixels = map.region.size.pixels();
+    map.channels().iter().map(|channel| (0..pixels).flat_map(|index| bits(&channel.values, index)).collect()).collect()
+}
+
+/// AVX2 and AVX-512 agree in every bit, and so do all that round products before they add them.
+#[test]
+fn the_bytes_do_not_depend_on_the_width_of_the_registers() {
+    for precision in [Precision::Double, Precision::Single] {
+        for source in [scene_file("two-lights.toml"), with_many_lights(200)] {
+            let scene = prepared(source);
+            let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
+            for fuse in [false, true] {
+                let maps: Vec<_> = Instructions::all()
+                    .into_iter()
+                    .filter(|instructions| instructions.fuse() == fuse)
+                    .map(|instructions| {
+                        let renderer = Lanes::new(precision, None).with_instructions(instructions);
+                        (instructions.name(), renderer.render(&scene, &settings).expect("it renders"))
+                    })
+                    .collect();
+                for (name, map) in maps.iter().skip(1) {
+                    assert!(bytes(map) == bytes(&maps[0].1), "{precision:?}: {name} is not {}", maps[0].0);
+                }
+            }
+        }
+    }
+}
+
+/// What an earlier map saw leaves no trace in the memory that it hands on.
+#[test]
+fn a_map_in_the_memory_of_an_earlier_one_is_the_same() {
+    for precision in [Precision::Double, Precision::Single] {
+        let renderer = Lanes::new(precision, None);
+        let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
+        let mut source = scene_file("lab.toml");
+        source.probe.clear();
+        source.sphere[0].center = Some([-1.0, 0.5, 6.0]);
+        let moved = prepared(source);
+        let scene = prepared(scene_file("lab.toml"));
+        let fresh = renderer.render(&scene, &settings).expect("it renders");
+        let earlier = renderer.render(&moved, &settings).expect("it renders");
+        assert!(renderer.render_again(&scene, &settings, earlier).expect("it renders") == fresh);
+        let other_size = Region { size: Resolution { width: 5, height: 7 }, ..fresh.region };
+        let small = RenderSettings { region: Some(other_size), ..settings.clone() };
+        let earlier = renderer.render(&scene, &small).expect("it renders");
+        assert!(renderer.render_again(&scene, &settings, earlier).expect("it renders") == fresh);
     }
 }
 
@@ -266,10 +357,12 @@ proptest! {
         threads in 1_usize..5,
         corner in (0_u32..32, 0_u32..24),
         size in (1_u32..32, 1_u32..24),
+        is_single in any::<bool>(),
     ) {
         let scene = prepared(source);
         let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
-        let renderer = |threads: usize| Lanes::new(Precision::Double, threads.try_into().ok());
+        let precision = if is_single { Precision::Single } else { Precision::Double };
+        let renderer = |threads: usize| Lanes::new(precision, threads.try_into().ok());
         let whole = renderer(1).render(&scene, &settings).expect("it renders");
         let region = Region {
             corner: Pixel { column: corner.0, row: corner.1 },

@@ -66,9 +66,8 @@ fn empty_channel(
         index.map(|index| memory.swap_remove(index))
     };
     let values = match quantity {
-        Quantity::Position | Quantity::Normal => {
-            reuse(|values| matches!(values, Values::Vector(_))).unwrap_or_else(|| Values::Vector(vec![[0.0; 3]; pixels]))
-        }
+        Quantity::Position | Quantity::Normal => reuse(|values| matches!(values, Values::Vector(_)))
+            .unwrap_or_else(|| Values::Vector(vec![[0.0; 3]; pixels])),
         // Written as a whole when the mask is known.
         Quantity::Shape => Values::Index(Vec::new()),
         _ if precision == Precision::Single && *quantity != Quantity::Depth => {
@@ -252,10 +251,7 @@ impl Band<'_> {
     /// Whether depth, position or normal are asked for.
     pub fn has_geometry(&self) -> bool {
         let is_geometry = |channel: &BandChannel<'_>| {
-            matches!(
-                channel,
-                BandChannel::Double(Scalar::Depth, _) | BandChannel::Position(_) | BandChannel::Normal(_)
-            )
+            matches!(channel, BandChannel::Double(Scalar::Depth, _) | BandChannel::Position(_) | BandChannel::Normal(_))
         };
         self.channels.iter().any(is_geometry)
     }
@@ -303,7 +299,9 @@ impl Band<'_> {
 /// Adds a run, or lengthens the last one if it goes on there in the same row.
 pub fn extend(runs: &mut Vec<Run>, run: Run, width: usize) {
     match runs.last_mut() {
-        Some(last) if last.end == run.start && last.shape == run.shape && !run.start.is_multiple_of(width) => last.end = run.end,
+        Some(last) if last.end == run.start && last.shape == run.shape && !run.start.is_multiple_of(width) => {
+            last.end = run.end;
+        }
         _ => runs.push(run),
     }
 }

@@ -1,13 +1,13 @@
 //! From a prepared scene to a map.
 
-mod reference;
 mod band;
 mod lanes;
+mod reference;
 
 use std::ops::ControlFlow;
 
-pub use reference::Reference;
 pub use lanes::Lanes;
+pub use reference::Reference;
 
 use crate::map::{Map, Pixel, Quantity, Region, Resolution};
 use crate::prepare::PreparedScene;

@@ -239,9 +239,8 @@ impl<'f> Pixels<'f> {
     fn new(frame: &'f CameraFrame<DoubleDouble>) -> Self {
         let exact = DoubleDouble::from_f64;
         let per_distance = exact(1.0) / exact(frame.screen.distance);
-        let step = |first: f64, last: f64, count: u32| {
-            (exact(last) - exact(first)) * per_distance / exact(f64::from(count))
-        };
+        let step =
+            |first: f64, last: f64, count: u32| (exact(last) - exact(first)) * per_distance / exact(f64::from(count));
         let [left, right] = frame.screen.x;
         let [bottom, top] = frame.screen.y;
         Self {

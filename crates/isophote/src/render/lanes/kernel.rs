@@ -55,7 +55,8 @@ impl LaneJob for BandJob<'_, '_> {
         for row in seen {
             view.look(self.scene, &self.candidates, row, &columns);
             for stretch in &view.stretches {
-                let Ok(index) = self.candidates.binary_search_by_key(&stretch.shape, |candidate| candidate.shape) else {
+                let Ok(index) = self.candidates.binary_search_by_key(&stretch.shape, |candidate| candidate.shape)
+                else {
                     unreachable!("what is seen is among the candidates");
                 };
                 let ellipse = self.candidates[index].ellipse;

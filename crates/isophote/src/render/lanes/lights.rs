@@ -86,9 +86,10 @@ fn fits_single(lights: &[PlacedLight], shininess: Option<f64>) -> bool {
 
 /// Along a curve that keeps neighbours together (Morton's), so that blocks are small in space.
 fn sort_by_place(lights: &mut [PlacedLight]) {
-    let bounds = lights.iter().flat_map(|light| light.position.to_array()).fold([0.0, 0.0], |[low, high]: [f64; 2], x| {
-        [low.min(x), high.max(x)]
-    });
+    let bounds = lights
+        .iter()
+        .flat_map(|light| light.position.to_array())
+        .fold([0.0, 0.0], |[low, high]: [f64; 2], x| [low.min(x), high.max(x)]);
     let size = (bounds[1] - bounds[0]).max(f64::MIN_POSITIVE);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 2^20")]
     let cell = |x: f64| ((x - bounds[0]) / size * 1_048_575.0) as u64;
@@ -112,7 +113,12 @@ impl<E: Element> ShapeLights<E> {
     /// The lights that may be above the horizon of any point of a cap, given by the direction of its middle and the
     /// largest distance of its points from that, in radii. A light at S is above the horizon of the point N of the unit
     /// sphere where N·S > 1. Each light is tested but those of a block that is below as a whole.
-    pub fn above_horizon<'l>(&'l self, middle: Vector, reach: f64, chosen: &'l mut Vec<PlacedLight<E>>) -> &'l [PlacedLight<E>] {
+    pub fn above_horizon<'l>(
+        &'l self,
+        middle: Vector,
+        reach: f64,
+        chosen: &'l mut Vec<PlacedLight<E>>,
+    ) -> &'l [PlacedLight<E>] {
         if self.blocks.is_empty() {
             return &self.lights;
         }
