@@ -12,7 +12,7 @@ def description() -> dict[str, str]:
         "processor": _processor(),
         "cores": str(os.cpu_count()),
         "memory": _memory(),
-        "system": f"{_system()}, Linux {platform.release()}" if platform.system() == "Linux" else platform.platform(),
+        "system": f"{_system()}, Linux {_kernel()}" if platform.system() == "Linux" else platform.platform(),
     }
 
 
@@ -28,6 +28,11 @@ def _processor() -> str:
 def _memory() -> str:
     kilobytes = _value(Path("/proc/meminfo"), "MemTotal")
     return f"{int(kilobytes.split()[0]) / 2**20:.0f} GiB" if kilobytes else "unknown"
+
+
+def _kernel() -> str:
+    """Its version, without what its makers append."""
+    return ".".join(platform.release().split("-")[0].split(".")[:2])
 
 
 def _system() -> str:

@@ -27,7 +27,7 @@ pub fn watch_for_interrupts() {
     });
 }
 
-/// From now on Ctrl-C ends the work at the next row or block, with everything cleaned up.
+/// From now on Ctrl-C ends the work at the next place where it asks for it, with everything cleaned up.
 pub fn end_in_order() {
     ENDS_IN_ORDER.store(true, Ordering::Relaxed);
 }

@@ -10,6 +10,7 @@ use isophote::export::FileMetadata;
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::render::Renderer;
+use isophote::scene::{Scene, Syntax};
 
 use crate::array::ChannelArray;
 use crate::describe;
@@ -190,9 +191,18 @@ impl Store {
         }
     }
 
-    /// The descriptions of arrays that are not those which the group lists.
+    /// The descriptions of arrays that are not those which the group lists, and coordinates that are not the scene's.
     fn damaged_descriptions(&self) -> Result<Vec<Damage>, StoreError> {
         let mut damages = Vec::new();
+        let metadata = &self.identity.metadata;
+        let scene = Scene::from_text("the store's scene", &metadata.scene, Syntax::Toml)
+            .map_err(|error| StoreError::Damaged { path: self.files.path(ZARR_JSON), reason: error.to_string() })?;
+        for (name, _, bytes) in describe::coordinates(&PreparedScene::new(&scene), &metadata.window)? {
+            let file = format!("{name}/c/0");
+            if self.files.get(&file)?.as_ref() != Some(&bytes) {
+                damages.push(Damage { place: file, reason: "is missing or changed".into() });
+            }
+        }
         for (name, metadata) in &self.identity.arrays {
             let file = format!("{name}/{ZARR_JSON}");
             if self.files.get(&file)?.as_deref() != Some(&pretty(metadata)) {

@@ -9,7 +9,7 @@ use isophote::lanes::{Instructions, Precision};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::PreparedScene;
 use isophote::real::Scalar;
-use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
+use isophote::render::{Lanes, Reference, RenderError, RenderSettings, Renderer};
 use isophote::scene::source::{EmissionName, LightSource, MaterialSource};
 use isophote::scene::{Scene, SceneSource, Syntax};
 use isophote::shape::{Geometry, SurfacePoint};
@@ -156,6 +156,53 @@ fn the_bytes_do_not_depend_on_the_width_of_the_registers() {
             }
         }
     }
+}
+
+/// With many lights too, where neighbouring pixels share a choice of lights.
+#[test]
+fn a_region_lit_by_many_lights_is_a_part_of_the_whole() {
+    for precision in [Precision::Double, Precision::Single] {
+        let mut source = with_many_lights(400);
+        source.camera.get_or_insert_default().resolution = Some([300, 9]);
+        let scene = prepared(source);
+        let renderer = Lanes::new(precision, None);
+        let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
+        let whole = renderer.render(&scene, &settings).expect("it renders");
+        for column in [50, 128, 131, 200] {
+            let size = Resolution { width: 90, height: 9 };
+            let region = Some(Region { corner: Pixel { column, row: 0 }, size });
+            let part = renderer.render(&scene, &RenderSettings { region, ..settings.clone() }).expect("it renders");
+            for index in 0..size.pixels() {
+                let Pixel { column, row } = part.pixel(index);
+                let in_whole = row as usize * 300 + column as usize;
+                let values = |map: &Map, index| bits(&map.channels()[0].values, index);
+                assert_eq!(values(&part, index), values(&whole, in_whole), "{precision:?}, column {column}, row {row}");
+            }
+        }
+    }
+}
+
+/// Next to a surface, far away, and as strong as a scene allows: what single precision cannot compute is computed in
+/// double, and what it cannot hold is an error.
+#[test]
+fn single_precision_keeps_its_bound_for_lights_anywhere() {
+    let with_light = |z: f64, intensity: f64| {
+        let mut source = scene_file("lab.toml");
+        source.probe.clear();
+        source.light[0].position = Some([0.0, 0.0, z]);
+        source.light[0].intensity = Some(intensity);
+        source.camera.get_or_insert_default().resolution = Some([41, 31]);
+        prepared(source)
+    };
+    let renderer = Lanes::new(Precision::Single, None);
+    for z in [3.999, 3.99, 3.95, 3.8, 3.0, -100.0, -1e4, -1e6, -1e9] {
+        conforms(&renderer, &with_light(z, 100.0), &SINGLE).unwrap_or_else(|error| panic!("z = {z}: {error}"));
+    }
+    let error = renderer.render(
+        &with_light(3.999_999, 1e30),
+        &RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() },
+    );
+    assert!(matches!(error, Err(RenderError::Overflow { .. })), "{error:?}");
 }
 
 /// What an earlier map saw leaves no trace in the memory that it hands on.

@@ -92,6 +92,8 @@ pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
 
 /// Puts the parts of a store together.
 pub fn merge(arguments: &MergeArguments) -> Result<String> {
+    // Ctrl-C must not say that nothing was written once a record may be gone.
+    end_in_order();
     let store = Store::open(&arguments.store).map_err(explained)?;
     let name = arguments.store.display().to_string();
     let scene = PreparedScene::new(&Scene::from_text(&name, &store.metadata().scene, Syntax::Toml)?);

@@ -12,8 +12,8 @@ use super::{
 };
 use crate::map::{Map, Quantity, Resolution, Values};
 
-/// Writes the channel: 64-bit numbers of shape (rows, columns), vectors with a third axis of 3, indices as 32-bit
-/// integers. Missed pixels hold 0, or −1 in the index.
+/// Writes the channel: 64-bit numbers of shape (rows, columns), 32-bit where the map was computed in single precision,
+/// vectors with a third axis of 3, indices as 32-bit integers. Missed pixels hold 0, or −1 in the index.
 ///
 /// # Errors
 /// No such channel; an error of `out`.

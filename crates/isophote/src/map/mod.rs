@@ -196,6 +196,14 @@ pub enum MapError {
         /// How many it should have.
         pixels: usize,
     },
+    /// A value where no surface is.
+    #[error("the channel ‘{name}’ is not 0 at pixel {index}, where no surface is seen")]
+    Background {
+        /// The channel.
+        name: String,
+        /// The first such pixel: row × width + column.
+        index: usize,
+    },
     /// Nothing says what is seen where.
     #[error("there is no channel ‘shape’ with an index for each pixel")]
     NoShape,
@@ -205,7 +213,7 @@ impl Map {
     /// A map of a whole image, from numbers that were not rendered as one.
     ///
     /// # Errors
-    /// Channels whose lengths are not the number of pixels; none that holds the shapes.
+    /// Channels whose lengths are not the number of pixels; none that holds the shapes; a value where no surface is.
     pub fn new(
         full: Resolution,
         window: Window,
@@ -223,7 +231,19 @@ impl Map {
             Values::Index(shapes) if channel.quantity == Quantity::Shape => Some(shapes),
             _ => None,
         });
-        let mask = Mask::of_shapes(full, shapes.ok_or(MapError::NoShape)?);
+        let shapes = shapes.ok_or(MapError::NoShape)?;
+        for channel in &channels {
+            let is_empty = |index: usize| match &channel.values {
+                Values::Scalar(values) => values[index] == 0.0,
+                Values::Single(values) => values[index] == 0.0,
+                Values::Vector(values) => values[index] == [0.0; 3],
+                Values::Index(values) => values[index] < 0,
+            };
+            if let Some(index) = (0..pixels).find(|&index| shapes[index] < 0 && !is_empty(index)) {
+                return Err(MapError::Background { name: channel.quantity.name(), index });
+            }
+        }
+        let mask = Mask::of_shapes(full, shapes);
         Ok(Self { full, region: Region::all(full), window, provenance, mask, channels })
     }
 

@@ -226,11 +226,15 @@ impl Band<'_> {
     /// Fills the band pixel by pixel, and says what its pixels see.
     pub fn render(&mut self, scene: &PreparedScene, observer: Option<&dyn Observer>) -> Result<Vec<Run>, RenderError> {
         let mut runs = Vec::new();
+        let asks_often = scene.scene().lights().len() > 1000;
         for row in 0..self.size.height {
             for column in 0..self.size.width {
+                if asks_often {
+                    advance(observer, 0)?;
+                }
                 let pixel = Pixel { column: self.first.column + column, row: self.first.row + row };
                 if let Some(hit) = scene.trace_pixel(pixel) {
-                    self.store(pixel, scene, &hit);
+                    self.store(pixel, scene, &hit)?;
                     self.see(pixel, &hit, &mut runs);
                 }
             }
@@ -270,7 +274,7 @@ impl Band<'_> {
     }
 
     /// Shades what is seen at a pixel and stores it.
-    pub fn store(&mut self, pixel: Pixel, scene: &PreparedScene, hit: &Hit) {
+    pub fn store(&mut self, pixel: Pixel, scene: &PreparedScene, hit: &Hit) -> Result<(), RenderError> {
         let index = self.index(pixel);
         let shading = scene.shade(hit.shape, &hit.point, |_, _| {});
         let length = self.length;
@@ -285,7 +289,13 @@ impl Band<'_> {
         for channel in &mut self.channels {
             match channel {
                 BandChannel::Double(quantity, values) => values[index] = scalar(*quantity),
-                BandChannel::Single(quantity, values) => values[index] = f32::from_f64(scalar(*quantity)),
+                BandChannel::Single(quantity, values) => {
+                    let value = scalar(*quantity);
+                    values[index] = f32::from_f64(value);
+                    if !values[index].is_finite() {
+                        return Err(RenderError::Overflow { pixel, value });
+                    }
+                }
                 BandChannel::Position(values) => {
                     let position = hit.point.position().to_array();
                     values[index] = position.map(|coordinate| length.from_metres(coordinate));
@@ -293,6 +303,7 @@ impl Band<'_> {
                 BandChannel::Normal(values) => values[index] = hit.point.normal.to_array(),
             }
         }
+        Ok(())
     }
 }
 

@@ -81,6 +81,14 @@ pub enum RenderError {
         /// What was asked for.
         name: String,
     },
+    /// Single precision cannot hold a value.
+    #[error("column {}, row {}: {value:e} is more than single precision holds (3.4e38); double does", pixel.column, pixel.row)]
+    Overflow {
+        /// Where.
+        pixel: Pixel,
+        /// The value.
+        value: f64,
+    },
     /// The observer stopped it.
     #[error("interrupted")]
     Interrupted,

@@ -153,7 +153,8 @@ impl Ellipse {
             return Outline::Unseen;
         }
         if z.rounded() < 1.0 + BEFORE_THE_EYE {
-            return Outline::Unknown;
+            let is_outside = is_beside_the_window([x, y, z].map(DoubleDouble::rounded), frame);
+            return if is_outside { Outline::Unseen } else { Outline::Unknown };
         }
         let a = y * y + z * z - one;
         let z_part = z * z - one;
@@ -210,6 +211,15 @@ impl Ellipse {
         }
     }
 
+    /// Whether the numbers of its rows, and their squares and products, are within the range of single precision.
+    #[must_use]
+    pub fn fits_single(&self) -> bool {
+        let fits = |number: f64| number == 0.0 || (1e-15..1e15).contains(&number.abs());
+        let steps = [self.direction[1], self.direction[2]].into_iter().map(Vector::length);
+        let outline = [self.clearance * self.width_squared, self.rows[1] - self.rows[0], self.center.length()];
+        steps.chain(outline).all(fits)
+    }
+
     /// Its area in pixels.
     #[must_use]
     pub fn area(&self) -> f64 {
@@ -225,6 +235,17 @@ impl Ellipse {
         let direction = row.direction + row.direction_step * u;
         direction.normalized().dot(self.center) - row.clearance_at(u).max(0.0).sqrt()
     }
+}
+
+/// Whether a sphere of radius 1 is wholly beyond one of the four planes through the eye and an edge of the window.
+fn is_beside_the_window([x, y, z]: [f64; 3], frame: &CameraFrame<DoubleDouble>) -> bool {
+    let beyond = |along: f64, [low, high]: [f64; 2]| {
+        let [low, high] = [low, high].map(|edge| edge / frame.screen.distance);
+        let below = (low * z - along) / low.hypot(1.0);
+        let above = (along - high * z) / high.hypot(1.0);
+        below.max(above) > 1.0 + 1e-9
+    };
+    beyond(x, frame.screen.x) || beyond(y, frame.screen.y)
 }
 
 /// The grid of pixel centres on a screen at distance 1.

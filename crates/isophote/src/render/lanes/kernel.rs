@@ -34,6 +34,9 @@ pub struct BandJob<'a, 'm> {
 /// Columns that share a choice of lights.
 const CHUNK: u32 = 128;
 
+/// Lights at pixels that are computed without asking whether to go on: a few milliseconds.
+const UNINTERRUPTED: u64 = 1 << 20;
+
 impl LaneJob for BandJob<'_, '_> {
     type Output = Result<Vec<Run>, RenderError>;
 
@@ -68,12 +71,14 @@ impl LaneJob for BandJob<'_, '_> {
                     radius: geometry.size(),
                     formula: self.scene.formula(stretch.shape),
                     stretch: *stretch,
+                    at_row: row,
+                    observer: self.observer,
                     at: self.band.index(Pixel { column: stretch.start, row }),
                     band: &mut self.band,
                 };
                 match shadings.of(index) {
-                    ShapeShading::Single(lights) => work.shade::<S>(kind, lights),
-                    ShapeShading::Double(lights) => work.shade::<D>(kind, lights),
+                    ShapeShading::Single(lights) => work.shade::<S>(kind, lights)?,
+                    ShapeShading::Double(lights) => work.shade::<D>(kind, lights)?,
                 }
                 if has_geometry {
                     work.store_geometry::<D>(kind);
@@ -81,7 +86,7 @@ impl LaneJob for BandJob<'_, '_> {
             }
             for traced in &view.traced {
                 if let Some(hit) = &traced.hit {
-                    self.band.store(traced.pixel, self.scene, hit);
+                    self.band.store(traced.pixel, self.scene, hit)?;
                 }
             }
             see(&self.band, row, &view, &mut runs);
@@ -124,6 +129,8 @@ fn see(band: &Band<'_>, row: u32, view: &RowView, runs: &mut Vec<Run>) {
 struct Shadings<'a> {
     scene: &'a PreparedScene,
     shapes: Vec<usize>,
+    /// Whether single precision can hold what the outline of each is computed from.
+    holds_single: Vec<bool>,
     wanted: Vec<usize>,
     precision: Precision,
     kept: Vec<Option<ShapeShading>>,
@@ -137,8 +144,15 @@ const KEPT: usize = 1 << 20;
 impl<'a> Shadings<'a> {
     fn new(job: &BandJob<'a, '_>) -> Self {
         let shapes: Vec<usize> = job.candidates.iter().map(|candidate| candidate.shape).collect();
-        let kept = shapes.iter().map(|_| None).collect();
-        Self { scene: job.scene, shapes, wanted: job.band.lights(), precision: job.precision, kept, count: 0 }
+        Self {
+            scene: job.scene,
+            holds_single: job.candidates.iter().map(|candidate| candidate.ellipse.fits_single()).collect(),
+            kept: shapes.iter().map(|_| None).collect(),
+            shapes,
+            wanted: job.band.lights(),
+            precision: job.precision,
+            count: 0,
+        }
     }
 
     fn of(&mut self, index: usize) -> &ShapeShading {
@@ -146,10 +160,11 @@ impl<'a> Shadings<'a> {
             self.kept.fill_with(|| None);
             self.count = 0;
         }
-        let Self { scene, shapes, wanted, precision, kept, count } = self;
+        let Self { scene, shapes, holds_single, wanted, precision, kept, count } = self;
         kept[index].get_or_insert_with(|| {
             *count += scene.scene().lights().len();
-            ShapeShading::new(scene, shapes[index], wanted, *precision)
+            let precision = if holds_single[index] { *precision } else { Precision::Double };
+            ShapeShading::new(scene, shapes[index], wanted, precision)
         })
     }
 }
@@ -163,6 +178,8 @@ struct StretchWork<'w, 'm> {
     radius: f64,
     formula: &'w BrightnessFormula,
     stretch: Stretch,
+    at_row: u32,
+    observer: Option<&'w dyn Observer>,
     /// Index in the band of the first column.
     at: usize,
     band: &'w mut Band<'m>,
@@ -190,7 +207,7 @@ impl<V: Lane> Sums<V> {
 
 impl StretchWork<'_, '_> {
     #[inline(always)]
-    fn shade<V: Lane>(&mut self, kind: V::Kind, lights: &ShapeLights<V::Element>) {
+    fn shade<V: Lane>(&mut self, kind: V::Kind, lights: &ShapeLights<V::Element>) -> Result<(), RenderError> {
         match &lights.power {
             Power::None => self.shade_with::<V, _>(kind, lights, &NoPower),
             Power::Even(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
@@ -200,31 +217,43 @@ impl StretchWork<'_, '_> {
     }
 
     #[inline(always)]
-    fn shade_with<V: Lane, L: Lobe<V>>(&mut self, kind: V::Kind, lights: &ShapeLights<V::Element>, lobe: &L) {
+    fn shade_with<V: Lane, L: Lobe<V>>(
+        &mut self,
+        kind: V::Kind,
+        lights: &ShapeLights<V::Element>,
+        lobe: &L,
+    ) -> Result<(), RenderError> {
         let row = self.row.map(
             #[inline(always)]
             |value| V::splat(kind, V::Element::from_f64(value)),
         );
         let mut chosen = Vec::new();
         let Stretch { start, end, .. } = self.stretch;
-        for chunk in (start..end).step_by(CHUNK as usize) {
-            let chunk_end = end.min(chunk + CHUNK);
+        let mut first = start;
+        while first < end {
+            // Counted in the full image: the choice of lights, and with it the order of the sum, is that of any region.
+            let chunk = first / CHUNK;
+            let chunk_end = end.min((chunk + 1) * CHUNK);
             let lit_by = if lights.lights.len() > BLOCK {
-                let (middle, reach) = self.cap(chunk, chunk_end);
+                let (middle, reach) = self.cap(chunk);
                 lights.above_horizon(middle, reach, &mut chosen)
             } else {
                 &lights.lights
             };
-            let mut first = chunk;
+            let work = u64::from(chunk_end - first) * lit_by.len() as u64;
+            if work > UNINTERRUPTED {
+                band::advance(self.observer, 0)?;
+            }
             while first < chunk_end {
                 let point = self.point::<V>(kind, &row, first).point;
                 let (irradiance, lobes) = sum(kind, &point, lit_by, lobe);
                 let sums = Sums { irradiance, lobes, cos_theta_o: point.cos_theta_o };
                 let count = (chunk_end - first).min(count_of::<V>());
-                self.store(first, count, &sums, &point, kind, lights);
-                first += count_of::<V>();
+                self.store(first, count, &sums, &point, kind, lights)?;
+                first += count;
             }
         }
+        Ok(())
     }
 
     /// What a vector of pixels sees.
@@ -240,18 +269,19 @@ impl StretchWork<'_, '_> {
         row.point(self.center, &place)
     }
 
-    /// A cap of the unit sphere that holds what these columns see: the direction of its middle, and the largest distance
-    /// from there. A row cuts the sphere in a circle, so the ends are farthest from the middle.
-    fn cap(&self, start: u32, end: u32) -> (Vector, f64) {
+    /// A cap of the unit sphere that holds what the columns of a chunk can see: the direction of its middle, and the
+    /// largest distance from there. A row cuts the sphere in a circle, so the ends are farthest from the middle.
+    fn cap(&self, chunk: u32) -> (Vector, f64) {
         let [left, right] = self.row.roots;
-        let normal = |column: u32| {
-            let u = f64::from(column) - self.counted_from;
+        let start = f64::from(chunk) * f64::from(CHUNK) - self.counted_from;
+        let [first, last] = [start.max(left), (start + f64::from(CHUNK)).min(right)];
+        let normal = |u: f64| {
             let place = PlaceInRow { column: u, after_first: u - left, after_last: u - right };
             self.row.point(self.center, &place).point.normal
         };
-        let middle = normal(start + (end - start) / 2);
-        let reach = |column: u32| (normal(column) - middle).length();
-        (middle, reach(start).max(reach(end - 1)))
+        let middle = normal(0.5 * (first + last));
+        let reach = |u: f64| (normal(u) - middle).length();
+        (middle, reach(first).max(reach(last)))
     }
 
     #[inline(always)]
@@ -263,7 +293,7 @@ impl StretchWork<'_, '_> {
         point: &SurfacePoint<V>,
         kind: V::Kind,
         lights: &ShapeLights<V::Element>,
-    ) {
+    ) -> Result<(), RenderError> {
         let at = self.at + (first - self.stretch.start) as usize;
         let formula = self.formula;
         let mut singles = lights.single.iter();
@@ -283,12 +313,17 @@ impl StretchWork<'_, '_> {
                 },
                 Scalar::Depth => continue,
             };
-            match channel {
+            let overflow = match channel {
                 BandChannel::Double(_, out) => put(values, kind, &mut out[at..], count),
                 BandChannel::Single(_, out) => put(values, kind, &mut out[at..], count),
-                BandChannel::Position(_) | BandChannel::Normal(_) => {}
+                BandChannel::Position(_) | BandChannel::Normal(_) => None,
+            };
+            if let Some((lane, value)) = overflow {
+                let pixel = Pixel { column: first + lane, row: self.at_row };
+                return Err(RenderError::Overflow { pixel, value });
             }
         }
+        Ok(())
     }
 
     #[inline(always)]
@@ -347,9 +382,9 @@ const fn count_of<V: Lane>() -> u32 {
 }
 
 /// Writes the first so many numbers of a vector, and zeros in place of the others if there is room: what comes later in
-/// the band is not written yet, and zero.
+/// the band is not written yet, and zero. Tells which of them, if any, is a number that the channel cannot hold.
 #[inline(always)]
-fn put<V: Lane, O: Element>(values: V, kind: V::Kind, out: &mut [O], count: u32) {
+fn put<V: Lane, O: Element>(values: V, kind: V::Kind, out: &mut [O], count: u32) -> Option<(u32, f64)> {
     if out.len() >= V::COUNT
         && let Some(out) = O::cast::<V::Element>(out)
     {
@@ -360,13 +395,17 @@ fn put<V: Lane, O: Element>(values: V, kind: V::Kind, out: &mut [O], count: u32)
             let is_wanted = index.is_less(index.constant(f64::from(count)));
             V::select(is_wanted, values, index.constant(0.0)).store(out);
         }
-        return;
+        return None;
     }
     let mut buffer = [V::Element::default(); LONGEST];
     values.store(&mut buffer);
-    for (out, value) in out[..count as usize].iter_mut().zip(buffer) {
+    for ((out, value), lane) in out[..count as usize].iter_mut().zip(buffer).zip(0..) {
         *out = O::from_f64(value.to_f64());
+        if !out.to_f64().is_finite() {
+            return Some((lane, value.to_f64()));
+        }
     }
+    None
 }
 
 /// E and Σ E_j (N·H_j)ⁿ at a vector of pixels. Blocks of lights are summed plainly, the blocks' sums with compensation,

@@ -41,8 +41,11 @@ pub enum ShapeShading {
 /// In single precision a lobe with a larger n would lose more digits than [`SINGLE`](crate::tolerance::SINGLE) allows.
 const LARGEST_SHININESS_IN_SINGLE: f64 = 32.0;
 
-/// The square of a distance, in radii, whose powers single precision can hold; and intensities, over R².
+/// A distance, in radii, whose powers single precision can hold; and intensities, over R².
 const FARTHEST_IN_SINGLE: f64 = 1e5;
+
+/// Nearer to the surface, in radii, the difference of two rounded places has too few digits left for 1/r².
+const NEAREST_IN_SINGLE: f64 = 0.1;
 const INTENSITIES_IN_SINGLE: std::ops::Range<f64> = 1e-18..1e18;
 
 impl ShapeShading {
@@ -78,7 +81,9 @@ impl ShapeShading {
 
 fn fits_single(lights: &[PlacedLight], shininess: Option<f64>) -> bool {
     let fits = |light: &PlacedLight| {
-        light.position.dot(light.position) < FARTHEST_IN_SINGLE * FARTHEST_IN_SINGLE
+        let distance = light.position.length();
+        distance < FARTHEST_IN_SINGLE
+            && distance - 1.0 >= NEAREST_IN_SINGLE
             && INTENSITIES_IN_SINGLE.contains(&light.intensity)
     };
     shininess.is_none_or(|n| n <= LARGEST_SHININESS_IN_SINGLE) && lights.iter().all(fits)
@@ -123,16 +128,18 @@ impl<E: Element> ShapeLights<E> {
             return &self.lights;
         }
         chosen.clear();
-        // What single precision may have rounded away.
-        let least = 1.0 - 1e-5;
+        // Single precision rounds N·S to about 1e-7 of ‖S‖: with that to spare, what is skipped is dark in any case.
+        let spare = |distance: f64| 1e-6 * (1.0 + distance);
         for (block, lights) in self.blocks.iter().zip(self.lights.chunks(BLOCK)) {
-            let highest = middle.dot(block.center) + block.radius + reach * (block.center.length() + block.radius);
-            if highest < least {
+            let farthest = block.center.length() + block.radius;
+            let highest = middle.dot(block.center) + block.radius + reach * farthest;
+            if highest + spare(farthest) < 1.0 {
                 continue;
             }
             for light in lights {
                 let position = light.position.map(E::to_f64);
-                if middle.dot(position) + reach * position.length() >= least {
+                let distance = position.length();
+                if middle.dot(position) + reach * distance + spare(distance) >= 1.0 {
                     chosen.push(*light);
                 }
             }

@@ -21,6 +21,8 @@ use super::{RenderError, RenderSettings, Renderer};
 use crate::lanes::{Instructions, Precision};
 use crate::map::{Map, Run, Values};
 use crate::prepare::PreparedScene;
+use crate::shape::Outline;
+use crate::units::Choice;
 
 /// The fast renderer, on one thread or several. The bytes do not depend on how many.
 pub struct Lanes {
@@ -93,22 +95,25 @@ fn estimated_time(scene: &PreparedScene, map: &Map) -> f64 {
     let region = map.region;
     let pixels = f64::from(region.size.width) * f64::from(region.size.height);
     let covered = |shape| match scene.outline(shape) {
-        crate::shape::Outline::Unseen => 0.0,
-        crate::shape::Outline::Unknown => 20.0 * pixels,
-        crate::shape::Outline::Ellipse(ellipse) => ellipse.area().min(pixels),
+        Outline::Unseen => 0.0,
+        Outline::Unknown => 20.0 * pixels,
+        // Traced again with 32 digits, all of it.
+        Outline::Ellipse(ellipse) if scene.doubtful_in_outline(shape).end.is_infinite() => {
+            500.0 * ellipse.area().min(pixels)
+        }
+        Outline::Ellipse(ellipse) => ellipse.area().min(pixels),
     };
     let covered: f64 = (0..scene.scene().shapes().len()).map(covered).sum();
     #[expect(clippy::cast_precision_loss, reason = "an estimate")]
     let lights = scene.scene().lights().len() as f64;
-    covered.min(20.0 * pixels) * (1.0 + 0.5 * lights)
+    covered.min(500.0 * pixels) * (1.0 + 0.5 * lights)
 }
 
 impl Renderer for Lanes {
     fn name(&self) -> String {
-        match self.precision {
-            Precision::Double => "double precision, lanes".into(),
-            Precision::Single => "single precision, lanes".into(),
-        }
+        // What makes other bytes has another name.
+        let rounding = if self.instructions.fuse() { "" } else { " without fused multiply-add" };
+        format!("{} precision, lanes{rounding}", self.precision.name())
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {

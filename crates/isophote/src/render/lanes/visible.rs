@@ -234,7 +234,9 @@ fn nearest(front: &[&Candidate<'_>], row: u32, column: u32, doubtful: &mut Vec<u
             second = second.min(distance);
         }
     }
-    if second - best.0 < ERROR_OF_DISTANCE * best.0 {
+    // The error of half the chord is a part of the radius, whatever the distance.
+    let radius = front.iter().map(|candidate| candidate.radius).fold(0.0, f64::max);
+    if second - best.0 < ERROR_OF_DISTANCE * (best.0 + radius) {
         doubtful.push(column);
     }
     best.1
