@@ -74,7 +74,7 @@ impl Store {
         let is_due = |index, is_done: bool| !is_done && part.is_none_or(|part| part.has(index));
         let due: Vec<Shard> =
             shards.filter(|((_, is_done), index)| is_due(*index, **is_done)).map(|((shard, _), _)| shard).collect();
-        let count = self.workers(workers, need(scene, renderer, &self.quantities())?)?.min(due.len());
+        let count = self.workers(workers, need(scene, renderer, &self.quantities())?, &lights(scene))?.min(due.len());
         let work = Work {
             store: self,
             scene,
@@ -104,15 +104,30 @@ impl Store {
     }
 
     /// How many shards may be in flight.
-    fn workers(&self, workers: Workers, need_per_pixel: u64) -> Result<usize, StoreError> {
+    fn workers(&self, workers: Workers, need_per_pixel: u64, lights: &Lights) -> Result<usize, StoreError> {
         let Some(limit) = workers.memory else { return Ok(workers.threads.get()) };
-        let shard = need_per_pixel * self.plan().shard_pixels();
-        let count = limit.saturating_sub(BASE) / shard;
+        let base = BASE + lights.once;
+        let shard = need_per_pixel * self.plan().shard_pixels() + lights.each_worker;
+        let count = limit.saturating_sub(base) / shard;
         if count == 0 {
-            return Err(StoreError::Memory { limit: limit / MIB, needed: (BASE + shard).div_ceil(MIB) });
+            return Err(StoreError::Memory { limit: limit / MIB, needed: (base + shard).div_ceil(MIB) });
         }
         Ok(workers.threads.get().min(usize::try_from(count).unwrap_or(usize::MAX)))
     }
+}
+
+/// What the lights take, in bytes.
+struct Lights {
+    /// As they are written and checked.
+    once: u64,
+    /// As the renderer places them for each shape.
+    each_worker: u64,
+}
+
+fn lights(scene: &PreparedScene) -> Lights {
+    let [lights, shapes] = [scene.scene().lights().len(), scene.scene().shapes().len()].map(|count| count as u64);
+    // The renderer keeps a million placed lights, and those of one shape more, before it lets go of them.
+    Lights { once: 1024 * lights, each_worker: 128 * (lights * shapes).min((1 << 20) + lights) }
 }
 
 /// What the workers share.

@@ -98,7 +98,7 @@ fn with_many_lights(count: u32) -> SceneSource {
     let light = |index: u32| {
         let (turn, height) = (f64::from(index) * 2.399_963, 1.0 - 2.0 * (f64::from(index) + 0.5) / f64::from(count));
         let (ring, distance) = ((1.0 - height * height).sqrt(), 1.5 + f64::from(index % 7));
-        let is_lambertian = index % 3 == 0;
+        let is_lambertian = index.is_multiple_of(3);
         LightSource {
             name: None,
             position: Some([distance * ring * turn.cos(), distance * height, 5.0 + distance * ring * turn.sin()]),

@@ -138,5 +138,5 @@ fn too_little_memory_for_one_shard_is_refused_with_the_least() {
     let folder = Folder::new();
     let job = Job { side: 2048, memory: Some(100 << 20), quantities: vec![Quantity::Brightness], ..Job::default() };
     let error = job.run(&folder.store(), &scene).unwrap_err();
-    assert_eq!(error.to_string(), "a limit of 100 MiB of memory is too small: one shard of this map needs 224 MiB");
+    assert_eq!(error.to_string(), "a limit of 100 MiB of memory is too small: one shard of this map needs 209 MiB");
 }
