@@ -13,6 +13,7 @@ use isophote::prepare::PreparedScene;
 use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
 use isophote::scene::library::Starter;
 use isophote::scene::{Scene, Syntax};
+use isophote::units::Choice;
 
 fn lab() -> Scene {
     Scene::from_text("lab", Starter::Lab.text(), Syntax::Toml).expect("the lab's scene is valid")
@@ -38,9 +39,20 @@ fn kernel(criterion: &mut Criterion) {
     criterion.bench_function("render 800×600, reference", |bencher| {
         bencher.iter(|| black_box(render(&Reference, &scene, &brightness)));
     });
-    criterion.bench_function("render 800×600, threads", |bencher| {
-        bencher.iter(|| black_box(render(&Lanes::new(Precision::Double, None), &scene, &brightness)));
-    });
+    for precision in [Precision::Double, Precision::Single] {
+        let lanes = Lanes::new(precision, None);
+        criterion.bench_function(&format!("render 800×600, lanes, {}", precision.name()), |bencher| {
+            bencher.iter(|| black_box(render(&lanes, &scene, &brightness)));
+        });
+        criterion.bench_function(&format!("render 800×600 again, lanes, {}", precision.name()), |bencher| {
+            let settings = RenderSettings { quantities: brightness.to_vec(), ..RenderSettings::default() };
+            let mut map = Some(render(&lanes, &scene, &brightness));
+            bencher.iter(|| {
+                let earlier = map.take().expect("the last turn left one");
+                map = Some(lanes.render_again(&scene, &settings, earlier).expect("the lab's scene renders"));
+            });
+        });
+    }
 }
 
 fn many_lights(criterion: &mut Criterion) {
@@ -56,9 +68,12 @@ fn many_lights(criterion: &mut Criterion) {
     let scene = PreparedScene::new(&Scene::try_from(source).expect("lights outside the sphere"));
     let mut group = criterion.benchmark_group("many lights");
     group.sample_size(10);
-    group.bench_function("render 800×600, 256 lights, threads", |bencher| {
-        bencher.iter(|| black_box(render(&Lanes::new(Precision::Double, None), &scene, &[Quantity::Brightness])));
-    });
+    for precision in [Precision::Double, Precision::Single] {
+        let lanes = Lanes::new(precision, None);
+        group.bench_function(format!("render 800×600, 256 lights, lanes, {}", precision.name()), |bencher| {
+            bencher.iter(|| black_box(render(&lanes, &scene, &[Quantity::Brightness])));
+        });
+    }
     group.finish();
 }
 

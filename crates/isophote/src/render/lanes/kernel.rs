@@ -296,7 +296,7 @@ impl StretchWork<'_, '_> {
     ) -> Result<(), RenderError> {
         let at = self.at + (first - self.stretch.start) as usize;
         let formula = self.formula;
-        let mut singles = lights.single.iter();
+        let mut asked_for = lights.asked_for.iter();
         for channel in &mut self.band.channels {
             let quantity = match channel {
                 BandChannel::Double(quantity, _) | BandChannel::Single(quantity, _) => *quantity,
@@ -307,7 +307,7 @@ impl StretchWork<'_, '_> {
                 Scalar::Irradiance => sums.irradiance,
                 Scalar::Diffuse => sums.diffuse(formula),
                 Scalar::Specular => sums.specular(formula),
-                Scalar::Light(_) => match singles.next() {
+                Scalar::Light(_) => match asked_for.next() {
                     Some(light) => sum(kind, point, std::slice::from_ref(light), &NoPower).0,
                     None => unreachable!("a light was placed for every such channel"),
                 },

@@ -14,7 +14,7 @@ pub struct ShapeLights<E> {
     /// Bounds of every [`BLOCK`] lights in their order; empty where there are so few that each is simply summed.
     blocks: Vec<Ball>,
     /// Those whose irradiance is asked for by itself.
-    pub single: Vec<PlacedLight<E>>,
+    pub asked_for: Vec<PlacedLight<E>>,
     /// How the lobe is computed.
     pub power: Power,
 }
@@ -64,7 +64,7 @@ impl ShapeShading {
             }
         };
         let mut lights: Vec<PlacedLight> = (0..description.lights().len()).map(place).collect();
-        let single: Vec<PlacedLight> = wanted.iter().map(|&index| lights[index]).collect();
+        let asked_for: Vec<PlacedLight> = wanted.iter().map(|&index| lights[index]).collect();
         // What sends nothing is nothing to sum.
         lights.retain(|light| light.intensity > 0.0);
         if lights.len() > BLOCK {
@@ -72,9 +72,9 @@ impl ShapeShading {
         }
         let shininess = scene.formula(shape).sharpness();
         if precision == Precision::Single && fits_single(&lights, shininess) {
-            Self::Single(ShapeLights::new(&lights, &single, shininess))
+            Self::Single(ShapeLights::new(&lights, &asked_for, shininess))
         } else {
-            Self::Double(ShapeLights::new(&lights, &single, shininess))
+            Self::Double(ShapeLights::new(&lights, &asked_for, shininess))
         }
     }
 }
@@ -105,12 +105,12 @@ fn sort_by_place(lights: &mut [PlacedLight]) {
 }
 
 impl<E: Element> ShapeLights<E> {
-    fn new(lights: &[PlacedLight], single: &[PlacedLight], shininess: Option<f64>) -> Self {
+    fn new(lights: &[PlacedLight], asked_for: &[PlacedLight], shininess: Option<f64>) -> Self {
         let convert = |light: &PlacedLight| light.map(E::from_f64);
         Self {
             lights: lights.iter().map(convert).collect(),
             blocks: if lights.len() > BLOCK { lights.chunks(BLOCK).map(Ball::around).collect() } else { Vec::new() },
-            single: single.iter().map(convert).collect(),
+            asked_for: asked_for.iter().map(convert).collect(),
             power: Power::new(shininess, E::PRECISION),
         }
     }

@@ -47,12 +47,6 @@ impl Lanes {
         Self { instructions, ..self }
     }
 
-    /// What its maps are computed in.
-    #[must_use]
-    pub fn precision(&self) -> Precision {
-        self.precision
-    }
-
     /// The threads, started when they are first needed.
     fn pool(&self) -> Result<&ThreadPool, RenderError> {
         if let Some(pool) = self.pool.get() {
@@ -64,6 +58,31 @@ impl Lanes {
             .build()
             .map_err(|error| RenderError::Threads { threads, reason: error.to_string() })?;
         Ok(self.pool.get_or_init(|| pool))
+    }
+
+    fn render_in(
+        &self,
+        memory: Vec<Values>,
+        scene: &PreparedScene,
+        settings: &RenderSettings<'_>,
+    ) -> Result<Map, RenderError> {
+        let mut map = band::empty_map(scene, settings, self.name(), self.precision, memory)?;
+        let height = map.region.size.height;
+        let threads = self.threads;
+        let runs = if threads == 1 || estimated_time(scene, &map) < WORTH_THREADS {
+            let bands = band::split(&mut map, scene, height).into_iter();
+            bands.map(|band| self.render_band(band, scene, settings)).collect::<Result<Vec<_>, _>>()?
+        } else {
+            let parts = u32::try_from(threads).unwrap_or(u32::MAX).saturating_mul(BANDS_A_THREAD);
+            let rows = height.div_ceil(parts);
+            let bands = band::split(&mut map, scene, rows);
+            self.pool()?.install(|| {
+                let bands = bands.into_par_iter().with_max_len(1);
+                bands.map(|band| self.render_band(band, scene, settings)).collect::<Result<Vec<_>, _>>()
+            })?
+        };
+        band::finish(&mut map, runs.into_iter().flatten().collect());
+        Ok(map)
     }
 
     fn render_band(
@@ -127,32 +146,5 @@ impl Renderer for Lanes {
         earlier: Map,
     ) -> Result<Map, RenderError> {
         self.render_in(band::recycle(earlier), scene, settings)
-    }
-}
-
-impl Lanes {
-    fn render_in(
-        &self,
-        memory: Vec<Values>,
-        scene: &PreparedScene,
-        settings: &RenderSettings<'_>,
-    ) -> Result<Map, RenderError> {
-        let mut map = band::empty_map(scene, settings, self.name(), self.precision, memory)?;
-        let height = map.region.size.height;
-        let threads = self.threads;
-        let runs = if threads == 1 || estimated_time(scene, &map) < WORTH_THREADS {
-            let bands = band::split(&mut map, scene, height).into_iter();
-            bands.map(|band| self.render_band(band, scene, settings)).collect::<Result<Vec<_>, _>>()?
-        } else {
-            let parts = u32::try_from(threads).unwrap_or(u32::MAX).saturating_mul(BANDS_A_THREAD);
-            let rows = height.div_ceil(parts);
-            let bands = band::split(&mut map, scene, rows);
-            self.pool()?.install(|| {
-                let bands = bands.into_par_iter().with_max_len(1);
-                bands.map(|band| self.render_band(band, scene, settings)).collect::<Result<Vec<_>, _>>()
-            })?
-        };
-        band::finish(&mut map, runs.into_iter().flatten().collect());
-        Ok(map)
     }
 }
