@@ -22,9 +22,11 @@ pub enum Outline {
 /// In units of the radius from the eye, with the screen at distance 1, the sphere's centre is c and a ray goes along
 /// d = (x, y, 1). Its clearance (see [`Approach`](super::Approach)) is
 ///
-///     cos²θ_o = 1 − ‖d × c‖²/‖d‖² = A (x − x_a)(x_b − x)/‖d‖²,   A = c_y² + c_z² − 1
-///     x_a, x_b = m ∓ w,   m = c_x (y c_y + c_z)/A,   w² = (‖c‖² − 1) Z (y − y_a)(y_b − y)/A²
-///     y_a, y_b = (c_y c_z ∓ √A)/Z,   Z = c_z² − 1
+/// ```text
+/// cos²θ_o = 1 − ‖d × c‖²/‖d‖² = A (x − x_a)(x_b − x)/‖d‖²,   A = c_y² + c_z² − 1
+/// x_a, x_b = m ∓ w,   m = c_x (y c_y + c_z)/A,   w² = (‖c‖² − 1) Z (y − y_a)(y_b − y)/A²
+/// y_a, y_b = (c_y c_z ∓ √A)/Z,   Z = c_z² − 1
+/// ```
 ///
 /// Everything is computed once in 32 digits and counted in pixels from the one nearest to the outline's middle: after
 /// that a double loses no digit by a great distance, nor to a small outline far from the axis. What is left is the
