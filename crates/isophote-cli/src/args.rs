@@ -123,7 +123,7 @@ pub struct RenderArguments {
     #[arg(long)]
     pub visible_only: bool,
 
-    /// How brightness is computed: in 64 bits (double), or in 32 (single), faster and exact to about 3e-6
+    /// How brightness is computed: in 64 bits (double), or in 32 (single), faster and exact to 3e-6 of the maximum
     #[arg(long, value_name = "PRECISION", default_value = "double", value_parser = choice::<Precision>())]
     pub precision: Precision,
 

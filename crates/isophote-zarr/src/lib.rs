@@ -6,7 +6,6 @@
 //! bytes are always those of one uninterrupted run.
 
 mod array;
-mod content;
 mod describe;
 mod error;
 mod files;

@@ -6,7 +6,6 @@ use isophote::export::FileMetadata;
 use isophote::export::png::{self, PictureOptions};
 use isophote::map::{Channel, Map, Provenance, Quantity, Region, Resolution, Values};
 
-use crate::content::Span;
 use crate::error::StoreError;
 
 /// The longest side of the picture.
@@ -44,22 +43,22 @@ impl Boxes {
     }
 
     /// A shard's part of the sums in a text: 32-bit numbers are more than a picture shows; empty where all are 0.
-    pub fn part(self, map: &Map, spans: &[Span], quantity: &Quantity) -> String {
-        let Some(values) = map.scalar(quantity).filter(|_| !spans.is_empty()) else { return String::new() };
+    pub fn part(self, map: &Map, quantity: &Quantity) -> String {
+        let runs = map.mask().runs();
+        let Some(values) = map.scalar(quantity).filter(|_| !runs.is_empty()) else { return String::new() };
         let boxes = self.of(map.region);
         let mut sums = vec![0.0_f64; boxes.size.pixels()];
         let side = self.side as usize;
-        let [left, top] = [map.region.corner.column, map.region.corner.row].map(|start| start as usize);
-        for span in spans {
-            let row = ((top + span.row) / side - boxes.corner.row as usize) * boxes.size.width as usize;
-            let at = span.indices(map).start;
-            let mut start = left + span.columns.start;
-            let end = left + span.columns.end;
-            let first = start;
+        for run in runs {
+            let pixel = map.pixel(run.start);
+            let row = (pixel.row as usize / side - boxes.corner.row as usize) * boxes.size.width as usize;
+            let first = pixel.column as usize;
+            let end = first + (run.end - run.start);
+            let mut start = first;
             while start < end {
                 let column = start / side;
                 let next = ((column + 1) * side).min(end);
-                let sum: f64 = (start - first..next - first).map(|index| values.at(at + index)).sum();
+                let sum: f64 = (start - first..next - first).map(|index| values.at(run.start + index)).sum();
                 sums[row + column - boxes.corner.column as usize] += sum;
                 start = next;
             }

@@ -4,7 +4,6 @@ use isophote::map::Map;
 use serde::{Deserialize, Serialize};
 
 use crate::array::ChannelArray;
-use crate::content::spans;
 use crate::error::{Damage, StoreError};
 use crate::files::Files;
 use crate::plan::{Plan, Shard};
@@ -42,11 +41,10 @@ impl Record {
         map: &Map,
         go_on: &dyn Fn() -> Result<(), StoreError>,
     ) -> Result<(), StoreError> {
-        let spans = spans(map);
         let mut stored = Vec::with_capacity(arrays.len());
         for array in arrays {
             go_on()?;
-            let channel = map.channel(&array.quantity).filter(|_| !spans.is_empty());
+            let channel = map.channel(&array.quantity).filter(|_| !map.mask().runs().is_empty());
             let bytes = channel.map(|channel| array.encode(channel, map.region)).transpose()?.flatten();
             match &bytes {
                 Some(bytes) => files.put(&array.key(shard), bytes)?,
@@ -55,7 +53,7 @@ impl Record {
             stored.push(bytes.map(|bytes| StoredFile { bytes: bytes.len() as u64, crc32c: crc32c::crc32c(&bytes) }));
         }
         let quantities: Vec<_> = arrays.iter().map(|array| array.quantity.clone()).collect();
-        let preview = quantities.first().map(|main| Boxes::new(plan.full).part(map, &spans, main));
+        let preview = quantities.first().map(|main| Boxes::new(plan.full).part(map, main));
         let record = Self {
             files: stored,
             statistics: ShardStatistics::of(map, &quantities),

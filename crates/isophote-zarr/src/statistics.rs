@@ -1,7 +1,7 @@
 //! Statistics of a map that is never in memory as a whole: by shard, then together.
 
-use isophote::analysis::statistics::{Extreme, Statistics};
-use isophote::map::{Map, Pixel, Quantity, Scalars};
+use isophote::analysis::statistics::{Counts, Extreme, Statistics, Totals, counts, totals};
+use isophote::map::{Map, Pixel, Quantity};
 use isophote::real::Sum;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -55,34 +55,20 @@ pub struct ChannelStatistics {
 impl ShardStatistics {
     /// The statistics of these channels, and of the irradiance, which tells what is lit.
     pub fn of(map: &Map, quantities: &[Quantity]) -> Self {
-        let irradiance = map.scalar(&Quantity::Irradiance);
-        let is_lit = |index: &usize| irradiance.is_some_and(|irradiance| irradiance.at(*index) > 0.0);
-        let lit = map.mask().indices().filter(is_lit).count() as u64;
-        let channel = |quantity: &Quantity| ShardChannel::of(map, map.scalar(quantity)?);
-        Self { visible: map.mask().visible() as u64, lit, channels: quantities.iter().map(channel).collect() }
+        let Counts { visible, lit, .. } = counts(map);
+        let channel = |quantity: &Quantity| totals(map, quantity).map(ShardChannel::from);
+        Self {
+            visible: visible as u64,
+            lit: lit.unwrap_or(0) as u64,
+            channels: quantities.iter().map(channel).collect(),
+        }
     }
 }
 
-impl ShardChannel {
-    fn of(map: &Map, values: Scalars<'_>) -> Option<Self> {
-        let first = map.mask().indices().next()?;
-        let (mut max, mut min) = ((first, values.at(first)), (first, values.at(first)));
-        let mut sum = Sum::new();
-        for index in map.mask().indices() {
-            let value = values.at(index);
-            if value > max.1 {
-                max = (index, value);
-            }
-            if value < min.1 {
-                min = (index, value);
-            }
-            sum.add(value);
-        }
-        let place = |(index, value)| {
-            let Pixel { column, row } = map.pixel(index);
-            Place { value, row, column }
-        };
-        Some(Self { max: place(max), min: place(min), sum: sum.value() })
+impl From<Totals> for ShardChannel {
+    fn from(Totals { max, min, sum }: Totals) -> Self {
+        let place = |Extreme { value, pixel: Pixel { column, row } }| Place { value, row, column };
+        Self { max: place(max), min: place(min), sum }
     }
 }
 

@@ -147,7 +147,8 @@ impl CameraFrame {
     }
 }
 
-/// The middle of cell `index` (a whole number, of a cell or beside them) when the way from `first` to `last` is cut into `count` cells. The two ends are
+/// The middle of cell `index` (a whole number, of a cell or beside them) when the way from `first` to `last` is cut into
+/// `count` cells. The two ends are
 /// weighted, not their difference, so that a symmetric window has exactly symmetric pixels.
 pub(crate) fn between<T: Scalar>(first: f64, last: f64, index: f64, count: u32) -> T {
     let after = 2.0 * index + 1.0;

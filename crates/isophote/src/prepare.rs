@@ -34,8 +34,8 @@ struct PreparedShape {
     light_inside: Vec<bool>,
     /// Rays whose clearance is between these are traced with 32 digits: see [`TracingError`].
     doubtful_clearance: Range<f64>,
-    /// Where it appears on the screen.
-    outline: Outline,
+    /// Where it appears on the screen; found when a renderer first asks, as probes never do.
+    outline: OnceLock<Outline>,
     /// As `doubtful_clearance`, for clearances by the outline.
     doubtful_in_outline: Range<f64>,
 }
@@ -56,7 +56,6 @@ impl PreparedScene {
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let frame = CameraFrame::new(&scene.camera);
-        let precise_frame = CameraFrame::new(&scene.camera);
         let prepare = |shape: &crate::scene::Shape| {
             let geometry = shape.geometry;
             let is_inside = |point| geometry.signed_distance(point) < 0.0;
@@ -71,12 +70,18 @@ impl PreparedScene {
                 eye_inside,
                 light_inside: if eye_inside { scene.lights.iter().map(inside).collect() } else { Vec::new() },
                 doubtful_clearance: ray_error(&geometry, frame.eye).doubtful_clearance(&formula),
-                outline: if eye_inside { Outline::Unknown } else { geometry.outline(&precise_frame) },
+                outline: OnceLock::new(),
                 doubtful_in_outline: ERROR_IN_OUTLINE.doubtful_clearance(&formula),
             }
         };
         let shapes = scene.shapes.iter().map(prepare).collect();
-        Self { scene: scene.clone(), precise_frame, frame, shapes, source_text: OnceLock::new() }
+        Self {
+            scene: scene.clone(),
+            precise_frame: CameraFrame::new(&scene.camera),
+            frame,
+            shapes,
+            source_text: OnceLock::new(),
+        }
     }
 
     /// The scene it was made from.
@@ -125,7 +130,10 @@ impl PreparedScene {
     /// Where a shape appears on the screen.
     #[must_use]
     pub fn outline(&self, shape: usize) -> &Outline {
-        &self.shapes[shape].outline
+        let shape = &self.shapes[shape];
+        shape.outline.get_or_init(|| {
+            if shape.eye_inside { Outline::Unknown } else { shape.geometry.outline(&self.precise_frame) }
+        })
     }
 
     /// For which clearances in its outline a shape has to be traced with 32 digits.

@@ -14,6 +14,17 @@ pub struct Statistics {
     pub mean: f64,
 }
 
+/// What the statistics of a part of an image are put together from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Totals {
+    /// See [`Statistics::max`].
+    pub max: Extreme,
+    /// See [`Statistics::min`].
+    pub min: Extreme,
+    /// The sum over the visible pixels.
+    pub sum: f64,
+}
+
 /// An extreme value and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
@@ -36,25 +47,35 @@ pub struct Counts {
 
 /// Statistics of a channel; nothing if no surface is visible, or if the map has no such scalar channel.
 ///
-/// The mean is that of eight compensated sums: the i-th pixel of a run goes into sum i mod 8, and in the end they are
-/// added in order, with compensation too. It is the same on every machine.
 #[must_use]
 pub fn statistics(map: &Map, quantity: &Quantity) -> Option<Statistics> {
+    let Totals { max, min, sum } = totals(map, quantity)?;
+    #[expect(clippy::cast_precision_loss, reason = "an image has fewer than 2^53 pixels")]
+    let count = map.mask().visible() as f64;
+    Some(Statistics { max, min, mean: sum / count })
+}
+
+/// Extremes and sum of a channel; nothing if no surface is visible, or if the map has no such scalar channel.
+///
+/// The sum is that of eight compensated ones: the i-th pixel of a run goes into sum i mod 8, and in the end they are
+/// added in order, with compensation too. It is the same on every machine.
+#[must_use]
+pub fn totals(map: &Map, quantity: &Quantity) -> Option<Totals> {
     match map.scalar(quantity)? {
-        Scalars::Double(values) => statistics_of(map, values),
-        Scalars::Single(values) => statistics_of(map, values),
+        Scalars::Double(values) => totals_of(map, values),
+        Scalars::Single(values) => totals_of(map, values),
     }
 }
 
-fn statistics_of<T: Copy + Into<f64>>(map: &Map, values: &[T]) -> Option<Statistics> {
+fn totals_of<T: Copy + Into<f64>>(map: &Map, values: &[T]) -> Option<Totals> {
     let mask = map.mask();
     let first = mask.runs().first()?.start;
     let (mut max, mut min) = ((first, values[first].into()), (first, values[first].into()));
-    let mut lanes = Lanes::default();
+    let mut sums = EightSums::default();
     for run in mask.runs() {
         let values = &values[run.start..run.end];
         let find = |extreme: f64| run.start + values.iter().position(|value| (*value).into() == extreme).unwrap_or(0);
-        let [low, high] = lanes.add(values);
+        let [low, high] = sums.add(values);
         if high > max.1 {
             max = (find(high), high);
         }
@@ -63,9 +84,7 @@ fn statistics_of<T: Copy + Into<f64>>(map: &Map, values: &[T]) -> Option<Statist
         }
     }
     let extreme = |(index, value)| Extreme { value, pixel: map.pixel(index) };
-    #[expect(clippy::cast_precision_loss, reason = "an image has fewer than 2^53 pixels")]
-    let count = mask.visible() as f64;
-    Some(Statistics { max: extreme(max), min: extreme(min), mean: lanes.sum() / count })
+    Some(Totals { max: extreme(max), min: extreme(min), sum: sums.total() })
 }
 
 /// The largest value at pixels that see a surface; nothing if there is none.
@@ -98,12 +117,12 @@ const LANES: usize = 8;
 
 /// Compensated sums, as [`Sum`] makes them: the i-th value goes into lane i mod [`LANES`].
 #[derive(Default)]
-struct Lanes {
+struct EightSums {
     totals: [f64; LANES],
     lost: [f64; LANES],
 }
 
-impl Lanes {
+impl EightSums {
     /// Adds the values; gives the smallest and the largest of them.
     fn add<T: Copy + Into<f64>>(&mut self, values: &[T]) -> [f64; 2] {
         let (mut low, mut high) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
@@ -127,7 +146,7 @@ impl Lanes {
         [low.into_iter().fold(f64::INFINITY, f64::min), high.into_iter().fold(f64::NEG_INFINITY, f64::max)]
     }
 
-    fn sum(&self) -> f64 {
+    fn total(&self) -> f64 {
         let mut sum = Sum::new();
         for term in self.totals.iter().chain(&self.lost) {
             sum.add(*term);
@@ -187,10 +206,10 @@ mod tests {
 
     #[test]
     fn a_lane_keeps_what_plain_addition_loses() {
-        let mut lanes = Lanes::default();
-        lanes.add(&[1.0; LANES]);
-        lanes.add(&vec![1e-17; 1_000_000 * LANES]);
-        assert_eq!(lanes.sum(), 8.0 * (1.0 + 1e-11));
+        let mut sums = EightSums::default();
+        sums.add(&[1.0; LANES]);
+        sums.add(&vec![1e-17; 1_000_000 * LANES]);
+        assert_eq!(sums.total(), 8.0 * (1.0 + 1e-11));
     }
 
     #[test]

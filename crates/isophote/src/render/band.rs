@@ -114,9 +114,9 @@ pub struct Band<'m> {
 /// What goes into a band, and where. The shape comes from the mask in the end.
 pub enum BandChannel<'m> {
     /// Double precision.
-    Double(Scalar, &'m mut [f64]),
+    Double(ScalarChannel, &'m mut [f64]),
     /// Single precision.
-    Single(Scalar, &'m mut [f32]),
+    Single(ScalarChannel, &'m mut [f32]),
     /// P.
     Position(&'m mut [[f64; 3]]),
     /// N.
@@ -125,7 +125,7 @@ pub enum BandChannel<'m> {
 
 /// What a scalar channel holds; a light by its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scalar {
+pub enum ScalarChannel {
     /// B.
     Brightness,
     /// E.
@@ -157,11 +157,11 @@ pub fn split<'m>(map: &'m mut Map, scene: &PreparedScene, rows: u32) -> Vec<Band
     for Channel { quantity, values, .. } in &mut map.channels {
         let parts: Vec<BandChannel<'_>> = match values {
             Values::Scalar(values) => {
-                let scalar = Scalar::of(quantity, scene.scene());
+                let scalar = ScalarChannel::of(quantity, scene.scene());
                 values.chunks_mut(pixels).map(|part| BandChannel::Double(scalar, part)).collect()
             }
             Values::Single(values) => {
-                let scalar = Scalar::of(quantity, scene.scene());
+                let scalar = ScalarChannel::of(quantity, scene.scene());
                 values.chunks_mut(pixels).map(|part| BandChannel::Single(scalar, part)).collect()
             }
             Values::Vector(values) => {
@@ -205,7 +205,7 @@ pub fn finish(map: &mut Map, runs: Vec<Run>) {
     }
 }
 
-impl Scalar {
+impl ScalarChannel {
     fn of(quantity: &Quantity, scene: &Scene) -> Self {
         let light = |name: &String| scene.lights.iter().position(|light| light.name == *name);
         match quantity {
@@ -235,7 +235,7 @@ impl Band<'_> {
                 let pixel = Pixel { column: self.first.column + column, row: self.first.row + row };
                 if let Some(hit) = scene.trace_pixel(pixel) {
                     self.store(pixel, scene, &hit)?;
-                    self.see(pixel, &hit, &mut runs);
+                    self.see(pixel, 1, hit.shape, &mut runs);
                 }
             }
             advance(observer, self.size.width.into())?;
@@ -246,7 +246,8 @@ impl Band<'_> {
     /// The lights whose irradiance is asked for by itself, in the order of their channels.
     pub fn lights(&self) -> Vec<usize> {
         let light = |channel: &BandChannel<'_>| match channel {
-            BandChannel::Double(Scalar::Light(light), _) | BandChannel::Single(Scalar::Light(light), _) => Some(*light),
+            BandChannel::Double(ScalarChannel::Light(light), _)
+            | BandChannel::Single(ScalarChannel::Light(light), _) => Some(*light),
             _ => None,
         };
         self.channels.iter().filter_map(light).collect()
@@ -255,7 +256,10 @@ impl Band<'_> {
     /// Whether depth, position or normal are asked for.
     pub fn has_geometry(&self) -> bool {
         let is_geometry = |channel: &BandChannel<'_>| {
-            matches!(channel, BandChannel::Double(Scalar::Depth, _) | BandChannel::Position(_) | BandChannel::Normal(_))
+            matches!(
+                channel,
+                BandChannel::Double(ScalarChannel::Depth, _) | BandChannel::Position(_) | BandChannel::Normal(_)
+            )
         };
         self.channels.iter().any(is_geometry)
     }
@@ -266,11 +270,17 @@ impl Band<'_> {
         row * self.size.width as usize + (pixel.column - self.first.column) as usize
     }
 
-    /// Adds a pixel to what is seen.
-    pub fn see(&self, pixel: Pixel, hit: &Hit, runs: &mut Vec<Run>) {
-        let start = self.start + self.index(pixel);
-        let shape = u32::try_from(hit.shape).unwrap_or(u32::MAX);
-        extend(runs, Run { start, end: start + 1, shape }, self.size.width as usize);
+    /// Adds so many pixels of a row, from this one on, to what is seen; lengthens the last run if it goes on there.
+    pub fn see(&self, first: Pixel, count: u32, shape: usize, runs: &mut Vec<Run>) {
+        let start = self.start + self.index(first);
+        let end = start + count as usize;
+        let shape = u32::try_from(shape).unwrap_or(u32::MAX);
+        match runs.last_mut() {
+            Some(last) if last.end == start && last.shape == shape && first.column != self.first.column => {
+                last.end = end;
+            }
+            _ => runs.push(Run { start, end, shape }),
+        }
     }
 
     /// Shades what is seen at a pixel and stores it.
@@ -278,13 +288,13 @@ impl Band<'_> {
         let index = self.index(pixel);
         let shading = scene.shade(hit.shape, &hit.point, |_, _| {});
         let length = self.length;
-        let scalar = |scalar: Scalar| match scalar {
-            Scalar::Brightness => shading.brightness(),
-            Scalar::Irradiance => shading.irradiance,
-            Scalar::Diffuse => shading.diffuse,
-            Scalar::Specular => shading.specular,
-            Scalar::Depth => length.from_metres(hit.distance),
-            Scalar::Light(light) => scene.light_term(hit.shape, &hit.point, light).irradiance,
+        let scalar = |scalar: ScalarChannel| match scalar {
+            ScalarChannel::Brightness => shading.brightness(),
+            ScalarChannel::Irradiance => shading.irradiance,
+            ScalarChannel::Diffuse => shading.diffuse,
+            ScalarChannel::Specular => shading.specular,
+            ScalarChannel::Depth => length.from_metres(hit.distance),
+            ScalarChannel::Light(light) => scene.light_term(hit.shape, &hit.point, light).irradiance,
         };
         for channel in &mut self.channels {
             match channel {
@@ -304,16 +314,6 @@ impl Band<'_> {
             }
         }
         Ok(())
-    }
-}
-
-/// Adds a run, or lengthens the last one if it goes on there in the same row.
-pub fn extend(runs: &mut Vec<Run>, run: Run, width: usize) {
-    match runs.last_mut() {
-        Some(last) if last.end == run.start && last.shape == run.shape && !run.start.is_multiple_of(width) => {
-            last.end = run.end;
-        }
-        _ => runs.push(run),
     }
 }
 

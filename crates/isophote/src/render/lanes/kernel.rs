@@ -11,7 +11,7 @@ use crate::map::{Pixel, Run};
 use crate::prepare::PreparedScene;
 use crate::real::Sum;
 use crate::reflectance::{BrightnessFormula, Lobe};
-use crate::render::band::{self, Band, BandChannel, Scalar};
+use crate::render::band::{self, Band, BandChannel, ScalarChannel};
 use crate::render::{Observer, RenderError};
 use crate::shade::light_term;
 use crate::shape::{PlaceInRow, PointInRow, RowOfEllipse, SurfacePoint};
@@ -25,6 +25,8 @@ pub struct BandJob<'a, 'm> {
     pub band: Band<'m>,
     /// The shapes that may be seen in it.
     pub candidates: Vec<Candidate<'a>>,
+    /// The [order](super::lights::by_place) of the lights.
+    pub order: &'a [usize],
     /// Of what is shaded.
     pub precision: Precision,
     /// Hears of the progress.
@@ -105,23 +107,15 @@ fn seen_rows(candidates: &[Candidate<'_>], rows: &Range<u32>) -> Range<u32> {
 
 /// Puts the stretches and the traced pixels of a row in order.
 fn see(band: &Band<'_>, row: u32, view: &RowView, runs: &mut Vec<Run>) {
-    let width = band.size.width as usize;
-    let mut traced = view.traced.iter().peekable();
+    let mut traced = view.traced.iter().filter_map(|traced| Some((traced.pixel, traced.hit?.shape))).peekable();
     for stretch in &view.stretches {
-        while let Some(pixel) = traced.next_if(|traced| traced.pixel.column < stretch.start) {
-            if let Some(hit) = &pixel.hit {
-                band.see(pixel.pixel, hit, runs);
-            }
+        while let Some((pixel, shape)) = traced.next_if(|(pixel, _)| pixel.column < stretch.start) {
+            band.see(pixel, 1, shape, runs);
         }
-        let start = band.start + band.index(Pixel { column: stretch.start, row });
-        let end = start + (stretch.end - stretch.start) as usize;
-        let shape = u32::try_from(stretch.shape).unwrap_or(u32::MAX);
-        band::extend(runs, Run { start, end, shape }, width);
+        band.see(Pixel { column: stretch.start, row }, stretch.end - stretch.start, stretch.shape, runs);
     }
-    for pixel in traced {
-        if let Some(hit) = &pixel.hit {
-            band.see(pixel.pixel, hit, runs);
-        }
+    for (pixel, shape) in traced {
+        band.see(pixel, 1, shape, runs);
     }
 }
 
@@ -131,6 +125,7 @@ struct Shadings<'a> {
     shapes: Vec<usize>,
     /// Whether single precision can hold what the outline of each is computed from.
     holds_single: Vec<bool>,
+    order: &'a [usize],
     wanted: Vec<usize>,
     precision: Precision,
     kept: Vec<Option<ShapeShading>>,
@@ -149,6 +144,7 @@ impl<'a> Shadings<'a> {
             holds_single: job.candidates.iter().map(|candidate| candidate.ellipse.fits_single()).collect(),
             kept: shapes.iter().map(|_| None).collect(),
             shapes,
+            order: job.order,
             wanted: job.band.lights(),
             precision: job.precision,
             count: 0,
@@ -160,11 +156,11 @@ impl<'a> Shadings<'a> {
             self.kept.fill_with(|| None);
             self.count = 0;
         }
-        let Self { scene, shapes, holds_single, wanted, precision, kept, count } = self;
+        let Self { scene, shapes, holds_single, order, wanted, precision, kept, count } = self;
         kept[index].get_or_insert_with(|| {
             *count += scene.scene().lights().len();
             let precision = if holds_single[index] { *precision } else { Precision::Double };
-            ShapeShading::new(scene, shapes[index], wanted, precision)
+            ShapeShading::new(scene, shapes[index], order, wanted, precision)
         })
     }
 }
@@ -303,15 +299,15 @@ impl StretchWork<'_, '_> {
                 BandChannel::Position(_) | BandChannel::Normal(_) => continue,
             };
             let values = match quantity {
-                Scalar::Brightness => sums.diffuse(formula) + sums.specular(formula),
-                Scalar::Irradiance => sums.irradiance,
-                Scalar::Diffuse => sums.diffuse(formula),
-                Scalar::Specular => sums.specular(formula),
-                Scalar::Light(_) => match asked_for.next() {
+                ScalarChannel::Brightness => sums.diffuse(formula) + sums.specular(formula),
+                ScalarChannel::Irradiance => sums.irradiance,
+                ScalarChannel::Diffuse => sums.diffuse(formula),
+                ScalarChannel::Specular => sums.specular(formula),
+                ScalarChannel::Light(_) => match asked_for.next() {
                     Some(light) => sum(kind, point, std::slice::from_ref(light), &NoPower).0,
                     None => unreachable!("a light was placed for every such channel"),
                 },
-                Scalar::Depth => continue,
+                ScalarChannel::Depth => continue,
             };
             let overflow = match channel {
                 BandChannel::Double(_, out) => put(values, kind, &mut out[at..], count),
@@ -346,7 +342,7 @@ impl StretchWork<'_, '_> {
             distance.store(&mut distances);
             for channel in &mut self.band.channels {
                 match channel {
-                    BandChannel::Double(Scalar::Depth, out) => {
+                    BandChannel::Double(ScalarChannel::Depth, out) => {
                         for (out, distance) in out[at..][..count].iter_mut().zip(distances) {
                             *out = length.from_metres(distance * self.radius);
                         }

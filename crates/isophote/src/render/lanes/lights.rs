@@ -1,7 +1,7 @@
 //! The lights of a scene as the points of one shape see them.
 
 use crate::lanes::{Element, Precision};
-use crate::light::PlacedLight;
+use crate::light::{Light, PlacedLight};
 use crate::prepare::PreparedScene;
 use crate::render::lanes::power::Power;
 use crate::vector::Vector;
@@ -49,12 +49,12 @@ const NEAREST_IN_SINGLE: f64 = 0.1;
 const INTENSITIES_IN_SINGLE: std::ops::Range<f64> = 1e-18..1e18;
 
 impl ShapeShading {
-    /// The lights of a scene as a shape sees them. `wanted` are those whose irradiance is asked for by itself.
-    pub fn new(scene: &PreparedScene, shape: usize, wanted: &[usize], precision: Precision) -> Self {
+    /// The lights of a scene as a shape sees them, in an [order](by_place). `wanted` are those whose irradiance is asked for by itself.
+    pub fn new(scene: &PreparedScene, shape: usize, order: &[usize], wanted: &[usize], precision: Precision) -> Self {
         let description = scene.scene();
         let geometry = &description.shapes()[shape].geometry;
         let (center, radius) = (geometry.center(), geometry.size());
-        let place = |index: usize| {
+        let place = |&index: &usize| {
             let light = description.lights()[index].seen_from::<f64>(center);
             let visibility = scene.visibility(shape, index);
             PlacedLight {
@@ -63,13 +63,9 @@ impl ShapeShading {
                 emission: light.emission,
             }
         };
-        let mut lights: Vec<PlacedLight> = (0..description.lights().len()).map(place).collect();
-        let asked_for: Vec<PlacedLight> = wanted.iter().map(|&index| lights[index]).collect();
         // What sends nothing is nothing to sum.
-        lights.retain(|light| light.intensity > 0.0);
-        if lights.len() > BLOCK {
-            sort_by_place(&mut lights);
-        }
+        let lights: Vec<PlacedLight> = order.iter().map(place).filter(|light| light.intensity > 0.0).collect();
+        let asked_for: Vec<PlacedLight> = wanted.iter().map(place).collect();
         let shininess = scene.formula(shape).sharpness();
         if precision == Precision::Single && fits_single(&lights, shininess) {
             Self::Single(ShapeLights::new(&lights, &asked_for, shininess))
@@ -89,19 +85,23 @@ fn fits_single(lights: &[PlacedLight], shininess: Option<f64>) -> bool {
     shininess.is_none_or(|n| n <= LARGEST_SHININESS_IN_SINGLE) && lights.iter().all(fits)
 }
 
-/// Along a curve that keeps neighbours together (Morton's), so that blocks are small in space.
-fn sort_by_place(lights: &mut [PlacedLight]) {
-    let bounds = lights
-        .iter()
-        .flat_map(|light| light.position.to_array())
-        .fold([0.0, 0.0], |[low, high]: [f64; 2], x| [low.min(x), high.max(x)]);
-    let size = (bounds[1] - bounds[0]).max(f64::MIN_POSITIVE);
+/// The lights of a scene in the order in which they are summed: that of the scene; where they make blocks, along a curve
+/// that keeps neighbours together (Morton's), so that blocks are small in space.
+pub fn by_place(lights: &[Light]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..lights.len()).collect();
+    if lights.len() <= BLOCK {
+        return order;
+    }
+    let coordinates = || lights.iter().flat_map(|light| light.position.to_array());
+    let low = coordinates().fold(f64::INFINITY, f64::min);
+    let size = (coordinates().fold(f64::NEG_INFINITY, f64::max) - low).max(f64::MIN_POSITIVE);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 2^20")]
-    let cell = |x: f64| ((x - bounds[0]) / size * 1_048_575.0) as u64;
-    lights.sort_by_cached_key(|light| {
-        let cells = light.position.to_array().map(cell);
+    let cell = |x: f64| ((x - low) / size * 1_048_575.0) as u64;
+    order.sort_by_cached_key(|&index| {
+        let cells = lights[index].position.to_array().map(cell);
         (0..20).rev().fold(0_u64, |key, bit| cells.iter().fold(key, |key, cell| (key << 1) | ((cell >> bit) & 1)))
     });
+    order
 }
 
 impl<E: Element> ShapeLights<E> {

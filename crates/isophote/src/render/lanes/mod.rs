@@ -68,17 +68,18 @@ impl Lanes {
     ) -> Result<Map, RenderError> {
         let mut map = band::empty_map(scene, settings, self.name(), self.precision, memory)?;
         let height = map.region.size.height;
+        let order = lights::by_place(scene.scene().lights());
         let threads = self.threads;
         let runs = if threads == 1 || estimated_time(scene, &map) < WORTH_THREADS {
             let bands = band::split(&mut map, scene, height).into_iter();
-            bands.map(|band| self.render_band(band, scene, settings)).collect::<Result<Vec<_>, _>>()?
+            bands.map(|band| self.render_band(band, scene, &order, settings)).collect::<Result<Vec<_>, _>>()?
         } else {
             let parts = u32::try_from(threads).unwrap_or(u32::MAX).saturating_mul(BANDS_A_THREAD);
             let rows = height.div_ceil(parts);
             let bands = band::split(&mut map, scene, rows);
             self.pool()?.install(|| {
                 let bands = bands.into_par_iter().with_max_len(1);
-                bands.map(|band| self.render_band(band, scene, settings)).collect::<Result<Vec<_>, _>>()
+                bands.map(|band| self.render_band(band, scene, &order, settings)).collect::<Result<Vec<_>, _>>()
             })?
         };
         band::finish(&mut map, runs.into_iter().flatten().collect());
@@ -89,13 +90,14 @@ impl Lanes {
         &self,
         mut band: Band<'_>,
         scene: &PreparedScene,
+        order: &[usize],
         settings: &RenderSettings<'_>,
     ) -> Result<Vec<Run>, RenderError> {
         let observer = settings.observer;
         let rows = band.first.row..band.first.row + band.size.height;
         match Candidate::all(scene, rows) {
             Some(candidates) => {
-                let job = BandJob { scene, band, candidates, precision: self.precision, observer };
+                let job = BandJob { scene, band, candidates, order, precision: self.precision, observer };
                 self.instructions.run(job)
             }
             None => band.render(scene, observer),
