@@ -56,11 +56,12 @@ impl PreparedScene {
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let frame = CameraFrame::new(&scene.camera);
+        let steepest_edge = scene.lights.iter().map(crate::light::Light::steepest_edge).fold(0.0, f64::max);
         let prepare = |shape: &crate::scene::Shape| {
             let geometry = shape.geometry;
             let is_inside = |point| geometry.signed_distance(point) < 0.0;
             let eye_inside = is_inside(frame.eye);
-            let inside = |light: &crate::light::Light| is_inside(light.position);
+            let inside = |light: &crate::light::Light| light.position().is_some_and(is_inside);
             let no_material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };
             let material = shape.material.map_or(no_material, |index| scene.materials[index].reflectance);
             let formula = BrightnessFormula::new(scene.convention, &material);
@@ -69,9 +70,9 @@ impl PreparedScene {
                 formula,
                 eye_inside,
                 light_inside: if eye_inside { scene.lights.iter().map(inside).collect() } else { Vec::new() },
-                doubtful_clearance: ray_error(&geometry, frame.eye).doubtful_clearance(&formula),
+                doubtful_clearance: ray_error(&geometry, frame.eye).doubtful_clearance(&formula, steepest_edge),
                 outline: OnceLock::new(),
-                doubtful_in_outline: ERROR_IN_OUTLINE.doubtful_clearance(&formula),
+                doubtful_in_outline: ERROR_IN_OUTLINE.doubtful_clearance(&formula, steepest_edge),
             }
         };
         let shapes = scene.shapes.iter().map(prepare).collect();
@@ -187,7 +188,8 @@ impl PreparedScene {
         each: impl FnMut(usize, &LightTerm<T>),
     ) -> Shading<T> {
         let visibility = |light| T::from_f64(self.visibility(shape, light));
-        shade(point, &self.scene.lights, &self.shapes[shape].formula, visibility, each)
+        let ambient = T::from_f64(self.ambient_irradiance());
+        shade(point, &self.scene.lights, &self.shapes[shape].formula, ambient, visibility, each)
     }
 
     /// One light's term of the sum at a surface point.
@@ -209,6 +211,13 @@ impl PreparedScene {
     pub fn visibility(&self, shape: usize, light: usize) -> f64 {
         let shape = &self.shapes[shape];
         if shape.eye_inside && !shape.light_inside[light] { 0.0 } else { 1.0 }
+    }
+
+    /// E_a (3.9): the irradiance of any surface point by the ambient light. What the scene takes of it is not subtracted
+    /// yet; this is its place.
+    #[must_use]
+    pub fn ambient_irradiance(&self) -> f64 {
+        self.scene.ambient.map_or(0.0, |ambient| ambient.unobstructed_irradiance())
     }
 
     /// A point of a surface as the eye sees it, also where the eye cannot: cosθ_o is then negative.
@@ -254,11 +263,11 @@ impl TracingError {
     ///
     /// cosθ_o is the root of the clearance, so its error is that of the clearance over 2 cosθ_o.
     ///
-    /// The error of the normal is magnified by a terminator, by 1/cosθ_i, and by a highlight: n tanθ_h, largest where
+    /// The error of the normal is magnified by a terminator, by 1/cosθ_i, by the edge of a spot, and by a highlight: n tanθ_h, largest where
     /// the highlight has fallen to a millionth of its peak, tan²θ_h = 10^(12/n) − 1, or where θ_h is as large as the
     /// cosines of the promise let it be. Some four roundings go into θ_h. Where even that is too much, every hit is
     /// traced again.
-    fn doubtful_clearance(&self, formula: &BrightnessFormula) -> Range<f64> {
+    fn doubtful_clearance(&self, formula: &BrightnessFormula, steepest_edge: f64) -> Range<f64> {
         let allowed = 0.5 * tolerance::DOUBLE.of_peak;
         let terminator = 1.0 / tolerance::DOUBLE.peak_cosine;
         let highlight = if formula.specular > 0.0 {
@@ -269,7 +278,7 @@ impl TracingError {
             0.0
         };
         let least_cosine = 0.5 * self.clearance / allowed;
-        let is_too_much = self.normal * terminator.max(highlight) > allowed;
+        let is_too_much = self.normal * terminator.max(highlight).max(steepest_edge) > allowed;
         let good_enough = if is_too_much { f64::INFINITY } else { least_cosine * least_cosine };
         -2.0 * self.clearance..good_enough
     }

@@ -130,6 +130,8 @@ pub enum ScalarChannel {
     Brightness,
     /// E.
     Irradiance,
+    /// E_a.
+    Ambient,
     /// The diffuse part of B.
     Diffuse,
     /// The specular part of B.
@@ -211,6 +213,7 @@ impl ScalarChannel {
         match quantity {
             Quantity::Brightness => Self::Brightness,
             Quantity::Irradiance => Self::Irradiance,
+            Quantity::Ambient => Self::Ambient,
             Quantity::Diffuse => Self::Diffuse,
             Quantity::Specular => Self::Specular,
             Quantity::Depth => Self::Depth,
@@ -291,6 +294,7 @@ impl Band<'_> {
         let scalar = |scalar: ScalarChannel| match scalar {
             ScalarChannel::Brightness => shading.brightness(),
             ScalarChannel::Irradiance => shading.irradiance,
+            ScalarChannel::Ambient => shading.ambient,
             ScalarChannel::Diffuse => shading.diffuse,
             ScalarChannel::Specular => shading.specular,
             ScalarChannel::Depth => length.from_metres(hit.distance),

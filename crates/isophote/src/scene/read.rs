@@ -5,7 +5,9 @@ use std::collections::{BTreeMap, HashSet};
 
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
-use super::source::{CameraSource, LightSource, MaterialSource, ProbeSource, SceneSource, ScreenSource, SphereSource};
+use super::source::{
+    AmbientSource, CameraSource, LightSource, MaterialSource, ProbeSource, SceneSource, ScreenSource, SphereSource,
+};
 use crate::units::Choice;
 
 /// Reads a scene out of a document. What cannot be read is reported and left out.
@@ -31,6 +33,7 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         material: table.named_tables("material", read_material),
         sphere: table.tables("sphere", read_sphere),
         light: table.tables("light", read_light),
+        ambient: table.table("ambient", read_ambient),
         probe: table.tables("probe", read_probe),
     }
 }
@@ -76,7 +79,15 @@ fn read_light(table: &mut Table<'_>) -> LightSource {
         emission: table.choice("emission"),
         axis: table.numbers("axis"),
         target: table.numbers("target"),
+        inner_angle: table.number("inner_angle"),
+        outer_angle: table.number("outer_angle"),
+        direction: table.numbers("direction"),
+        irradiance: table.number("irradiance"),
     }
+}
+
+fn read_ambient(table: &mut Table<'_>) -> AmbientSource {
+    AmbientSource { radiance: table.number("radiance") }
 }
 
 fn read_probe(table: &mut Table<'_>) -> ProbeSource {

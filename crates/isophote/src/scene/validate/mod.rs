@@ -1,6 +1,7 @@
 //! From what is written to what is valid: every check of a scene, once.
 
 mod camera;
+mod lights;
 mod numbers;
 mod places;
 mod things;
@@ -32,7 +33,7 @@ pub mod limits {
     pub const COORDINATE: f64 = 1e15;
     /// The smallest radius and screen, in metres.
     pub const SMALLEST: f64 = 1e-12;
-    /// The largest intensity and power.
+    /// The largest intensity, power, irradiance and radiance.
     pub const INTENSITY: f64 = 1e30;
     /// How many sizes of a shape the eye may be away before a warning says that the promised digits are not kept.
     pub const REMOTENESS: f64 = 1e9;
@@ -53,6 +54,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     let materials = validator.materials(&source);
     let shapes = validator.shapes(&source);
     let lights = validator.lights(&source);
+    let ambient = validator.ambient(&source);
     let probes = validator.probes(&source);
     validator.eye_against_shapes(camera.as_ref(), &shapes);
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
@@ -69,6 +71,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
             materials: materials.into_iter().flatten().collect(),
             shapes: shapes.into_iter().flatten().collect(),
             lights: lights.into_iter().flatten().collect(),
+            ambient,
             probes: probes.into_iter().flatten().collect(),
             warnings: warnings.into_list(),
             source,
@@ -106,7 +109,7 @@ impl Validator {
         if source.sphere.is_empty() {
             self.warn(&root.key("sphere"), "the scene has no shapes".into(), "write a table [[sphere]]");
         }
-        if source.light.is_empty() {
+        if source.light.is_empty() && source.ambient.is_none() {
             self.warn(&root.key("light"), "the scene has no lights: all is black".into(), "write a table [[light]]");
         }
         if source.sphere.len() > 1 && !source.light.is_empty() {

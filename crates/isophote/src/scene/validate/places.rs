@@ -35,8 +35,10 @@ impl Validator {
             let eye_inside = camera.is_some_and(|camera| shape.geometry.signed_distance(camera.eye) < 0.0);
             for (index, light) in lights.iter().enumerate() {
                 let Some(light) = light else { continue };
-                let distance = shape.geometry.signed_distance(light.position);
-                let path = Path::root().key("light").index(index).key("position");
+                // A parallel light is outside every shape.
+                let distance = light.position().map_or(f64::INFINITY, |place| shape.geometry.signed_distance(place));
+                let key = if light.position().is_some() { "position" } else { "direction" };
+                let path = Path::root().key("light").index(index).key(key);
                 if distance.abs() <= shape.geometry.surface_tolerance() {
                     let message = format!("the light \"{}\" is on the surface of \"{}\"", light.name, shape.name);
                     self.wrong(&path, message, "move it away: the irradiance next to a point light has no bound");
