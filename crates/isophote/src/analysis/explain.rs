@@ -31,9 +31,8 @@ impl ProbeReading {
     fn explain_geometry(&self, text: &mut String, scene: &PreparedScene, name: &str) {
         let description = scene.scene();
         let length = description.length();
-        let shape = &description.shapes()[self.shape];
-        let point = &self.point;
-        let from_inside = point.normal.dot(point.offset) < 0.0;
+        let shape = &description.shapes()[self.hit.primitive.shape];
+        let point = &self.hit.point;
         let title = description.title();
         line(text, format_args!("{name}{}{title}", if title.is_empty() { "" } else { ": " }));
         line(
@@ -42,9 +41,17 @@ impl ProbeReading {
         );
         line(text, format_args!(""));
         line(text, format_args!("Geometry (2.2), lengths in {}", length.name()));
-        line(text, format_args!("  P   = {}   on \"{}\"", vector_in(point.position(), length), shape.name));
-        line(text, format_args!("  C   = {}   centre of \"{}\"", vector_in(point.anchor, length), shape.name));
-        let normal = if from_inside { "(C − P)/‖C − P‖, the eye is inside" } else { "(P − C)/‖P − C‖" };
+        let on = description.name_of(self.hit.primitive);
+        line(text, format_args!("  P   = {}   on \"{on}\"", vector_in(point.position(), length)));
+        if shape.geometry.is_round() {
+            line(text, format_args!("  C   = {}   centre of \"{on}\"", vector_in(point.anchor, length)));
+        }
+        let normal = match (shape.geometry.is_round(), self.hit.from_inside) {
+            (true, true) => "(C − P)/‖C − P‖, the eye is inside",
+            (true, false) => "(P − C)/‖P − C‖",
+            (false, true) => "inward, the eye is inside",
+            (false, false) => "on the eye's side",
+        };
         line(text, format_args!("  N   = {}   {normal}", vector(point.normal)));
         line(text, format_args!("  O   = {}   eye", vector_in(scene.frame().eye, length)));
         line(text, format_args!("  V   = {}   (O − P)/‖O − P‖", vector(point.view)));
@@ -60,24 +67,25 @@ impl ProbeReading {
                 );
             }
             SeenFromEye::HiddenBy(other) => {
-                let other = &description.shapes()[other].name;
+                let other = description.name_of(other);
                 line(text, format_args!("  The eye does not see the point: \"{other}\" stands before it."));
             }
         }
     }
 
     fn explain_light(&self, text: &mut String, scene: &PreparedScene, index: usize, term: &LightTerm) {
-        let Light { name, kind } = &scene.scene().lights()[index];
+        let Light { name, kind, .. } = &scene.scene().lights()[index];
         line(text, format_args!(""));
         line(text, format_args!("Light {} \"{name}\"", index + 1));
         match kind {
-            LightKind::Point(light) => self.explain_point_light(text, scene, light, term),
-            LightKind::Parallel(light) => self.explain_parallel_light(text, scene, light, term),
+            LightKind::Point(light) => self.explain_point_light(text, scene, light, index),
+            LightKind::Parallel(light) => self.explain_parallel_light(text, scene, light, index),
         }
         self.explain_reflection(text, scene, term);
     }
 
-    fn explain_point_light(&self, text: &mut String, scene: &PreparedScene, light: &PointLight, term: &LightTerm) {
+    fn explain_point_light(&self, text: &mut String, scene: &PreparedScene, light: &PointLight, index: usize) {
+        let term = &self.terms[index];
         let description = scene.scene();
         let length = description.length();
         let unit = description.quantities().irradiance_unit();
@@ -92,7 +100,7 @@ impl ProbeReading {
         line(text, format_args!("  L   = (S − P)/r = {}", vector(term.direction)));
         self.explain_cosine(text, term);
         explain_emission(text, light, term, description.quantities().intensity_unit());
-        explain_visibility(text, term);
+        self.explain_visibility(text, scene, index);
         line(
             text,
             format_args!(
@@ -106,20 +114,15 @@ impl ProbeReading {
         );
     }
 
-    fn explain_parallel_light(
-        &self,
-        text: &mut String,
-        scene: &PreparedScene,
-        light: &ParallelLight,
-        term: &LightTerm,
-    ) {
+    fn explain_parallel_light(&self, text: &mut String, scene: &PreparedScene, light: &ParallelLight, index: usize) {
+        let term = &self.terms[index];
         let unit = scene.scene().quantities().irradiance_unit();
         line(text, format_args!("  D   = {}   the way that its light travels", vector(light.direction)));
         line(text, format_args!("  L   = −D = {}", vector(term.direction)));
         self.explain_cosine(text, term);
         let across = digits(light.irradiance);
         line(text, format_args!("  E₀  = {across} {unit}, on a plane at right angles to D"));
-        explain_visibility(text, term);
+        self.explain_visibility(text, scene, index);
         let (visibility, cosine, irradiance) = (term.visibility, digits(term.cos_theta_i), digits(term.irradiance));
         line(
             text,
@@ -128,8 +131,16 @@ impl ProbeReading {
     }
 
     fn explain_cosine(&self, text: &mut String, term: &LightTerm) {
-        let cosine = self.point.normal.dot(term.direction);
+        let cosine = self.hit.point.normal.dot(term.direction);
         line(text, format_args!("  cosθ_i = max(0, N·L) = max(0, {}) = {}", digits(cosine), digits(term.cos_theta_i)));
+    }
+
+    fn explain_visibility(&self, text: &mut String, scene: &PreparedScene, index: usize) {
+        if let Some(blocker) = self.blockers[index] {
+            let name = scene.scene().name_of(blocker);
+            let what = if blocker == self.hit.primitive { "the wall of " } else { "" };
+            line(text, format_args!("  v   = {}: {what}\"{name}\" stands between", self.terms[index].visibility));
+        }
     }
 
     fn explain_ambient(&self, text: &mut String, scene: &PreparedScene, ambient: &Ambient) {
@@ -144,12 +155,12 @@ impl ProbeReading {
     fn explain_reflection(&self, text: &mut String, scene: &PreparedScene, term: &LightTerm) {
         self.explain_diffuse(text, scene, term.irradiance);
         let convention = scene.scene().convention();
-        let Some(material) = scene.scene().shapes()[self.shape].material else { return };
+        let Some(material) = scene.scene().material_of(self.hit.primitive) else { return };
         let Reflectance { specular: k_s, shininess: n, .. } = scene.scene().materials()[material].reflectance;
-        if !convention.has_specular_part() || k_s == 0.0 || self.point.cos_theta_o <= 0.0 {
+        if !convention.has_specular_part() || k_s == 0.0 || self.hit.point.cos_theta_o <= 0.0 {
             return;
         }
-        let formula = scene.formula(self.shape);
+        let formula = scene.formula(self.hit.primitive);
         let irradiance = digits(term.irradiance);
         let end = format!("{}   ({})", convention.unit(scene.scene().quantities()), convention.formula_number());
         let half = if term.half.length() > 0.0 { term.half.normalized() } else { term.half };
@@ -165,29 +176,29 @@ impl ProbeReading {
             }
             _ => format!("E k_s (N·H)^n = {irradiance} × {k_s} × {lobe}"),
         };
-        line(text, format_args!("  specular = {specular} = {} {end}", digits(term.specular(formula, &self.point))));
+        line(text, format_args!("  specular = {specular} = {} {end}", digits(term.specular(formula, &self.hit.point))));
     }
 
     fn explain_diffuse(&self, text: &mut String, scene: &PreparedScene, irradiance: f64) {
         let convention = scene.scene().convention();
-        let Some(material) = scene.scene().shapes()[self.shape].material else { return };
+        let Some(material) = scene.scene().material_of(self.hit.primitive) else { return };
         if !convention.uses_material() {
             return;
         }
         let k_d = scene.scene().materials()[material].reflectance.diffuse;
         let end = format!("{}   ({})", convention.unit(scene.scene().quantities()), convention.formula_number());
-        if self.point.cos_theta_o <= 0.0 {
+        if self.hit.point.cos_theta_o <= 0.0 {
             line(text, format_args!("  diffuse = specular = 0 {end}, since θ_o ≥ 90°"));
             return;
         }
-        let value = digits(irradiance * scene.formula(self.shape).diffuse_factor(self.point.cos_theta_o));
+        let value = digits(irradiance * scene.formula(self.hit.primitive).diffuse_factor(self.hit.point.cos_theta_o));
         let irradiance = digits(irradiance);
         let diffuse = match convention {
             Convention::Irradiance | Convention::Lambert | Convention::Course => {
                 format!("E k_d = {irradiance} × {k_d}")
             }
             Convention::Lab => {
-                format!("E k_d cosθ_o = {irradiance} × {k_d} × {}", digits(self.point.cos_theta_o))
+                format!("E k_d cosθ_o = {irradiance} × {k_d} × {}", digits(self.hit.point.cos_theta_o))
             }
             Convention::CoursePi | Convention::Radiance => format!("E k_d/π = {irradiance} × {k_d}/π"),
         };
@@ -243,12 +254,6 @@ fn explain_emission(text: &mut String, light: &PointLight, term: &LightTerm, uni
             digits(x * x * (3.0 - 2.0 * x))
         ),
     );
-}
-
-fn explain_visibility(text: &mut String, term: &LightTerm) {
-    if term.visibility < 1.0 {
-        line(text, format_args!("  v   = {}: the wall of the shape stands between", term.visibility));
-    }
 }
 
 fn line(text: &mut String, content: std::fmt::Arguments<'_>) {

@@ -24,6 +24,8 @@ pub struct Light {
     pub name: String,
     /// What it is.
     pub kind: LightKind,
+    /// Whether shapes keep its light from each other, if the scene has shadows.
+    pub casts_shadows: bool,
 }
 
 /// The kinds of lights. A closed set: each has a file of its own.
@@ -52,6 +54,13 @@ impl Light {
             LightKind::Point(PointLight { emission: Emission::Spot(spot), .. }) => spot.steepest(),
             LightKind::Point(_) | LightKind::Parallel(_) => 0.0,
         }
+    }
+
+    /// The way from a place to the light, in metres; of a parallel light L, a unit vector.
+    #[must_use]
+    #[inline(always)]
+    pub fn from_place<T: Scalar>(&self, anchor: Vector, offset: Vector<T>) -> Vector<T> {
+        self.seen_from(anchor).from_point(offset)
     }
 
     /// The light as it is seen from a place.

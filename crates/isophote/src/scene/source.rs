@@ -35,6 +35,10 @@ pub struct SceneSource {
     #[schemars(extend("default" = "radiance"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub convention: Option<Convention>,
+    /// Whether shapes stand in each other's light.
+    #[schemars(extend("default" = false))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shadows: Option<bool>,
     /// Whether lights are given in W and W/sr, or in lm and cd.
     #[schemars(extend("default" = "radiometric"))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -147,6 +151,22 @@ pub struct SphereSource {
     /// Name of its material. May be left out in the `irradiance` convention, which knows no material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+    /// What it has to do with shadows.
+    #[serde(flatten)]
+    pub shadow: ShadowSource,
+}
+
+/// What a shape has to do with the shadows of a scene that has them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
+pub struct ShadowSource {
+    /// Whether it stands in other shapes' light.
+    #[schemars(extend("default" = true))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub casts_shadow: Option<bool>,
+    /// Whether other shapes stand in its light.
+    #[schemars(extend("default" = true))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub receives_shadow: Option<bool>,
 }
 
 /// A light.
@@ -196,6 +216,10 @@ pub struct LightSource {
     #[schemars(range(min = 0.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub irradiance: Option<f64>,
+    /// Whether shapes keep its light from each other, if the scene has shadows.
+    #[schemars(extend("default" = true))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub casts_shadows: Option<bool>,
 }
 
 /// Light that comes from all around, with the same radiance from every direction.

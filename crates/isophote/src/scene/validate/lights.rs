@@ -27,7 +27,7 @@ impl Validator {
                 EmissionName::Parallel => self.parallel_light(&path, light).map(LightKind::Parallel),
                 _ => self.point_light(&path, light, emission).map(LightKind::Point),
             };
-            Some(Light { name: name?, kind: kind? })
+            Some(Light { name: name?, kind: kind?, casts_shadows: light.casts_shadows.unwrap_or(true) })
         };
         source.light.iter().enumerate().map(check).collect()
     }

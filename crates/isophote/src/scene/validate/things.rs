@@ -54,7 +54,7 @@ impl Validator {
             let radius = self.required_size(&path, "radius", sphere.radius);
             let material = self.material_of(&path, sphere.material.as_deref(), &known);
             let geometry = Geometry::Sphere(Sphere { center: center?, radius: radius? });
-            Some(Shape { name: name?, material: material.ok()?, geometry })
+            Some(Shape::new(name?, material.ok()?, geometry, sphere.shadow))
         };
         source.sphere.iter().enumerate().map(check).collect()
     }
