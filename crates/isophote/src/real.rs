@@ -2,6 +2,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::double_double::DoubleDouble;
+
 /// A real number: a double, a [pair of doubles](crate::double_double::DoubleDouble) of 32 digits, or a vector of lanes
 /// that compute several pixels at once.
 ///
@@ -63,6 +65,16 @@ pub trait Scalar: Real<Mask = bool> {
     /// The nearest double.
     fn rounded(self) -> f64;
 
+    /// The same number with 32 digits.
+    fn precise(self) -> DoubleDouble;
+
+    /// The nearest number of this type.
+    fn from_precise(value: DoubleDouble) -> Self;
+
+    /// Sine and cosine of an angle in radians, within ±100. The angle comes with 32 digits, because a double of it would have
+    /// lost what the sine of a large angle still shows.
+    fn sin_cos(angle: DoubleDouble) -> (Self, Self);
+
     /// cosⁿ of an angle, from the squares of its cosine and its sine: the lobe (N·H)ⁿ of (3.3) to (3.6).
     ///
     /// Near the lobe's peak the power of the cosine would multiply its rounding error by n; the sine is small there
@@ -111,6 +123,23 @@ impl Scalar for f64 {
     #[inline(always)]
     fn rounded(self) -> f64 {
         self
+    }
+
+    #[inline(always)]
+    fn precise(self) -> DoubleDouble {
+        DoubleDouble::from_f64(self)
+    }
+
+    #[inline(always)]
+    fn from_precise(value: DoubleDouble) -> Self {
+        value.rounded()
+    }
+
+    fn sin_cos(angle: DoubleDouble) -> (Self, Self) {
+        let nearest = angle.rounded();
+        let rest = (angle - DoubleDouble::from_f64(nearest)).rounded();
+        let (sine, cosine) = (libm::sin(nearest), libm::cos(nearest));
+        (cosine.mul_add(rest, sine), sine.mul_add(-rest, cosine))
     }
 
     fn cosine_power(cos_squared: Self, sin_squared: Self, exponent: f64) -> Self {
@@ -173,7 +202,6 @@ impl<T: Scalar> Default for Sum<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::double_double::DoubleDouble;
     use proptest::prelude::*;
 
     #[test]

@@ -7,7 +7,7 @@ use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
     AmbientSource, CameraSource, LightSource, MaterialSource, ProbeSource, SceneSource, ScreenSource, ShadowSource,
-    SphereSource,
+    SphereSource, WindowSource,
 };
 use crate::units::Choice;
 
@@ -46,13 +46,22 @@ fn read_camera(table: &mut Table<'_>) -> CameraSource {
         forward: table.numbers("forward"),
         target: table.numbers("target"),
         up: table.numbers("up"),
+        projection: table.choice("projection"),
         screen: table.table("screen", read_screen),
+        field_of_view: table.number("field_of_view"),
+        window: table.table("window", read_window),
+        longitude: table.numbers("longitude"),
+        latitude: table.numbers("latitude"),
         resolution: table.counts("resolution"),
     }
 }
 
 fn read_screen(table: &mut Table<'_>) -> ScreenSource {
     ScreenSource { distance: table.number("distance"), x: table.numbers("x"), y: table.numbers("y") }
+}
+
+fn read_window(table: &mut Table<'_>) -> WindowSource {
+    WindowSource { x: table.numbers("x"), y: table.numbers("y") }
 }
 
 fn read_material(table: &mut Table<'_>) -> MaterialSource {

@@ -1,7 +1,7 @@
 //! Where a shape appears on the screen: for renderers that go along rows instead of tracing ray by ray.
 
 use super::{Sphere, SurfacePoint};
-use crate::camera::{CameraFrame, between};
+use crate::camera::{CameraFrame, Projection, Screen, between};
 use crate::double_double::DoubleDouble;
 use crate::real::{Real, Scalar};
 use crate::vector::Vector;
@@ -146,6 +146,7 @@ const BEFORE_THE_EYE: f64 = 1e-3;
 impl Ellipse {
     /// The outline of a sphere.
     pub(super) fn of_sphere(sphere: &Sphere, frame: &CameraFrame<DoubleDouble>) -> Outline {
+        let Projection::Perspective(window) = frame.projection else { return Outline::Unknown };
         let exact = DoubleDouble::from_f64;
         let one = exact(1.0);
         let per_radius = one / exact(sphere.radius);
@@ -155,13 +156,13 @@ impl Ellipse {
             return Outline::Unseen;
         }
         if z.rounded() < 1.0 + BEFORE_THE_EYE {
-            let is_outside = is_beside_the_window([x, y, z].map(DoubleDouble::rounded), frame);
+            let is_outside = is_beside_the_window([x, y, z].map(DoubleDouble::rounded), &window);
             return if is_outside { Outline::Unseen } else { Outline::Unknown };
         }
         let a = y * y + z * z - one;
         let z_part = z * z - one;
         let root = a.sqrt();
-        let screen = Pixels::new(frame);
+        let screen = Pixels::new(frame, window);
         let y_roots = [(y * z - root) / z_part, (y * z + root) / z_part];
         let y_middle = y * z / z_part;
         let row = screen.row(y_middle);
@@ -240,34 +241,36 @@ impl Ellipse {
 }
 
 /// Whether a sphere of radius 1 is wholly beyond one of the four planes through the eye and an edge of the window.
-fn is_beside_the_window([x, y, z]: [f64; 3], frame: &CameraFrame<DoubleDouble>) -> bool {
+fn is_beside_the_window([x, y, z]: [f64; 3], window: &Screen) -> bool {
     let beyond = |along: f64, [low, high]: [f64; 2]| {
-        let [low, high] = [low, high].map(|edge| edge / frame.screen.distance);
+        let [low, high] = [low, high].map(|edge| edge / window.distance);
         let below = (low * z - along) / low.hypot(1.0);
         let above = (along - high * z) / high.hypot(1.0);
         below.max(above) > 1.0 + 1e-9
     };
-    beyond(x, frame.screen.x) || beyond(y, frame.screen.y)
+    beyond(x, window.x) || beyond(y, window.y)
 }
 
 /// The grid of pixel centres on a screen at distance 1.
 struct Pixels<'f> {
     frame: &'f CameraFrame<DoubleDouble>,
+    window: Screen,
     per_distance: DoubleDouble,
     column_step: DoubleDouble,
     row_step: DoubleDouble,
 }
 
 impl<'f> Pixels<'f> {
-    fn new(frame: &'f CameraFrame<DoubleDouble>) -> Self {
+    fn new(frame: &'f CameraFrame<DoubleDouble>, window: Screen) -> Self {
         let exact = DoubleDouble::from_f64;
-        let per_distance = exact(1.0) / exact(frame.screen.distance);
+        let per_distance = exact(1.0) / exact(window.distance);
         let step =
             |first: f64, last: f64, count: u32| (exact(last) - exact(first)) * per_distance / exact(f64::from(count));
-        let [left, right] = frame.screen.x;
-        let [bottom, top] = frame.screen.y;
+        let [left, right] = window.x;
+        let [bottom, top] = window.y;
         Self {
             frame,
+            window,
             per_distance,
             column_step: step(left, right, frame.resolution.width),
             row_step: step(top, bottom, frame.resolution.height),
@@ -275,12 +278,12 @@ impl<'f> Pixels<'f> {
     }
 
     fn x(&self, column: f64) -> DoubleDouble {
-        let [left, right] = self.frame.screen.x;
+        let [left, right] = self.window.x;
         between::<DoubleDouble>(left, right, column, self.frame.resolution.width) * self.per_distance
     }
 
     fn y(&self, row: f64) -> DoubleDouble {
-        let [bottom, top] = self.frame.screen.y;
+        let [bottom, top] = self.window.y;
         between::<DoubleDouble>(top, bottom, row, self.frame.resolution.height) * self.per_distance
     }
 
