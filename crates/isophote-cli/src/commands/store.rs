@@ -49,7 +49,7 @@ pub fn asked_for(arguments: &RenderArguments) -> Result<Option<&Path>, Usage> {
 
 /// Renders a scene into a store.
 pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
-    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.size, arguments.quiet)?);
+    let scene = PreparedScene::new(&load::scene_to_render(arguments)?);
     // From here on there may be a store, and Ctrl-C has to say how to go on with it.
     end_in_order();
     let available = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);

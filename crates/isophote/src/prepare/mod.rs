@@ -10,7 +10,7 @@ pub use visibility::Blocking;
 
 use crate::camera::{CameraFrame, ScreenPosition};
 use crate::double_double::DoubleDouble;
-use crate::map::Pixel;
+use crate::map::{Pixel, Resolution};
 use crate::real::Scalar;
 use crate::reflectance::{BrightnessFormula, Reflectance};
 use crate::scene::Scene;
@@ -89,6 +89,18 @@ impl PreparedScene {
             source_text: OnceLock::new(),
             scene: scene.clone(),
         }
+    }
+
+    /// The same scene seen with another number of pixels.
+    pub(crate) fn at_resolution(&self, resolution: Resolution) -> Self {
+        let mut other = Self { source_text: OnceLock::new(), ..self.clone() };
+        other.scene.camera.resolution = resolution;
+        other.frame = CameraFrame::new(&other.scene.camera);
+        other.precise_frame = CameraFrame::new(&other.scene.camera);
+        for shape in &mut other.shapes {
+            shape.outline = OnceLock::new();
+        }
+        other
     }
 
     /// The scene it was made from.

@@ -13,13 +13,14 @@ use std::path::Path as FilePath;
 pub use document::Syntax;
 pub use error::{Place, Problem, ProblemKind, SceneError};
 pub use source::SceneSource;
-use source::ShadowSource;
+use source::{SamplingSource, ShadowSource};
 pub use validate::limits;
 
 use crate::camera::Camera;
 use crate::light::Light;
 use crate::map::Resolution;
 use crate::reflectance::{Convention, Reflectance};
+use crate::render::Sampling;
 use crate::shape::{Geometry, Primitive};
 use crate::units::{LengthUnit, Quantities};
 use crate::vector::Vector;
@@ -34,6 +35,7 @@ pub struct Scene {
     pub(crate) length: LengthUnit,
     pub(crate) convention: Convention,
     pub(crate) shadows: bool,
+    pub(crate) sampling: Sampling,
     pub(crate) quantities: Quantities,
     pub(crate) camera: Camera,
     pub(crate) materials: Vec<Material>,
@@ -178,6 +180,18 @@ impl Scene {
         Self::try_from(self.source)
     }
 
+    /// The scene with what is given here in place of its own sampling.
+    ///
+    /// # Errors
+    /// Numbers out of the [`limits`].
+    pub fn with_sampling(mut self, given: SamplingSource) -> Result<Self, SceneError> {
+        let sampling = self.source.sampling.get_or_insert_default();
+        sampling.samples = given.samples.or(sampling.samples);
+        sampling.tolerance = given.tolerance.or(sampling.tolerance);
+        sampling.filter = given.filter.or(sampling.filter);
+        Self::try_from(self.source)
+    }
+
     /// A line that says what the scene is; may be empty.
     #[must_use]
     pub fn title(&self) -> &str {
@@ -194,6 +208,12 @@ impl Scene {
     #[must_use]
     pub fn convention(&self) -> Convention {
         self.convention
+    }
+
+    /// How many rays a pixel's value is made of.
+    #[must_use]
+    pub fn sampling(&self) -> Sampling {
+        self.sampling
     }
 
     /// Whether shapes stand in each other's light.

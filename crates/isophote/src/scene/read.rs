@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, HashSet};
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
-    CameraSource, LightSource, MaterialSource, ProbeSource, SceneSource, ScreenSource, ShadowSource, SphereSource,
+    CameraSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource, ShadowSource,
+    SphereSource,
 };
 use crate::units::Choice;
 
@@ -31,6 +32,7 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         quantities: table.choice("quantities"),
         shadows: table.boolean("shadows"),
         camera: table.table("camera", read_camera),
+        sampling: table.table("sampling", read_sampling),
         material: table.named_tables("material", read_material),
         sphere: table.tables("sphere", read_sphere),
         light: table.tables("light", read_light),
@@ -46,6 +48,14 @@ fn read_camera(table: &mut Table<'_>) -> CameraSource {
         up: table.numbers("up"),
         screen: table.table("screen", read_screen),
         resolution: table.counts("resolution"),
+    }
+}
+
+fn read_sampling(table: &mut Table<'_>) -> SamplingSource {
+    SamplingSource {
+        samples: table.count("samples"),
+        tolerance: table.number("tolerance"),
+        filter: table.choice("filter"),
     }
 }
 

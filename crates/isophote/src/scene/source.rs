@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::camera::Handedness;
 use crate::reflectance::Convention;
+use crate::render::Filter;
 use crate::units::{LengthUnit, Quantities};
 
 /// A scene of surfaces lit by point lights, for the program isophote.
@@ -47,6 +48,9 @@ pub struct SceneSource {
     #[schemars(required)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraSource>,
+    /// How many rays a pixel's value is made of; one through its centre by default.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sampling: Option<SamplingSource>,
     /// The materials by name.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     #[schemars(default, extend("default" = {}))]
@@ -110,6 +114,25 @@ pub struct ScreenSource {
     #[schemars(required)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y: Option<[f64; 2]>,
+}
+
+/// How many rays a pixel's value is made of.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SamplingSource {
+    /// Rays for each pixel. With a tolerance the most that a pixel gets, 256 by default.
+    #[schemars(range(min = 1, max = 4096), extend("default" = 1))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples: Option<u64>,
+    /// The error of a pixel's brightness that is allowed, as a part of the largest brightness of the image: each pixel
+    /// gets as many rays as that takes.
+    #[schemars(range(min = 0.0001, max = 1.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// What a pixel is a mean over.
+    #[schemars(extend("default" = "box"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub filter: Option<Filter>,
 }
 
 /// What a surface is made of.

@@ -14,6 +14,7 @@ use super::read::{Problems, short};
 use super::source::SceneSource;
 use crate::camera::Camera;
 use crate::reflectance::Convention;
+use crate::render::Sampling;
 use crate::units::{LengthUnit, Quantities};
 
 /// What a scene may hold. The bounds on numbers keep every formula far from overflow.
@@ -36,6 +37,10 @@ pub mod limits {
     pub const INTENSITY: f64 = 1e30;
     /// How many sizes of a shape the eye may be away before a warning says that the promised digits are not kept.
     pub const REMOTENESS: f64 = 1e9;
+    /// Rays for a pixel.
+    pub const SAMPLES: u32 = 4096;
+    /// The allowed error of a pixel, as a part of the largest brightness.
+    pub const TOLERANCE: std::ops::RangeInclusive<f64> = 1e-4..=1.0;
     /// The largest shininess.
     pub const SHININESS: f64 = 1e5;
 }
@@ -50,6 +55,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     };
     validator.head(&source);
     let camera = validator.camera(&source);
+    let sampling = validator.sampling(&source);
     let materials = validator.materials(&source);
     let shapes = validator.shapes(&source);
     let lights = validator.lights(&source);
@@ -64,6 +70,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
             title: source.title.clone().unwrap_or_default(),
             length,
             convention,
+            sampling,
             shadows: source.shadows.unwrap_or(false),
             quantities: source.quantities.unwrap_or(Quantities::Radiometric),
             camera,
@@ -99,6 +106,28 @@ impl Validator {
         if source.length.is_none() {
             let help = "write `length = \"m\"`, \"cm\" or \"mm\": the unit of every length in the scene";
             self.problems.missing(&root, "length", help);
+        }
+    }
+
+    /// A default in place of what is wrong, which has been noted by then.
+    fn sampling(&mut self, source: &SceneSource) -> Sampling {
+        let Some(written) = &source.sampling else { return Sampling::default() };
+        let path = Path::root().key("sampling");
+        if let Some(tolerance) = written.tolerance.filter(|tolerance| !limits::TOLERANCE.contains(tolerance)) {
+            let help = format!("allowed: {} to {}", limits::TOLERANCE.start(), limits::TOLERANCE.end());
+            self.wrong(&path.key("tolerance"), format!("`sampling.tolerance` is {tolerance}"), &help);
+        }
+        let default = if written.tolerance.is_some() { Sampling::MOST } else { 1 };
+        let samples = written.samples.map_or(Some(default), |samples| u32::try_from(samples).ok());
+        let samples = samples.filter(|samples| (1..=limits::SAMPLES).contains(samples));
+        if let (None, Some(samples)) = (samples, written.samples) {
+            let help = format!("allowed: 1 to {}", limits::SAMPLES);
+            self.wrong(&path.key("samples"), format!("`sampling.samples` is {samples}"), &help);
+        }
+        Sampling {
+            samples: samples.unwrap_or(default),
+            tolerance: written.tolerance,
+            filter: written.filter.unwrap_or_default(),
         }
     }
 
