@@ -192,8 +192,8 @@ impl PreparedScene {
                 nearest = Some(Hit { primitive, distance, point, from_inside, lift });
             }
         }
-        let nearer_than_hit = |from: T| nearest.is_none_or(|hit| from.is_less(hit.distance));
-        Traced { hit: nearest, is_doubtful: doubtful_from.is_some_and(nearer_than_hit) }
+        let reaches_hit = |from: T| nearest.is_none_or(|hit| !hit.distance.is_less(from));
+        Traced { hit: nearest, is_doubtful: doubtful_from.is_some_and(reaches_hit) }
     }
 
     /// The brightness of a hit by the scene's convention, summed over the lights; `each` sees every light's own term.
@@ -249,7 +249,9 @@ impl PreparedScene {
         let to_eye = (self.frame.eye - nearest.anchor) - nearest.offset;
         let distance = to_eye.length();
         let view = to_eye * (1.0 / distance);
-        let normal = if from_inside { -nearest.outward_normal } else { nearest.outward_normal };
+        let from_behind = !geometry.is_closed() && nearest.face_normal.dot(view) < 0.0;
+        let normal = if from_inside || from_behind { -nearest.outward_normal } else { nearest.outward_normal };
+        let lift = if from_behind { nearest.lift_behind } else { nearest.lift };
         let point = SurfacePoint {
             anchor: nearest.anchor,
             offset: nearest.offset,
@@ -258,7 +260,7 @@ impl PreparedScene {
             cos_theta_o: normal.dot(view),
         };
         let primitive = Primitive { shape: located.shape, part: nearest.part };
-        Hit { primitive, distance, point, from_inside, lift: nearest.lift }
+        Hit { primitive, distance, point, from_inside, lift }
     }
 }
 
