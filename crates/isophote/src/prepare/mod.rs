@@ -261,7 +261,9 @@ impl PreparedScene {
         let to_eye = (self.frame.eye - nearest.anchor) - nearest.offset;
         let distance = to_eye.length();
         let view = to_eye * (1.0 / distance);
-        let normal = if from_inside { -nearest.outward_normal } else { nearest.outward_normal };
+        let from_behind = !geometry.is_closed() && nearest.face_normal.dot(view) < 0.0;
+        let normal = if from_inside || from_behind { -nearest.outward_normal } else { nearest.outward_normal };
+        let lift = if from_behind { nearest.lift_behind } else { nearest.lift };
         let point = SurfacePoint {
             anchor: nearest.anchor,
             offset: nearest.offset,
@@ -270,7 +272,7 @@ impl PreparedScene {
             cos_theta_o: normal.dot(view),
         };
         let primitive = Primitive { shape: located.shape, part: nearest.part };
-        Hit { primitive, distance, point, from_inside, lift: nearest.lift }
+        Hit { primitive, distance, point, from_inside, lift }
     }
 }
 

@@ -1,6 +1,8 @@
 //! From the tree to [`SceneSource`]: types and keys. Every key is named here once; what it may hold is checked in
 //! `validate`.
 
+mod shapes;
+
 use std::collections::{BTreeMap, HashSet};
 
 use super::document::{Document, Entry, Node, Path, Value};
@@ -35,6 +37,13 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         sampling: table.table("sampling", read_sampling),
         material: table.named_tables("material", read_material),
         sphere: table.tables("sphere", read_sphere),
+        ellipsoid: table.tables("ellipsoid", shapes::read_ellipsoid),
+        cuboid: table.tables("box", shapes::read_cuboid),
+        cylinder: table.tables("cylinder", shapes::read_cylinder),
+        cone: table.tables("cone", shapes::read_cone),
+        plane: table.tables("plane", shapes::read_plane),
+        rectangle: table.tables("rectangle", shapes::read_rectangle),
+        disk: table.tables("disk", shapes::read_disk),
         light: table.tables("light", read_light),
         probe: table.tables("probe", read_probe),
     }

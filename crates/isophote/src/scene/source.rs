@@ -1,9 +1,14 @@
 //! A scene exactly as it is written: nothing checked, nothing filled in. The schema is generated from here.
 
+mod shapes;
+
 use std::collections::BTreeMap;
 
 use schemars::{JsonSchema, Schema, transform::RecursiveTransform, transform::Transform};
 use serde::Serialize;
+pub use shapes::{
+    ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, PlaneSource, RectangleSource, RotationSource,
+};
 
 use crate::camera::Handedness;
 use crate::reflectance::Convention;
@@ -59,6 +64,34 @@ pub struct SceneSource {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]
     pub sphere: Vec<SphereSource>,
+    /// The ellipsoids.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub ellipsoid: Vec<EllipsoidSource>,
+    /// The boxes.
+    #[serde(rename = "box", skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub cuboid: Vec<CuboidSource>,
+    /// The cylinders.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub cylinder: Vec<CylinderSource>,
+    /// The cones.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub cone: Vec<ConeSource>,
+    /// The planes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub plane: Vec<PlaneSource>,
+    /// The rectangles.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub rectangle: Vec<RectangleSource>,
+    /// The disks.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub disk: Vec<DiskSource>,
     /// The lights.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]

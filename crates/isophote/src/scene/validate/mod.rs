@@ -3,6 +3,7 @@
 mod camera;
 mod numbers;
 mod places;
+mod shapes;
 mod things;
 
 use std::collections::HashSet;
@@ -25,7 +26,7 @@ pub mod limits {
     pub const SIDE: u32 = 1_000_000;
     /// Lights in a scene.
     pub const LIGHTS: usize = 100_000;
-    /// Shapes in a scene.
+    /// Shapes in a scene, of all kinds together.
     pub const SHAPES: usize = 100_000;
     /// Probes in a scene.
     pub const PROBES: usize = 100_000;
@@ -133,13 +134,15 @@ impl Validator {
 
     fn words_of_advice(&mut self, source: &SceneSource, camera: Option<&Camera>) {
         let root = Path::root();
-        if source.sphere.is_empty() {
-            self.warn(&root.key("sphere"), "the scene has no shapes".into(), "write a table [[sphere]]");
+        let count = shapes::count(source);
+        if count == 0 {
+            let help = "write a table [[sphere]], [[box]] or of another shape";
+            self.warn(&root.key("sphere"), "the scene has no shapes".into(), help);
         }
         if source.light.is_empty() {
             self.warn(&root.key("light"), "the scene has no lights: all is black".into(), "write a table [[light]]");
         }
-        if source.sphere.len() > 1 && !source.light.is_empty() && source.shadows.is_none() {
+        if count > 1 && !source.light.is_empty() && source.shadows.is_none() {
             let message = "the shapes cast no shadows on each other: each is lit as if it were alone";
             self.warn(
                 &root.key("shadows"),
@@ -147,9 +150,9 @@ impl Validator {
                 "write `shadows = true`, or `shadows = false` if that is meant",
             );
         }
-        let used: HashSet<&String> = source.sphere.iter().filter_map(|sphere| sphere.material.as_ref()).collect();
+        let used: HashSet<&str> = shapes::materials_in_use(source).collect();
         for name in source.material.keys() {
-            if !used.contains(name) {
+            if !used.contains(name.as_str()) {
                 let message = format!("no shape is made of the material \"{}\"", short(name));
                 self.warn(&root.key("material").key(name), message, "leave it out, or use it");
             }
