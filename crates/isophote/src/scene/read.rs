@@ -1,9 +1,11 @@
 //! From the tree to [`SceneSource`]: types and keys. Every key is named here once; what it may hold is checked in
 //! `validate`.
 
+mod files;
 mod shapes;
 
 use std::collections::{BTreeMap, HashSet};
+use std::path::PathBuf;
 
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
@@ -26,6 +28,7 @@ pub fn read(document: &Document, problems: &mut Problems) -> SceneSource {
 
 fn read_scene(table: &mut Table<'_>) -> SceneSource {
     SceneSource {
+        directory: PathBuf::new(),
         version: table.count("version"),
         title: table.text("title"),
         length: table.choice("length"),
@@ -44,6 +47,8 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         plane: table.tables("plane", shapes::read_plane),
         rectangle: table.tables("rectangle", shapes::read_rectangle),
         disk: table.tables("disk", shapes::read_disk),
+        mesh: table.tables("mesh", files::read_mesh),
+        spheres: table.tables("spheres", files::read_spheres),
         light: table.tables("light", read_light),
         probe: table.tables("probe", read_probe),
     }

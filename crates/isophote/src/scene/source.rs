@@ -1,9 +1,12 @@
 //! A scene exactly as it is written: nothing checked, nothing filled in. The schema is generated from here.
 
+mod files;
 mod shapes;
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
+pub use files::{MeshSource, SpheresSource};
 use schemars::{JsonSchema, Schema, transform::RecursiveTransform, transform::Transform};
 use serde::Serialize;
 pub use shapes::{
@@ -20,6 +23,9 @@ use crate::units::{LengthUnit, Quantities};
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Isophote scene")]
 pub struct SceneSource {
+    /// Where relative paths in the scene start: the directory of its file.
+    #[serde(skip)]
+    pub directory: PathBuf,
     /// Version of the scene format: 1.
     #[schemars(required, extend("const" = 1))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -88,6 +94,14 @@ pub struct SceneSource {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]
     pub rectangle: Vec<RectangleSource>,
+    /// The meshes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub mesh: Vec<MeshSource>,
+    /// Files of many spheres.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub spheres: Vec<SpheresSource>,
     /// The disks.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]

@@ -194,7 +194,8 @@ impl Cone {
         ];
         let distance = |[x, y]: [f64; 2]| (from_axis - x).hypot(z - y);
         let [first, second, third] = candidates;
-        let nearer = |a: ([f64; 2], [f64; 2]), b: ([f64; 2], [f64; 2])| if distance(b.0) < distance(a.0) { b } else { a };
+        let nearer =
+            |a: ([f64; 2], [f64; 2]), b: ([f64; 2], [f64; 2])| if distance(b.0) < distance(a.0) { b } else { a };
         nearer(nearer(first, second), third)
     }
 

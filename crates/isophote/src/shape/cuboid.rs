@@ -64,11 +64,7 @@ impl Cuboid {
     pub fn signed_distance(&self, point: Vector) -> f64 {
         let place = self.placement.place_of(point);
         let outside = |place: f64, half: f64| place.abs() - half;
-        let out = [
-            outside(place.x, self.half.x),
-            outside(place.y, self.half.y),
-            outside(place.z, self.half.z),
-        ];
+        let out = [outside(place.x, self.half.x), outside(place.y, self.half.y), outside(place.z, self.half.z)];
         let largest = out.into_iter().fold(f64::NEG_INFINITY, f64::max);
         if largest < 0.0 { largest } else { Vector::from(out.map(|out| out.max(0.0))).length() }
     }

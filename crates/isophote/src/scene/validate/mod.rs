@@ -1,12 +1,14 @@
 //! From what is written to what is valid: every check of a scene, once.
 
 mod camera;
+mod files;
 mod numbers;
 mod places;
 mod shapes;
 mod things;
 
 use std::collections::HashSet;
+use std::path::PathBuf;
 
 use super::Scene;
 use super::document::Path;
@@ -51,6 +53,8 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     let mut validator = Validator {
         length: source.length.unwrap_or(LengthUnit::Metre),
         convention: source.convention.unwrap_or(Convention::Radiance),
+        directory: source.directory.clone(),
+        materials: source.material.keys().cloned().collect(),
         problems,
         warnings: Problems::default(),
     };
@@ -65,7 +69,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
     validator.probes_against_shapes(&probes, &shapes);
     validator.words_of_advice(&source, camera.as_ref());
-    let Validator { length, convention, problems, warnings } = validator;
+    let Validator { length, convention, problems, warnings, .. } = validator;
     match camera {
         Some(camera) if problems.is_empty() => Ok(Scene {
             title: source.title.clone().unwrap_or_default(),
@@ -92,6 +96,10 @@ type Checked<T> = Vec<Option<T>>;
 struct Validator {
     length: LengthUnit,
     convention: Convention,
+    /// Where relative paths start.
+    directory: PathBuf,
+    /// The names of the materials, in their order.
+    materials: Vec<String>,
     problems: Problems,
     warnings: Problems,
 }

@@ -4,10 +4,11 @@ mod build;
 mod triangle;
 
 use super::{Accuracy, Bounds, Measure, Meeting, NearestPoint, Ray};
+use crate::import::CornerNormals;
 use crate::real::Scalar;
 use crate::vector::Vector;
 
-pub use build::{CornerNormals, MeshData, MeshError, MeshPlacing};
+pub use build::{MeshData, MeshError, MeshPlacing};
 use triangle::Triangle;
 
 /// Triangles that share their corners: the parts of the shape. Lean, as there may be millions: two lists of numbers.
@@ -83,10 +84,10 @@ impl Mesh {
     #[must_use]
     pub fn part_bounds(&self, part: u32) -> Bounds {
         let corners = self.triangle(part).corners;
-        corners.map(|corner| Bounds { least: corner, greatest: corner }).into_iter().fold(
-            Bounds { least: corners[0], greatest: corners[0] },
-            Bounds::union,
-        )
+        corners
+            .map(|corner| Bounds { least: corner, greatest: corner })
+            .into_iter()
+            .fold(Bounds { least: corners[0], greatest: corners[0] }, Bounds::union)
     }
 
     /// The box around all of it.
