@@ -73,8 +73,10 @@ pub struct Window {
 pub enum Quantity {
     /// Brightness by the scene's convention (3.1)–(3.6).
     Brightness,
-    /// Irradiance (illuminance in a photometric scene), summed over the lights (3.1).
+    /// Irradiance (illuminance in a photometric scene), summed over the lights and with the ambient light (3.1).
     Irradiance,
+    /// What of the irradiance is ambient light (3.9).
+    Ambient,
     /// The diffuse part of the brightness.
     Diffuse,
     /// The specular part of the brightness.
@@ -97,9 +99,10 @@ pub enum Quantity {
 
 impl Quantity {
     /// The quantities that every map can hold, whatever the lights are called.
-    pub const COMMON: [Self; 8] = [
+    pub const COMMON: [Self; 9] = [
         Self::Brightness,
         Self::Irradiance,
+        Self::Ambient,
         Self::Diffuse,
         Self::Specular,
         Self::Depth,
@@ -116,7 +119,7 @@ impl Quantity {
     pub fn unit(&self, convention: Convention, quantities: Quantities, length: LengthUnit) -> &'static str {
         match self {
             Self::Brightness | Self::Diffuse | Self::Specular => convention.unit(quantities),
-            Self::Irradiance | Self::Light(_) => quantities.irradiance_unit(),
+            Self::Irradiance | Self::Ambient | Self::Light(_) => quantities.irradiance_unit(),
             Self::Depth | Self::Position => length.name(),
             Self::Normal | Self::Samples | Self::Coverage => "1",
             Self::Shape => "",
@@ -138,6 +141,7 @@ impl Quantity {
         match self {
             Self::Brightness => "brightness".into(),
             Self::Irradiance => "irradiance".into(),
+            Self::Ambient => "ambient".into(),
             Self::Diffuse => "diffuse".into(),
             Self::Specular => "specular".into(),
             Self::Depth => "depth".into(),

@@ -143,6 +143,8 @@ pub enum ScalarChannel {
     Brightness,
     /// E.
     Irradiance,
+    /// E_a.
+    Ambient,
     /// The diffuse part of B.
     Diffuse,
     /// The specular part of B.
@@ -233,6 +235,7 @@ impl ScalarChannel {
         match quantity {
             Quantity::Brightness => Self::Brightness,
             Quantity::Irradiance => Self::Irradiance,
+            Quantity::Ambient => Self::Ambient,
             Quantity::Diffuse => Self::Diffuse,
             Quantity::Specular => Self::Specular,
             Quantity::Depth => Self::Depth,
@@ -318,6 +321,7 @@ impl Band<'_> {
         let scalar = |scalar: ScalarChannel| match scalar {
             ScalarChannel::Brightness => shading.brightness(),
             ScalarChannel::Irradiance => shading.irradiance,
+            ScalarChannel::Ambient => shading.ambient,
             ScalarChannel::Diffuse => shading.diffuse,
             ScalarChannel::Specular => shading.specular,
             ScalarChannel::Depth => length.from_metres(hit.distance),

@@ -40,7 +40,7 @@ impl Averages {
     pub fn of(map: &Map, scene: &PreparedScene) -> Self {
         let is_mean = |quantity: &Quantity| match quantity {
             Quantity::Brightness | Quantity::Irradiance | Quantity::Diffuse | Quantity::Specular => true,
-            Quantity::Light(_) => true,
+            Quantity::Ambient | Quantity::Light(_) => true,
             Quantity::Depth | Quantity::Position | Quantity::Normal | Quantity::Shape => false,
             Quantity::Samples | Quantity::Coverage => false,
         };
@@ -64,6 +64,7 @@ impl Averages {
                 ScalarChannel::Irradiance => *value = shading.irradiance,
                 ScalarChannel::Diffuse => *value = shading.diffuse,
                 ScalarChannel::Specular => *value = shading.specular,
+                ScalarChannel::Ambient => *value = shading.ambient,
                 ScalarChannel::Light(_) => {}
                 ScalarChannel::Depth => unreachable!("it is no mean"),
             }

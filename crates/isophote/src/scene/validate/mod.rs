@@ -2,6 +2,7 @@
 
 mod camera;
 mod files;
+mod lights;
 mod numbers;
 mod places;
 mod shapes;
@@ -36,7 +37,7 @@ pub mod limits {
     pub const COORDINATE: f64 = 1e15;
     /// The smallest radius and screen, in metres.
     pub const SMALLEST: f64 = 1e-12;
-    /// The largest intensity and power.
+    /// The largest intensity, power, irradiance and radiance.
     pub const INTENSITY: f64 = 1e30;
     /// How many sizes of a shape the eye may be away before a warning says that the promised digits are not kept.
     pub const REMOTENESS: f64 = 1e9;
@@ -64,6 +65,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     let materials = validator.materials(&source);
     let shapes = validator.shapes(&source);
     let lights = validator.lights(&source);
+    let ambient = validator.ambient(&source);
     let probes = validator.probes(&source);
     validator.eye_against_shapes(camera.as_ref(), &shapes);
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
@@ -82,6 +84,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
             materials: materials.into_iter().flatten().collect(),
             shapes: shapes.into_iter().flatten().collect(),
             lights: lights.into_iter().flatten().collect(),
+            ambient,
             probes: probes.into_iter().flatten().collect(),
             warnings: warnings.into_list(),
             source,
@@ -147,7 +150,7 @@ impl Validator {
             let help = "write a table [[sphere]], [[box]] or of another shape";
             self.warn(&root.key("sphere"), "the scene has no shapes".into(), help);
         }
-        if source.light.is_empty() {
+        if source.light.is_empty() && source.ambient.is_none() {
             self.warn(&root.key("light"), "the scene has no lights: all is black".into(), "write a table [[light]]");
         }
         if count > 1 && !source.light.is_empty() && source.shadows.is_none() {
