@@ -61,7 +61,7 @@ const FREE: u32 = u32::MAX;
 /// all others.
 fn hash(vector: [f64; 3]) -> usize {
     let fold = |hash: u64, component: f64| {
-        let product = u128::from(hash ^ component.to_bits()) * 0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835_u128;
+        let product = u128::from(hash ^ component.to_bits()) * 0x9e37_79b9_7f4a_7c15_u128;
         (product ^ (product >> 64)) as u64
     };
     vector.into_iter().fold(0x243f_6a88_85a3_08d3, fold) as usize

@@ -161,7 +161,7 @@ fn mistakes_of_headers_are_named() {
         with("list uchar int", "list float int"),
         "line 11: the kind of a list's length is ‘float’; allowed: whole numbers"
     );
-    assert_eq!(with("end_header", "comment"), "header: the line ‘end_header’ is missing; it ends the header");
+    assert_eq!(mesh_fault(Ply, &ASCII[..60]), "header: the line ‘end_header’ is missing; it ends the header");
 }
 
 #[test]
@@ -182,5 +182,7 @@ fn mistakes_of_rows_are_named_with_their_line() {
         with("\n0 1\n", "\n0 1\n2 3\n"),
         "the file: 3 bytes follow after the last element that the header announces; nothing may follow"
     );
-    assert_eq!(with("\n0 1\n", "\n"), "line 23: element edge has 0; the header announces 1 rows");
+    let none = "header: 1 rows of element edge need 3 bytes, but 0 are left in the file";
+    assert_eq!(with("\n0 1\n", "\n"), none);
+    assert_eq!(with("\n0 1\n", "\n\n\n\n"), "line 26: element edge has 0; the header announces 1 rows");
 }
