@@ -59,6 +59,7 @@ const FREE: u32 = u32::MAX;
 
 /// Coordinates of meshes differ in their upper bits alone (short decimals, single precision): products fold these into
 /// all others.
+#[expect(clippy::cast_possible_truncation, reason = "any bits of the products will do")]
 fn hash(vector: [f64; 3]) -> usize {
     let fold = |hash: u64, component: f64| {
         let product = u128::from(hash ^ component.to_bits()) * 0x9e37_79b9_7f4a_7c15_u128;

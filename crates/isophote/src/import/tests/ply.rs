@@ -173,6 +173,10 @@ fn mistakes_of_rows_are_named_with_their_line() {
     assert_eq!(with("255 0 1 1", "255 0 - 1"), "line 18: x is ‘-’; a number is needed");
     assert_eq!(with("7 4 0 1 2 3", "7 4 0 1 2 5"), "line 22: a vertex index is 5; allowed are 0 to 4");
     assert_eq!(with("7 4 0 1 2 3", "7 4 0 1 2 -1"), "line 22: a vertex index is -1; allowed are 0 to 4");
+    assert_eq!(
+        with("7 4 0 1 2 3", "7 4 0 1 2 4294967296"),
+        "line 22: vertex_indices is ‘4294967296’; a whole number of 32 bits is needed"
+    );
     assert_eq!(with("7 4 0 1 2 3", "7 2 0 1"), "line 22: the face has 2; at least 3 corners are needed");
     assert_eq!(
         with("7 4 0 1 2 3", "7 -4 0 1 2 3"),

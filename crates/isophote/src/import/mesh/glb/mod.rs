@@ -167,7 +167,7 @@ impl Mode {
             Err(Problem::Parts { what, found: indices.len() as u64, allowed: allowed.into() })
         };
         match self {
-            Self::List if indices.len() % 3 != 0 => wrong("a multiple of 3 is needed"),
+            Self::List if !indices.len().is_multiple_of(3) => wrong("a multiple of 3 is needed"),
             Self::Strip | Self::Fan if indices.len() < 3 => wrong("at least 3 are needed"),
             Self::List => Ok(Box::new(indices.as_chunks::<3>().0.iter().copied())),
             Self::Strip => Ok(Box::new(indices.windows(3).enumerate().map(|(number, corners)| match number % 2 {
