@@ -41,7 +41,7 @@ impl Ellipsoid {
         // Rounding is magnified by how far from round it is: once where the ray passes, again in the normal.
         let flatness = longest / shortest;
         let error = f64::EPSILON * (1.0 + local.reach / shortest);
-        let error = TracingError { clearance: 16.0 * error * flatness, normal: 1.5 * error * flatness };
+        let error = TracingError { clearance: 16.0 * error * flatness, normal: 0.75 * error * flatness };
         let doubtful = accuracy.doubtful_clearance(&error);
         if clearance.rounded() <= doubtful.start {
             return Meeting::MISS;

@@ -19,7 +19,7 @@ struct Crossing<T> {
     weights: [T; 3],
     /// In metres.
     distance: T,
-    /// What rounding may have cost a weight.
+    /// What rounding may have cost a weight: a quarter of the bound by which hit and miss are told apart.
     error: f64,
 }
 
@@ -43,7 +43,7 @@ impl Triangle {
         let face = across.normalized();
         let is_back = T::zero().is_less(face.dot(ray.direction));
         let longest = sides[0].length().rounded().max(sides[1].length().rounded());
-        let mut normal_error = 8.0 * f64::EPSILON * longest * longest / across.length().rounded();
+        let mut normal_error = 3.0 * f64::EPSILON * longest * longest / across.length().rounded();
         let (normal, lift) = match self.normals {
             None => (if is_back { -face } else { face }, Vector::zero()),
             Some(normals) => {
@@ -100,7 +100,7 @@ impl Triangle {
         let doubtful_from = (!is_within || starts_here).then(|| (least - distance_error).max(0.0));
         let is_hit = edges.iter().all(|edge| !edge.is_less(T::zero())) || edges.iter().all(|edge| !T::zero().is_less(*edge));
         let is_seen = is_hit && whole.rounded() != 0.0 && T::zero().is_less(distance);
-        (is_seen.then_some(Crossing { weights, distance, error }), doubtful_from)
+        (is_seen.then_some(Crossing { weights, distance, error: 0.25 * error }), doubtful_from)
     }
 
     /// From the first corner to the others.
