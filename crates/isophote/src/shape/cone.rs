@@ -211,9 +211,11 @@ impl Cone {
             ([from_axis.min(end), height], [0.0, 1.0]),
         ];
         let distance = |[x, y]: [f64; 2]| (from_axis - x).hypot(z - y);
-        let [first, second, third] = candidates;
-        let nearer = |a: ([f64; 2], [f64; 2]), b: ([f64; 2], [f64; 2])| if distance(b.0) < distance(a.0) { b } else { a };
-        nearer(nearer(first, second), third)
+        let least = candidates.iter().map(|(at, _)| distance(*at)).fold(f64::INFINITY, f64::min);
+        // At a rim, which is the nearest of two faces, that one counts which has the point before it.
+        let before = |(at, normal): &([f64; 2], [f64; 2])| (from_axis - at[0]) * normal[0] + (z - at[1]) * normal[1];
+        let nearest = candidates.into_iter().filter(|(at, _)| distance(*at) <= least * (1.0 + 1e-12));
+        nearest.max_by(|first, second| before(first).total_cmp(&before(second))).unwrap_or(candidates[0])
     }
 
     /// The box around it with sides along the scene's axes.

@@ -1,6 +1,8 @@
 //! The triangle mesh (2.5).
 
 mod build;
+#[cfg(test)]
+mod tests;
 mod triangle;
 
 use super::{Accuracy, Bounds, Measure, Meeting, NearestPoint, Ray};
