@@ -123,10 +123,9 @@ fn a_plane_under_a_lambertian_source_has_the_irradiance_of_cie_171_case_5_2() {
 fn a_plane_of_a_scene_has_the_irradiance_of_cie_171_case_5_2() {
     let table = reference("cie171_5_2.json");
     let (intensity, height) = (number(&table["intensity"]), number(&table["height"]));
-    for [first, normal, second] in [
-        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        [[0.36, -0.8, 0.48], [0.48, 0.6, 0.64], [0.8, 0.0, -0.6]],
-    ] {
+    for [first, normal, second] in
+        [[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [[0.36, -0.8, 0.48], [0.48, 0.6, 0.64], [0.8, 0.0, -0.6]]]
+    {
         let [first, normal, second] = [first, normal, second].map(Vector::from);
         let source = normal * height;
         let text = format!(
@@ -137,7 +136,8 @@ fn a_plane_of_a_scene_has_the_irradiance_of_cie_171_case_5_2() {
             normal.to_array(),
             source.to_array()
         );
-        let scene = Scene::from_text("plane", &text, isophote::scene::Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+        let scene =
+            Scene::from_text("plane", &text, isophote::scene::Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
         let prepared = PreparedScene::new(&scene);
         for row in table["rows"].as_array().expect("rows") {
             let point = first * number(&row["x"]) + second * number(&row["y"]);

@@ -486,7 +486,8 @@ fn moved(mut source: SceneSource, scale: f64, place: f64) -> SceneSource {
         *point = point.map(|[x, y, z]| [x * scale + place, y * scale - place, z * scale + 0.5 * place]);
     };
     let length = |length: &mut Option<f64>| *length = length.map(|length| length * scale);
-    let lengths = |lengths: &mut Option<[f64; 3]>| *lengths = lengths.map(|lengths| lengths.map(|length| length * scale));
+    let lengths =
+        |lengths: &mut Option<[f64; 3]>| *lengths = lengths.map(|lengths| lengths.map(|length| length * scale));
     let camera = source.camera.get_or_insert_default();
     point(&mut camera.eye);
     point(&mut camera.target);

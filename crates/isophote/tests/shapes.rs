@@ -5,8 +5,8 @@ use std::sync::Arc;
 use isophote::double_double::DoubleDouble;
 use isophote::real::{Real, Scalar};
 use isophote::shape::{
-    Accuracy, Cone, CornerNormals, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Intersection, Mesh, MeshData, MeshError,
-    MeshPlacing, Plane, Ray, Rectangle, Rotation, Sphere, SurfacePoint,
+    Accuracy, Cone, CornerNormals, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Intersection, Mesh, MeshData,
+    MeshError, MeshPlacing, Plane, Ray, Rectangle, Rotation, Sphere, SurfacePoint,
 };
 use isophote::vector::Vector;
 
@@ -63,9 +63,7 @@ fn shape(kind: &str, center: Vector, scale: f64, random: &mut Random) -> Geometr
             Geometry::Cone(Arc::new(Cone::new(center, center + axis * length, [first, end])))
         }
         "plane" => Geometry::Plane(Arc::new(Plane::new(center, axis))),
-        "rectangle" => {
-            Geometry::Rectangle(Arc::new(Rectangle::new(center, [first, length], axis, random.direction())))
-        }
+        "rectangle" => Geometry::Rectangle(Arc::new(Rectangle::new(center, [first, length], axis, random.direction()))),
         "disk" => Geometry::Disk(Arc::new(Disk::new(center, axis, first))),
         _ => {
             let placing = MeshPlacing { scale: sides, rotation: random.rotation(), position: center };
@@ -222,7 +220,11 @@ fn a_hit_is_on_the_surface_with_its_normal_towards_the_viewer() {
             let Some(hit) = hit(&geometry, eye, direction) else { continue };
             let point = hit.point;
             let position = point.position();
-            assert!(geometry.signed_distance(position).abs() < 1e-13, "{kind} {position:?} {}", geometry.signed_distance(position));
+            assert!(
+                geometry.signed_distance(position).abs() < 1e-13,
+                "{kind} {position:?} {}",
+                geometry.signed_distance(position)
+            );
             assert!((eye - position - point.view * hit.distance).length() < 1e-12 * (1.0 + hit.distance), "{kind}");
             assert!((point.normal.length() - 1.0).abs() < 1e-14, "{kind}");
             assert!((point.normal.dot(point.view) - point.cos_theta_o).abs() < 1e-12, "{kind}");
@@ -334,7 +336,8 @@ fn silhouettes_are_where_the_closed_forms_have_them() {
     let cylinder = Geometry::Cylinder(Arc::new(Cylinder::new(Vector::default(), up, 0.5)));
     let cone = Geometry::Cone(Arc::new(Cone::new(Vector::default(), up, [0.5, 0.0])));
     let cut = Geometry::Cone(Arc::new(Cone::new(Vector::default(), up, [0.5, 0.25])));
-    let cuboid = Geometry::Cuboid(Arc::new(Cuboid::new(Vector::new(0.0, 1.0, 0.0), Vector::new(1.0, 2.0, 1.0), Rotation::NONE)));
+    let cuboid =
+        Geometry::Cuboid(Arc::new(Cuboid::new(Vector::new(0.0, 1.0, 0.0), Vector::new(1.0, 2.0, 1.0), Rotation::NONE)));
     for y in [0.1, 0.8, 1.5, 1.9] {
         let widths = [(&cylinder, 0.5), (&cone, 0.5 - 0.25 * y), (&cut, 0.5 - 0.125 * y), (&cuboid, 0.5)];
         for (geometry, half_width) in widths {
@@ -431,7 +434,8 @@ fn a_smooth_mesh_has_the_normals_of_the_surface_at_its_vertices() {
 /// Shadow rays of a smooth mesh start above the tangent planes of the corners, of flat ones where they are.
 #[test]
 fn the_lift_clears_the_tangent_planes_of_the_corners() {
-    let mesh = Geometry::Mesh(Arc::new(Mesh::new(icosphere(1), &placing(Vector::new(1.0, 1.0, 1.0))).expect("it is valid")));
+    let mesh =
+        Geometry::Mesh(Arc::new(Mesh::new(icosphere(1), &placing(Vector::new(1.0, 1.0, 1.0))).expect("it is valid")));
     let mut random = Random(31_337);
     for _ in 0..200 {
         let hit = hit(&mesh, random.direction() * 3.0, random.direction() * 0.01);
@@ -464,7 +468,8 @@ fn triangles_that_make_no_mesh_are_refused() {
     assert_eq!(refused(data, one).to_string(), "there are 11 material slots for 12 triangles");
     let flat = MeshData { triangles: vec![[0, 1, 1], [2, 2, 2]], ..cube() };
     assert_eq!(refused(flat, one).to_string(), "it has no triangle with an area (2 without)");
-    let mut data = MeshData { slots: vec![0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1], materials: vec![Some(7), None], ..cube() };
+    let mut data =
+        MeshData { slots: vec![0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1], materials: vec![Some(7), None], ..cube() };
     data.triangles[1] = [4, 4, 5];
     let mesh = Mesh::new(data, &placing(one)).expect("what has no area is left out");
     assert_eq!((mesh.parts(), mesh.left_out()), (11, 1));

@@ -63,7 +63,6 @@ impl Cone {
     ///
     /// b² − ac is computed as ‖R D⊥ − k D_z P⊥‖² − (P⊥ × D⊥)², a difference of two squares that factors: with P near
     /// the axis it keeps its digits at the silhouette. cosθ_o is its root over R √(1 + k²), exactly.
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let local = self.placement.local_ray(ray);
         let size = self.size();
@@ -106,7 +105,6 @@ impl Cone {
     }
 
     /// The part of a ray within the side; nothing if it passes for sure.
-    #[inline(always)]
     fn side<T: Scalar>(&self, local: &LocalRay<T>, error: f64) -> Option<Side<T>> {
         let (place, direction) = (local.nearest, local.direction);
         let slope = self.slope::<T>();
@@ -145,7 +143,6 @@ impl Cone {
     }
 
     /// A point of the side, brought onto it exactly; nothing at the apex, which has no normal of its own.
-    #[inline(always)]
     fn on_side<T: Scalar>(&self, at: Vector<T>, side: &Side<T>, error: f64, accuracy: Accuracy) -> Option<Found<T>> {
         let slope = self.slope::<T>();
         let radius = slope.times_plus(at.z, T::from_f64(self.radii[0]));
@@ -266,7 +263,6 @@ impl Cone {
 
 /// Where F < 0, on the side of the apex where R > 0; beyond the apex, the flat end cuts it off. Nothing where F is the same
 /// all along: on a ray along the axis of a cylinder, or one through the apex.
-#[inline(always)]
 fn side_span<T: Scalar>(
     quadratic: T,
     half_linear: T,

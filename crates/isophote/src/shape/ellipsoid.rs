@@ -23,7 +23,6 @@ impl Ellipsoid {
     /// As the ray meets a sphere, in the space where the radii are 1 (2.4). With x' = (x/a, y/b, z/c) of the point there
     /// and g = (x'/a, …) the normal is g/‖g‖, and cosθ_o = ‖D'‖ h'/‖g‖ exactly, D' being the direction there and h' half
     /// the chord.
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let local = self.placement.local_ray(ray);
         let [shortest, longest] = self.extremes();

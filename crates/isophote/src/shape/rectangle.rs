@@ -25,12 +25,10 @@ impl Rectangle {
     }
 
     /// See [`flat`].
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let absolute = |value: T| value.max(-value);
-        let beyond = |x: T, y: T| {
-            (absolute(x) - T::from_f64(self.half_width)).max(absolute(y) - T::from_f64(self.half_height))
-        };
+        let beyond =
+            |x: T, y: T| (absolute(x) - T::from_f64(self.half_width)).max(absolute(y) - T::from_f64(self.half_height));
         flat::meet(&self.placement, Some(self.size()), ray, accuracy, beyond)
     }
 

@@ -70,7 +70,8 @@ type Seed = ([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64, usize);
 /// Scenes of two to eight shapes of every kind with shadows, otherwise as [`scenes`]; some have the eye inside a shape.
 #[allow(dead_code, reason = "not every file of tests asks for it")]
 pub fn worlds() -> impl Strategy<Value = SceneSource> {
-    let seed = (point(1.0), prop::array::uniform3(0.1..1.2_f64), direction(), direction(), -180.0..180.0_f64, 0_usize..2);
+    let seed =
+        (point(1.0), prop::array::uniform3(0.1..1.2_f64), direction(), direction(), -180.0..180.0_f64, 0_usize..2);
     let shapes = prop::collection::vec((seed, 0_usize..8), 2..=8);
     let shadow_less = (0_usize..8, any::<bool>());
     (scenes(), shapes, shadow_less, 0.0..=1.0_f64).prop_filter_map(
@@ -104,14 +105,17 @@ fn add(source: &mut SceneSource, seed: &Seed, kind: usize) {
     match kind {
         0 => source.sphere.push(SphereSource { center: place, radius, material, ..SphereSource::default() }),
         1 => {
-            let shape = EllipsoidSource { center: place, radii: sizes, rotation, material, ..EllipsoidSource::default() };
+            let shape =
+                EllipsoidSource { center: place, radii: sizes, rotation, material, ..EllipsoidSource::default() };
             source.ellipsoid.push(shape);
         }
         2 => {
             let shape = CuboidSource { center: place, size: sizes, rotation, material, ..CuboidSource::default() };
             source.cuboid.push(shape);
         }
-        3 => source.cylinder.push(CylinderSource { from: place, to: end, radius, material, ..CylinderSource::default() }),
+        3 => {
+            source.cylinder.push(CylinderSource { from: place, to: end, radius, material, ..CylinderSource::default() })
+        }
         4 => {
             let apex_radius = (degrees > 0.0).then_some(second);
             let shape = ConeSource { base: place, apex: end, radius, apex_radius, material, ..ConeSource::default() };

@@ -8,8 +8,8 @@ use super::{Checked, Validator, limits};
 use crate::scene::Shape;
 use crate::scene::document::Path;
 use crate::scene::source::{
-    ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, PlaneSource, RectangleSource, RotationSource,
-    SceneSource, ShadowSource, SphereSource,
+    ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, PlaneSource, RectangleSource,
+    RotationSource, SceneSource, ShadowSource, SphereSource,
 };
 use crate::shape::{Cone, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Plane, Rectangle, Rotation, Sphere};
 use crate::vector::Vector;

@@ -29,7 +29,6 @@ pub struct Mesh {
 
 impl Mesh {
     /// How a ray meets one of its triangles; see [`Triangle::meet`].
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, part: u32, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         self.triangle(part).meet(ray, accuracy, self.size())
     }
@@ -85,10 +84,10 @@ impl Mesh {
     #[must_use]
     pub fn part_bounds(&self, part: u32) -> Bounds {
         let corners = self.triangle(part).corners;
-        corners.map(|corner| Bounds { least: corner, greatest: corner }).into_iter().fold(
-            Bounds { least: corners[0], greatest: corners[0] },
-            Bounds::union,
-        )
+        corners
+            .map(|corner| Bounds { least: corner, greatest: corner })
+            .into_iter()
+            .fold(Bounds { least: corners[0], greatest: corners[0] }, Bounds::union)
     }
 
     /// The box around all of it.
