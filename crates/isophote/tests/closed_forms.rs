@@ -1,7 +1,7 @@
 //! The closed forms of docs/physics.md, section 5, to the precision that is promised.
 
 use isophote::analysis::probe::Place;
-use isophote::light::{Emission, Light};
+use isophote::light::{Emission, Light, LightKind, PointLight};
 use isophote::prepare::PreparedScene;
 use isophote::reflectance::{BrightnessFormula, Convention, Reflectance};
 use isophote::scene::Scene;
@@ -96,9 +96,11 @@ fn a_plane_under_a_lambertian_source_has_the_irradiance_of_cie_171_case_5_2() {
     let axis = Vector::new(0.0, -1.0, 0.0);
     let light = Light {
         name: "source".into(),
-        position: Vector::new(0.0, height, 0.0),
-        intensity,
-        emission: Emission::Lambertian { axis },
+        kind: LightKind::Point(PointLight {
+            position: Vector::new(0.0, height, 0.0),
+            intensity,
+            emission: Emission::Lambertian { axis },
+        }),
         casts_shadows: true,
     };
     let material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };

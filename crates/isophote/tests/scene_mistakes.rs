@@ -76,7 +76,7 @@ mistakes! {
     a_fractional_resolution: "resolution = [800, 600]" => "resolution = [800.5, 600]", 1;
     an_unknown_convention: "convention = \"lab\"" => "convention = \"labb\"", 1;
     an_unknown_unit: "length = \"m\"" => "length = \"inch\"", 1;
-    an_unknown_emission: "emission = \"isotropic\"" => "emission = \"spot\"", 1;
+    an_unknown_emission: "emission = \"isotropic\"" => "emission = \"laser\"", 1;
     an_axis_of_an_isotropic_light: "emission = \"isotropic\"" => "axis = [0, 0, 1]", 1;
     a_lambertian_light_without_axis: "emission = \"isotropic\"" => "emission = \"lambertian\"", 1;
     intensity_and_power: "intensity = 100" => "power = 3\nintensity = 100", 1;

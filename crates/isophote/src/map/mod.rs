@@ -73,8 +73,10 @@ pub struct Window {
 pub enum Quantity {
     /// Brightness by the scene's convention (3.1)–(3.6).
     Brightness,
-    /// Irradiance (illuminance in a photometric scene), summed over the lights (3.1).
+    /// Irradiance (illuminance in a photometric scene), summed over the lights and with the ambient light (3.1).
     Irradiance,
+    /// What of the irradiance is ambient light (3.9).
+    Ambient,
     /// The diffuse part of the brightness.
     Diffuse,
     /// The specular part of the brightness.
@@ -87,15 +89,20 @@ pub enum Quantity {
     Normal,
     /// Index of the shape that is seen, −1 where none is.
     Shape,
+    /// Rays that went through the pixel, 0 where no surface is seen.
+    Samples,
+    /// The part of them that met a surface.
+    Coverage,
     /// Irradiance from the light with this name alone, one term of (3.1).
     Light(String),
 }
 
 impl Quantity {
     /// The quantities that every map can hold, whatever the lights are called.
-    pub const COMMON: [Self; 8] = [
+    pub const COMMON: [Self; 9] = [
         Self::Brightness,
         Self::Irradiance,
+        Self::Ambient,
         Self::Diffuse,
         Self::Specular,
         Self::Depth,
@@ -104,14 +111,17 @@ impl Quantity {
         Self::Shape,
     ];
 
+    /// How a pixel was sampled: one ray through its centre, unless the scene asks for more.
+    pub const OF_SAMPLING: [Self; 2] = [Self::Samples, Self::Coverage];
+
     /// The unit of the quantity in a scene of this kind: `"1"` for pure numbers, `""` for indices.
     #[must_use]
     pub fn unit(&self, convention: Convention, quantities: Quantities, length: LengthUnit) -> &'static str {
         match self {
             Self::Brightness | Self::Diffuse | Self::Specular => convention.unit(quantities),
-            Self::Irradiance | Self::Light(_) => quantities.irradiance_unit(),
+            Self::Irradiance | Self::Ambient | Self::Light(_) => quantities.irradiance_unit(),
             Self::Depth | Self::Position => length.name(),
-            Self::Normal => "1",
+            Self::Normal | Self::Samples | Self::Coverage => "1",
             Self::Shape => "",
         }
     }
@@ -121,7 +131,7 @@ impl Quantity {
     pub fn from_name(name: &str) -> Option<Self> {
         match name.strip_prefix("light.") {
             Some(light) => Some(Self::Light(light.into())),
-            None => Self::COMMON.into_iter().find(|quantity| quantity.name() == name),
+            None => Self::COMMON.into_iter().chain(Self::OF_SAMPLING).find(|quantity| quantity.name() == name),
         }
     }
 
@@ -131,12 +141,15 @@ impl Quantity {
         match self {
             Self::Brightness => "brightness".into(),
             Self::Irradiance => "irradiance".into(),
+            Self::Ambient => "ambient".into(),
             Self::Diffuse => "diffuse".into(),
             Self::Specular => "specular".into(),
             Self::Depth => "depth".into(),
             Self::Position => "position".into(),
             Self::Normal => "normal".into(),
             Self::Shape => "shape".into(),
+            Self::Samples => "samples".into(),
+            Self::Coverage => "coverage".into(),
             Self::Light(light) => format!("light.{light}"),
         }
     }

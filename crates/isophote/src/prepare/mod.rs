@@ -10,7 +10,8 @@ pub use visibility::Blocking;
 
 use crate::camera::{CameraFrame, ScreenPosition};
 use crate::double_double::DoubleDouble;
-use crate::map::Pixel;
+use crate::light::Light;
+use crate::map::{Pixel, Resolution};
 use crate::real::Scalar;
 use crate::reflectance::{BrightnessFormula, Reflectance};
 use crate::scene::Scene;
@@ -70,9 +71,11 @@ impl PreparedScene {
     pub fn new(scene: &Scene) -> Self {
         let without_material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };
         let materials = scene.materials.iter().map(|material| &material.reflectance);
+        let steepest_edge = scene.lights.iter().map(Light::steepest_edge).fold(0.0, f64::max);
         let formulas = materials.chain([&without_material]).map(|material| {
             let formula = BrightnessFormula::new(scene.convention, material);
-            let accuracy = Accuracy::for_shading((formula.specular > 0.0).then_some(formula.shininess));
+            let shininess = (formula.specular > 0.0).then_some(formula.shininess);
+            let accuracy = Accuracy::for_shading(shininess, steepest_edge);
             let doubtful_in_outline = accuracy.doubtful_clearance(&TracingError::IN_OUTLINE);
             PreparedFormula { formula, accuracy, doubtful_in_outline }
         });
@@ -89,6 +92,18 @@ impl PreparedScene {
             source_text: OnceLock::new(),
             scene: scene.clone(),
         }
+    }
+
+    /// The same scene seen with another number of pixels.
+    pub(crate) fn at_resolution(&self, resolution: Resolution) -> Self {
+        let mut other = Self { source_text: OnceLock::new(), ..self.clone() };
+        other.scene.camera.resolution = resolution;
+        other.frame = CameraFrame::new(&other.scene.camera);
+        other.precise_frame = CameraFrame::new(&other.scene.camera);
+        for shape in &mut other.shapes {
+            shape.outline = OnceLock::new();
+        }
+        other
     }
 
     /// The scene it was made from.
@@ -212,7 +227,8 @@ impl PreparedScene {
             };
             if blocker.is_some() { 0.0 } else { 1.0 }
         };
-        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), visibility, each)
+        let ambient = self.ambient_irradiance();
+        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), ambient, visibility, each)
     }
 
     /// The same for a hit of 32 digits.
@@ -225,7 +241,15 @@ impl PreparedScene {
             let is_blocked = self.blocking(hit, light).blocker.is_some();
             DoubleDouble::from_f64(if is_blocked { 0.0 } else { 1.0 })
         };
-        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), visibility, each)
+        let ambient = DoubleDouble::from_f64(self.ambient_irradiance());
+        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), ambient, visibility, each)
+    }
+
+    /// E_a (3.9): the irradiance of any surface point by the ambient light. What the scene takes of it is not subtracted
+    /// yet; this is its place.
+    #[must_use]
+    pub fn ambient_irradiance(&self) -> f64 {
+        self.scene.ambient.map_or(0.0, |ambient| ambient.unobstructed_irradiance())
     }
 
     fn prepared_formula(&self, primitive: Primitive) -> &PreparedFormula {

@@ -6,10 +6,11 @@ mod tests;
 mod triangle;
 
 use super::{Accuracy, Bounds, Measure, Meeting, NearestPoint, Ray};
+use crate::import::CornerNormals;
 use crate::real::Scalar;
 use crate::vector::Vector;
 
-pub use build::{CornerNormals, MeshData, MeshError, MeshPlacing};
+pub use build::{MeshData, MeshError, MeshPlacing};
 use triangle::Triangle;
 
 /// Triangles that share their corners: the parts of the shape. Lean, as there may be millions: two lists of numbers.
