@@ -157,6 +157,10 @@ impl Scalar for DoubleDouble {
         Self { high: value, low: 0.0 }
     }
 
+    fn from_precise(value: Self) -> Self {
+        value
+    }
+
     fn rounded(self) -> f64 {
         self.high
     }
@@ -165,11 +169,7 @@ impl Scalar for DoubleDouble {
         self
     }
 
-    fn from_precise(value: DoubleDouble) -> Self {
-        value
-    }
-
-    fn sin_cos(angle: DoubleDouble) -> (Self, Self) {
+    fn sine_and_cosine_of(angle: DoubleDouble) -> (Self, Self) {
         angle.sine_and_cosine()
     }
 
@@ -296,7 +296,7 @@ mod tests {
             let (sine, cosine) = (x + y).sine_and_cosine();
             prop_assert!((sine - (sin_x * cos_y + cos_x * sin_y)).rounded().abs() < 1e-29);
             prop_assert!((cosine - (cos_x * cos_y - sin_x * sin_y)).rounded().abs() < 1e-29);
-            let (double_sine, double_cosine) = f64::sin_cos(x + DoubleDouble { high: 0.0, low: 1e-18 });
+            let (double_sine, double_cosine) = f64::sine_and_cosine_of(x + DoubleDouble { high: 0.0, low: 1e-18 });
             prop_assert!((double_sine - sin_x.rounded()).abs() < 3e-16 && (double_cosine - cos_x.rounded()).abs() < 3e-16);
         }
 

@@ -62,18 +62,18 @@ pub trait Scalar: Real<Mask = bool> {
     /// A double, exactly.
     fn from_f64(value: f64) -> Self;
 
+    /// A number of 32 digits, to the digits of this type.
+    fn from_precise(value: DoubleDouble) -> Self;
+
     /// The nearest double.
     fn rounded(self) -> f64;
 
     /// The same number with 32 digits.
     fn precise(self) -> DoubleDouble;
 
-    /// The nearest number of this type.
-    fn from_precise(value: DoubleDouble) -> Self;
-
     /// Sine and cosine of an angle in radians, within ±100. The angle comes with 32 digits, because a double of it would have
     /// lost what the sine of a large angle still shows.
-    fn sin_cos(angle: DoubleDouble) -> (Self, Self);
+    fn sine_and_cosine_of(angle: DoubleDouble) -> (Self, Self);
 
     /// cosⁿ of an angle, from the squares of its cosine and its sine: the lobe (N·H)ⁿ of (3.3) to (3.6).
     ///
@@ -121,6 +121,11 @@ impl Scalar for f64 {
     }
 
     #[inline(always)]
+    fn from_precise(value: DoubleDouble) -> Self {
+        value.rounded()
+    }
+
+    #[inline(always)]
     fn rounded(self) -> f64 {
         self
     }
@@ -130,12 +135,7 @@ impl Scalar for f64 {
         DoubleDouble::from_f64(self)
     }
 
-    #[inline(always)]
-    fn from_precise(value: DoubleDouble) -> Self {
-        value.rounded()
-    }
-
-    fn sin_cos(angle: DoubleDouble) -> (Self, Self) {
+    fn sine_and_cosine_of(angle: DoubleDouble) -> (Self, Self) {
         let nearest = angle.rounded();
         let rest = (angle - DoubleDouble::from_f64(nearest)).rounded();
         let (sine, cosine) = (libm::sin(nearest), libm::cos(nearest));

@@ -49,7 +49,7 @@ fn covered(map: &Map) -> f64 {
     whole * map.mask().visible() as f64 / map.region.size.pixels() as f64
 }
 
-/// (2.5): the silhouette of a sphere straight ahead has the radius asin(R/D), as an angle.
+/// (2.8): the silhouette of a sphere straight ahead has the radius asin(R/D), as an angle.
 #[test]
 fn an_equidistant_silhouette_is_as_wide_as_its_angle() {
     use isophote::camera::ScreenPosition;
@@ -65,7 +65,7 @@ fn an_equidistant_silhouette_is_as_wide_as_its_angle() {
     }
 }
 
-/// (2.6): the sphere covers the solid angle 2π(1 − cos asin(R/D)), wherever in the picture it is.
+/// (2.9): the sphere covers the solid angle 2π(1 − cos asin(R/D)), wherever in the picture it is.
 #[test]
 fn an_equal_area_fisheye_shows_the_solid_angle_of_a_sphere() {
     for forward in [[0.0, 0.0, -1.0], [0.8, 0.0, -0.6], [1.0, 1.0, 1.0]] {
@@ -107,7 +107,7 @@ fn a_panorama_shows_the_solid_angle_of_a_sphere() {
     }
 }
 
-/// (2.4): the disc of a sphere covers π R², at any distance, and every point is looked at along one direction.
+/// (2.7): the disc of a sphere covers π R², at any distance, and every point is looked at along one direction.
 #[test]
 fn an_orthographic_disc_covers_the_area_of_the_great_circle() {
     for distance in [1.5, 30.0, 1e6] {

@@ -19,7 +19,7 @@ use crate::{load, numbers};
 
 /// Checks a scene and prints it.
 pub fn run(arguments: &CheckArguments) -> Result<String> {
-    let scene = load::scene(&arguments.scene, None, arguments.quiet)?;
+    let scene = load::scene(&arguments.scene, arguments.quiet)?;
     if arguments.json { numbers::json(&to_json(&scene)) } else { Ok(to_text(&scene)) }
 }
 
@@ -69,18 +69,18 @@ fn projection_text(projection: &Projection) -> [String; 2] {
             ["screen".into(), format!("distance {}, {}", short(distance), edges(x, y))]
         }
         Projection::Orthographic(Extent { x, y }) => {
-            ["projection".into(), format!("orthographic (2.4), {}", edges(x, y))]
+            ["projection".into(), format!("orthographic (2.7), {}", edges(x, y))]
         }
         Projection::Fisheye(Fisheye { mapping, field_of_view }) => {
             let mapping = match mapping {
-                Mapping::Equidistant => "equidistant (2.5)",
-                Mapping::EqualArea => "equal area (2.6)",
+                Mapping::Equidistant => "equidistant (2.8)",
+                Mapping::EqualArea => "equal area (2.9)",
             };
             ["projection".into(), format!("fisheye, {mapping}, {}° across", short(field_of_view))]
         }
         Projection::Panorama(Extent { x: [west, east], y: [low, high] }) => {
             let [west, east, low, high] = [west, east, low, high].map(short);
-            ["projection".into(), format!("panorama (2.7), longitude {west}° to {east}°, latitude {low}° to {high}°")]
+            ["projection".into(), format!("panorama (2.10), longitude {west}° to {east}°, latitude {low}° to {high}°")]
         }
     }
 }

@@ -8,8 +8,8 @@ use crate::vector::Vector;
 /// image. The direction at the angle θ from the axis stands at the distance ρ from the middle, in degrees:
 ///
 /// ```text
-/// equidistant (2.5)   ρ = θ
-/// equal area (2.6)    ρ = 2 sin(θ/2) · 180°/π
+/// equidistant (2.8)   ρ = θ
+/// equal area (2.9)    ρ = 2 sin(θ/2) · 180°/π
 /// ```
 ///
 /// Both are true to scale in the middle. In the second an area of one square degree on the screen is a solid angle of one
@@ -25,9 +25,9 @@ pub struct Fisheye {
 /// How the angle from the axis becomes a distance from the middle of the circle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mapping {
-    /// As it is (2.5).
+    /// As it is (2.8).
     Equidistant,
-    /// So that areas are solid angles (2.6).
+    /// So that areas are solid angles (2.9).
     EqualArea,
 }
 
@@ -57,7 +57,7 @@ impl Fisheye {
         let [right, up] = [x, y].map(|coordinate| T::from_precise(coordinate * per_distance));
         let radians = distance * DoubleDouble::PI / DoubleDouble::from_f64(180.0);
         let (sine, cosine) = match self.mapping {
-            Mapping::Equidistant => T::sin_cos(radians),
+            Mapping::Equidistant => T::sine_and_cosine_of(radians),
             Mapping::EqualArea => {
                 let half = DoubleDouble::from_f64(0.5);
                 let sine_of_half = radians * half;

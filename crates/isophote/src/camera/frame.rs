@@ -2,7 +2,7 @@
 
 use super::{Camera, Extent, Handedness, Projection, ScreenPosition, panorama};
 use crate::double_double::DoubleDouble;
-use crate::map::{Pixel, Resolution};
+use crate::map::Resolution;
 use crate::real::Scalar;
 use crate::shape::Ray;
 use crate::vector::Vector;
@@ -55,7 +55,7 @@ impl<T: Scalar> CameraFrame<T> {
         }
     }
 
-    /// The ray through a place on the screen (2.1), (2.4) to (2.7); none where the camera sees nothing: outside the circle of
+    /// The ray through a place on the screen (2.1), (2.7) to (2.10); none where the camera sees nothing: outside the circle of
     /// a fisheye, beyond the poles of a panorama.
     #[inline]
     pub fn ray(&self, position: ScreenPosition) -> Option<Ray<T>> {
@@ -96,11 +96,14 @@ impl<T: Scalar> CameraFrame<T> {
 
     fn screen_point<U: Scalar>(&self, position: ScreenPosition) -> (U, U) {
         match position {
-            ScreenPosition::PixelCenter(Pixel { column, row }) => {
+            ScreenPosition::PixelCenter(pixel) => self.screen_point(ScreenPosition::InPixel { pixel, place: [0.5; 2] }),
+            ScreenPosition::InPixel { pixel, place: [across, down] } => {
                 let Resolution { width, height } = self.resolution;
                 let [left, right] = self.extent.x;
                 let [bottom, top] = self.extent.y;
-                (between(left, right, column.into(), width), between(top, bottom, row.into(), height))
+                let column = f64::from(pixel.column) + (across - 0.5);
+                let row = f64::from(pixel.row) + (down - 0.5);
+                (between(left, right, column, width), between(top, bottom, row, height))
             }
             ScreenPosition::Point { x, y } => (U::from_f64(x), U::from_f64(y)),
         }
@@ -169,9 +172,8 @@ impl<T: Scalar> Axes<T> {
     }
 }
 
-/// The middle of cell `index` (a whole number, of a cell or beside them) when the way from `first` to `last` is cut into
-/// `count` cells. The two ends are
-/// weighted, not their difference, so that a symmetric window has exactly symmetric pixels.
+/// The middle of cell `index` (a cell, a place between the middles of two, or beside them) when the way from `first` to `last`
+/// is cut into `count` cells. The two ends are weighted, not their difference, so that a symmetric window has exactly symmetric pixels.
 pub(crate) fn between<T: Scalar>(first: f64, last: f64, index: f64, count: u32) -> T {
     let after = 2.0 * index + 1.0;
     let before = 2.0 * f64::from(count) - after;

@@ -1,4 +1,4 @@
-//! The observer: where the rays start and which places of the screen they belong to (2.1), (2.3) to (2.7).
+//! The observer: where the rays start and which places of the screen they belong to (2.1), (2.3), (2.7) to (2.10).
 
 mod fisheye;
 mod frame;
@@ -59,6 +59,13 @@ pub struct Camera {
 pub enum ScreenPosition {
     /// The centre of a pixel of the full image.
     PixelCenter(Pixel),
+    /// A place in a pixel of the full image.
+    InPixel {
+        /// The pixel.
+        pixel: Pixel,
+        /// Parts of its width and height, from its upper left corner.
+        place: [f64; 2],
+    },
     /// A point of the screen, in metres or degrees.
     Point {
         /// To the right.

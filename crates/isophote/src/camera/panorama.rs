@@ -1,4 +1,4 @@
-//! Longitude and latitude (2.7): x is the longitude in degrees from the direction of view towards the right, y the latitude in
+//! Longitude and latitude (2.10): x is the longitude in degrees from the direction of view towards the right, y the latitude in
 //! degrees from the plane of both, upwards.
 
 use super::Extent;
@@ -12,8 +12,8 @@ pub(super) fn direction<T: Scalar>(longitude: DoubleDouble, latitude: DoubleDoub
         return None;
     }
     let radians = |degrees: DoubleDouble| degrees * DoubleDouble::PI / DoubleDouble::from_f64(180.0);
-    let (sine, cosine) = T::sin_cos(radians(longitude));
-    let (height, ring) = T::sin_cos(radians(latitude));
+    let (sine, cosine) = T::sine_and_cosine_of(radians(longitude));
+    let (height, ring) = T::sine_and_cosine_of(radians(latitude));
     Some(Vector::new(ring * sine, height, ring * cosine))
 }
 

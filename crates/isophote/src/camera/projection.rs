@@ -9,11 +9,11 @@ use crate::map::Resolution;
 pub enum Projection {
     /// Straight lines through the eye and a window (2.1).
     Perspective(Screen),
-    /// Parallel rays that start on the plane through the eye (2.4): the window there, in metres.
+    /// Parallel rays that start on the plane through the eye (2.7): the window there, in metres.
     Orthographic(Extent),
-    /// All of a cone around the direction of view, in a circle (2.5), (2.6).
+    /// All of a cone around the direction of view, in a circle (2.8), (2.9).
     Fisheye(Fisheye),
-    /// Longitude and latitude (2.7), in degrees.
+    /// Longitude and latitude (2.10), in degrees.
     Panorama(Extent),
 }
 

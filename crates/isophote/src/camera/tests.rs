@@ -157,7 +157,7 @@ fn a_fisheye_sees_its_field_of_view_and_nothing_else() {
     }
 }
 
-/// (2.6): the part of the circle within the angle θ of the axis is 2π(1 − cosθ) in square radians, at every θ.
+/// (2.9): the part of the circle within the angle θ of the axis is 2π(1 − cosθ) in square radians, at every θ.
 #[test]
 fn areas_of_the_equal_area_fisheye_are_solid_angles() {
     use std::f64::consts::PI;

@@ -101,6 +101,12 @@ pub enum Quantity {
     Normal,
     /// Index of the shape that is seen, −1 where none is.
     Shape,
+    /// Rays that went through the pixel, 0 where no surface is seen.
+    Samples,
+    /// The part of them that met a surface.
+    Coverage,
+    /// The standard error of [`Ambient`](Self::Ambient) where what obstructs it is sampled.
+    AmbientError,
     /// Irradiance from the light with this name alone, one term of (3.1).
     Light(String),
 }
@@ -119,14 +125,17 @@ impl Quantity {
         Self::Shape,
     ];
 
+    /// What tells how the others were sampled.
+    pub const OF_SAMPLING: [Self; 3] = [Self::Samples, Self::Coverage, Self::AmbientError];
+
     /// The unit of the quantity in a scene of this kind: `"1"` for pure numbers, `""` for indices.
     #[must_use]
     pub fn unit(&self, convention: Convention, quantities: Quantities, length: LengthUnit) -> &'static str {
         match self {
             Self::Brightness | Self::Diffuse | Self::Specular => convention.unit(quantities),
-            Self::Irradiance | Self::Ambient | Self::Light(_) => quantities.irradiance_unit(),
+            Self::Irradiance | Self::Ambient | Self::AmbientError | Self::Light(_) => quantities.irradiance_unit(),
             Self::Depth | Self::Position => length.name(),
-            Self::Normal => "1",
+            Self::Normal | Self::Samples | Self::Coverage => "1",
             Self::Shape => "",
         }
     }
@@ -136,7 +145,7 @@ impl Quantity {
     pub fn from_name(name: &str) -> Option<Self> {
         match name.strip_prefix("light.") {
             Some(light) => Some(Self::Light(light.into())),
-            None => Self::COMMON.into_iter().find(|quantity| quantity.name() == name),
+            None => Self::COMMON.into_iter().chain(Self::OF_SAMPLING).find(|quantity| quantity.name() == name),
         }
     }
 
@@ -153,6 +162,9 @@ impl Quantity {
             Self::Position => "position".into(),
             Self::Normal => "normal".into(),
             Self::Shape => "shape".into(),
+            Self::Samples => "samples".into(),
+            Self::Coverage => "coverage".into(),
+            Self::AmbientError => "ambient-error".into(),
             Self::Light(light) => format!("light.{light}"),
         }
     }

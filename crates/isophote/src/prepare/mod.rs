@@ -1,17 +1,19 @@
 //! A scene laid out for tracing and shading. It chooses no renderer.
 
+mod obstruction;
 mod visibility;
 
 use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::OnceLock;
 
+pub use obstruction::AmbientIrradiance;
 pub use visibility::Blocking;
 
 use crate::camera::{CameraFrame, ScreenPosition, Sight};
 use crate::double_double::DoubleDouble;
 use crate::light::Light;
-use crate::map::Pixel;
+use crate::map::{Pixel, Resolution};
 use crate::real::Scalar;
 use crate::reflectance::{BrightnessFormula, Reflectance};
 use crate::scene::Scene;
@@ -94,6 +96,18 @@ impl PreparedScene {
         }
     }
 
+    /// The same scene seen with another number of pixels.
+    pub(crate) fn at_resolution(&self, resolution: Resolution) -> Self {
+        let mut other = Self { source_text: OnceLock::new(), ..self.clone() };
+        other.scene.camera.resolution = resolution;
+        other.frame = CameraFrame::new(&other.scene.camera);
+        other.precise_frame = CameraFrame::new(&other.scene.camera);
+        for shape in &mut other.shapes {
+            shape.outline = OnceLock::new();
+        }
+        other
+    }
+
     /// The scene it was made from.
     #[must_use]
     pub fn scene(&self) -> &Scene {
@@ -165,7 +179,12 @@ impl PreparedScene {
 
     /// Whether a shape may stand in another one's light.
     pub(crate) fn casts_shadows_between_shapes(&self) -> bool {
-        self.scene.shadows && self.primitives().nth(1).is_some()
+        let is_ambient_obstructed = self.scene.ambient.is_some_and(|ambient| ambient.obstruction.is_some());
+        (self.scene.shadows || is_ambient_obstructed) && self.has_shapes_beside_one()
+    }
+
+    fn has_shapes_beside_one(&self) -> bool {
+        self.primitives().nth(1).is_some()
     }
 
     /// All that can be hit.
@@ -215,7 +234,7 @@ impl PreparedScene {
             };
             if blocker.is_some() { 0.0 } else { 1.0 }
         };
-        let ambient = self.ambient_irradiance();
+        let ambient = self.ambient_irradiance(hit).irradiance;
         shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), ambient, visibility, each)
     }
 
@@ -229,15 +248,9 @@ impl PreparedScene {
             let is_blocked = self.blocking(hit, light).blocker.is_some();
             DoubleDouble::from_f64(if is_blocked { 0.0 } else { 1.0 })
         };
-        let ambient = DoubleDouble::from_f64(self.ambient_irradiance());
+        // The directions are sampled, which a double is good enough for.
+        let ambient = DoubleDouble::from_f64(self.ambient_irradiance(&hit.rounded()).irradiance);
         shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), ambient, visibility, each)
-    }
-
-    /// E_a (3.9): the irradiance of any surface point by the ambient light. What the scene takes of it is not subtracted
-    /// yet; this is its place.
-    #[must_use]
-    pub fn ambient_irradiance(&self) -> f64 {
-        self.scene.ambient.map_or(0.0, |ambient| ambient.unobstructed_irradiance())
     }
 
     fn prepared_formula(&self, primitive: Primitive) -> &PreparedFormula {
@@ -259,7 +272,9 @@ impl PreparedScene {
         let geometry = &self.shapes[located.shape].geometry;
         let Sight { start, view, distance } = self.frame.sight(nearest.anchor, nearest.offset);
         let from_inside = geometry.part_encloses(nearest.part, start);
-        let normal = if from_inside { -nearest.outward_normal } else { nearest.outward_normal };
+        let from_behind = !geometry.is_closed() && nearest.face_normal.dot(view) < 0.0;
+        let normal = if from_inside || from_behind { -nearest.outward_normal } else { nearest.outward_normal };
+        let lift = if from_behind { nearest.lift_behind } else { nearest.lift };
         let point = SurfacePoint {
             anchor: nearest.anchor,
             offset: nearest.offset,
@@ -268,7 +283,7 @@ impl PreparedScene {
             cos_theta_o: normal.dot(view),
         };
         let primitive = Primitive { shape: located.shape, part: nearest.part };
-        Hit { primitive, distance, point, from_inside, lift: nearest.lift }
+        Hit { primitive, distance, point, from_inside, lift }
     }
 }
 

@@ -1,13 +1,17 @@
 //! From the tree to [`SceneSource`]: types and keys. Every key is named here once; what it may hold is checked in
 //! `validate`.
 
+mod files;
+mod shapes;
+
 use std::collections::{BTreeMap, HashSet};
+use std::path::PathBuf;
 
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
-    AmbientSource, CameraSource, LightSource, MaterialSource, ProbeSource, SceneSource, ScreenSource, ShadowSource,
-    SphereSource, WindowSource,
+    AmbientSource, CameraSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource,
+    ShadowSource, SphereSource, WindowSource,
 };
 use crate::units::Choice;
 
@@ -24,6 +28,7 @@ pub fn read(document: &Document, problems: &mut Problems) -> SceneSource {
 
 fn read_scene(table: &mut Table<'_>) -> SceneSource {
     SceneSource {
+        directory: PathBuf::new(),
         version: table.count("version"),
         title: table.text("title"),
         length: table.choice("length"),
@@ -32,8 +37,18 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         quantities: table.choice("quantities"),
         shadows: table.boolean("shadows"),
         camera: table.table("camera", read_camera),
+        sampling: table.table("sampling", read_sampling),
         material: table.named_tables("material", read_material),
         sphere: table.tables("sphere", read_sphere),
+        ellipsoid: table.tables("ellipsoid", shapes::read_ellipsoid),
+        cuboid: table.tables("box", shapes::read_cuboid),
+        cylinder: table.tables("cylinder", shapes::read_cylinder),
+        cone: table.tables("cone", shapes::read_cone),
+        plane: table.tables("plane", shapes::read_plane),
+        rectangle: table.tables("rectangle", shapes::read_rectangle),
+        disk: table.tables("disk", shapes::read_disk),
+        mesh: table.tables("mesh", files::read_mesh),
+        spheres: table.tables("spheres", files::read_spheres),
         light: table.tables("light", read_light),
         ambient: table.table("ambient", read_ambient),
         probe: table.tables("probe", read_probe),
@@ -53,6 +68,14 @@ fn read_camera(table: &mut Table<'_>) -> CameraSource {
         longitude: table.numbers("longitude"),
         latitude: table.numbers("latitude"),
         resolution: table.counts("resolution"),
+    }
+}
+
+fn read_sampling(table: &mut Table<'_>) -> SamplingSource {
+    SamplingSource {
+        samples: table.count("samples"),
+        tolerance: table.number("tolerance"),
+        filter: table.choice("filter"),
     }
 }
 
@@ -104,7 +127,11 @@ fn read_light(table: &mut Table<'_>) -> LightSource {
 }
 
 fn read_ambient(table: &mut Table<'_>) -> AmbientSource {
-    AmbientSource { radiance: table.number("radiance") }
+    AmbientSource {
+        radiance: table.number("radiance"),
+        obstructed: table.boolean("obstructed"),
+        samples: table.count("samples"),
+    }
 }
 
 fn read_probe(table: &mut Table<'_>) -> ProbeSource {

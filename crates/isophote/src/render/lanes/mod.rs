@@ -17,6 +17,7 @@ use rayon::prelude::*;
 use self::kernel::BandJob;
 use self::visible::Candidate;
 use super::band::{self, Band};
+use super::sampling;
 use super::{RenderError, RenderSettings, Renderer};
 use crate::lanes::{Instructions, Precision};
 use crate::map::{Map, Run, Values};
@@ -61,6 +62,22 @@ impl Lanes {
     }
 
     fn render_in(
+        &self,
+        memory: Vec<Values>,
+        scene: &PreparedScene,
+        settings: &RenderSettings<'_>,
+    ) -> Result<Map, RenderError> {
+        if scene.scene().sampling().is_more_than_centres() {
+            let pool = if self.threads == 1 { None } else { Some(self.pool()?) };
+            let centres =
+                |scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(Vec::new(), scene, settings);
+            sampling::render(scene, settings, pool, &centres)
+        } else {
+            self.centres(memory, scene, settings)
+        }
+    }
+
+    fn centres(
         &self,
         memory: Vec<Values>,
         scene: &PreparedScene,

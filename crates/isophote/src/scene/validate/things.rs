@@ -1,4 +1,4 @@
-//! Materials, shapes and probes, each for itself.
+//! Materials and probes, each for itself.
 
 use std::collections::HashMap;
 
@@ -6,9 +6,8 @@ use super::{Checked, Validator, limits};
 use crate::reflectance::{Convention, Reflectance};
 use crate::scene::document::Path;
 use crate::scene::read::{closest, short, suggestion};
-use crate::scene::source::{MaterialSource, ProbeSource, SceneSource, SphereSource};
-use crate::scene::{Material, Probe, Shape};
-use crate::shape::{Geometry, Sphere};
+use crate::scene::source::{MaterialSource, ProbeSource, SceneSource};
+use crate::scene::{Material, Probe};
 
 impl Validator {
     pub(super) fn materials(&mut self, source: &SceneSource) -> Checked<Material> {
@@ -41,26 +40,13 @@ impl Validator {
         Some(Material { name: name.into(), reflectance })
     }
 
-    pub(super) fn shapes(&mut self, source: &SceneSource) -> Checked<Shape> {
-        if !self.few_enough("sphere", source.sphere.len(), limits::SHAPES) {
-            return Vec::new();
-        }
-        let mut names = Names::new("sphere");
-        let known: Vec<&str> = source.material.keys().map(String::as_str).collect();
-        let check = |(index, sphere): (usize, &SphereSource)| {
-            let path = Path::root().key("sphere").index(index);
-            let name = names.check(self, &path, index, sphere.name.as_deref());
-            let center = self.required_point(&path, "center", sphere.center);
-            let radius = self.required_size(&path, "radius", sphere.radius);
-            let material = self.material_of(&path, sphere.material.as_deref(), &known);
-            let geometry = Geometry::Sphere(Sphere { center: center?, radius: radius? });
-            Some(Shape::new(name?, material.ok()?, geometry, sphere.shadow))
-        };
-        source.sphere.iter().enumerate().map(check).collect()
-    }
-
     /// The index of a material by its name; none where the convention needs none.
-    fn material_of(&mut self, path: &Path, name: Option<&str>, known: &[&str]) -> Result<Option<usize>, Reported> {
+    pub(super) fn material_of(
+        &mut self,
+        path: &Path,
+        name: Option<&str>,
+        known: &[&str],
+    ) -> Result<Option<usize>, Reported> {
         let Some(name) = name else {
             if self.convention.uses_material() {
                 let help = format!("write the name of a material{}", listed(known));
@@ -89,7 +75,7 @@ impl Validator {
         let mut names = Names::new("probe");
         let check = |(index, probe): (usize, &ProbeSource)| {
             let path = Path::root().key("probe").index(index);
-            let name = names.check(self, &path, index, probe.name.as_deref());
+            let name = names.check(self, &path, probe.name.as_deref());
             let at = self.required_point(&path, "at", probe.at);
             Some(Probe { name: name?, at: at?, published: probe.published })
         };
@@ -98,12 +84,12 @@ impl Validator {
 }
 
 /// What is wrong has been noted already.
-struct Reported;
+pub(super) struct Reported;
 
 /// Names of one kind of thing, which must differ.
 pub(super) struct Names {
     kind: &'static str,
-    seen: HashMap<String, usize>,
+    seen: HashMap<String, Path>,
 }
 
 impl Names {
@@ -111,23 +97,17 @@ impl Names {
         Self { kind, seen: HashMap::new() }
     }
 
-    /// The name of a thing, or the default one.
-    pub(super) fn check(
-        &mut self,
-        validator: &mut Validator,
-        path: &Path,
-        index: usize,
-        name: Option<&str>,
-    ) -> Option<String> {
-        let name = name.map_or_else(|| format!("{}[{index}]", self.kind), str::to_owned);
-        let path = path.key("name");
+    /// The name of the thing at a path, or the default one, which is that path.
+    pub(super) fn check(&mut self, validator: &mut Validator, thing: &Path, name: Option<&str>) -> Option<String> {
+        let name = name.map_or_else(|| thing.to_string(), str::to_owned);
+        let path = thing.key("name");
         if name.is_empty() || name.chars().any(char::is_control) {
             validator.wrong(&path, format!("the name \"{}\" is not usable", short(&name)), "allowed: any line of text");
             return None;
         }
-        if let Some(first) = self.seen.insert(name.clone(), index) {
+        if let Some(first) = self.seen.insert(name.clone(), thing.clone()) {
             let message = format!("there are two {}s named \"{}\"", self.kind, short(&name));
-            validator.wrong(&path, message, &format!("the other is {}[{first}]; names must differ", self.kind));
+            validator.wrong(&path, message, &format!("the other is {first}; names must differ"));
             return None;
         }
         Some(name)
