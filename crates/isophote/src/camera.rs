@@ -110,7 +110,9 @@ impl<T: Scalar> CameraFrame<T> {
     pub fn ray(&self, position: ScreenPosition) -> Ray<T> {
         let (x, y) = self.screen_point(position);
         let direction = self.forward * T::from_f64(self.screen.distance) + self.right * x + self.up * y;
-        Ray { origin: self.eye, direction: direction.normalized() }
+        let nothing = T::zero();
+        let offset = Vector::new(nothing, nothing, nothing);
+        Ray { anchor: self.eye, offset, direction: direction.normalized() }
     }
 
     fn screen_point(&self, position: ScreenPosition) -> (T, T) {
@@ -210,8 +212,8 @@ mod tests {
         let frame = CameraFrame::<f64>::new(&camera);
         let position = ScreenPosition::Point { x: 0.7, y: -1.3 };
         let ray = frame.ray(position);
-        let [x, y] = frame.project(ray.origin + ray.direction * 7.0).expect("it is ahead");
+        let [x, y] = frame.project(ray.anchor + ray.direction * 7.0).expect("it is ahead");
         assert!((x - 0.7).abs() < 1e-14 && (y + 1.3).abs() < 1e-14);
-        assert_eq!(frame.project(ray.origin - ray.direction), None);
+        assert_eq!(frame.project(ray.anchor - ray.direction), None);
     }
 }

@@ -176,10 +176,10 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     let hit = scene.trace_precisely(crate::camera::ScreenPosition::PixelCenter(pixel))?;
     let mut least_cosine = hit.point.cos_theta_o;
     let mut by_light = Vec::with_capacity(scene.scene().lights().len());
-    let formula = scene.formula(hit.shape);
+    let formula = scene.formula(hit.primitive);
     let shininess = formula.sharpness().unwrap_or(0.0);
     let mut flanks = 0.0;
-    let shading = scene.shade(hit.shape, &hit.point, |light, term| {
+    let shading = scene.shade_precisely(&hit, |light, term| {
         by_light.push(term.irradiance.rounded());
         let (cosine, lobe) = (term.cos_theta_h.rounded(), (term.irradiance * term.lobe).rounded());
         if lobe > 0.0 {
@@ -198,14 +198,14 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     let flanks = flanks * formula.specular_factor(hit.point.cos_theta_o).rounded();
     let share = |value: f64| if value > 0.0 { flanks / value } else { 0.0 };
     Some(ExactPixel {
-        shape: i32::try_from(hit.shape).unwrap_or(i32::MAX),
+        shape: i32::try_from(hit.primitive.shape).unwrap_or(i32::MAX),
         values,
         flanks: [share(values[0]), 0.0, 0.0, share(values[3])],
         least_cosine: least_cosine.rounded(),
         distance: hit.distance.rounded(),
         position: rounded(hit.point.position()),
         normal: rounded(hit.point.normal),
-        size: hit.point.offset.length().rounded(),
+        size: scene.scene().shapes()[hit.primitive.shape].geometry.size_near(rounded(hit.point.position())),
         by_light,
     })
 }

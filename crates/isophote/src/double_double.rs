@@ -17,12 +17,6 @@ pub struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// The nearest double.
-    #[must_use]
-    pub fn rounded(self) -> f64 {
-        self.high
-    }
-
     /// a + b, exactly.
     #[must_use]
     pub fn sum_of(a: f64, b: f64) -> Self {
@@ -133,6 +127,10 @@ impl Real for DoubleDouble {
 impl Scalar for DoubleDouble {
     fn from_f64(value: f64) -> Self {
         Self { high: value, low: 0.0 }
+    }
+
+    fn rounded(self) -> f64 {
+        self.high
     }
 
     fn cosine_power(cos_squared: Self, _: Self, exponent: f64) -> Self {

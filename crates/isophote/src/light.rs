@@ -14,6 +14,8 @@ pub struct Light {
     pub intensity: f64,
     /// How the intensity depends on the direction.
     pub emission: Emission,
+    /// Whether shapes keep its light from each other, if the scene has shadows.
+    pub casts_shadows: bool,
 }
 
 /// The emission pattern I(ω) of a light (section 3).
@@ -114,7 +116,13 @@ mod tests {
     fn the_power_of_a_light_is_the_integral_of_its_intensity() {
         let axis = Vector::new(1.0, 2.0, -2.0) * (1.0 / 3.0);
         for emission in [Emission::Isotropic, Emission::Lambertian { axis }] {
-            let light = Light { name: "lamp".into(), position: Vector::default(), intensity: 3.5, emission };
+            let light = Light {
+                name: "lamp".into(),
+                position: Vector::default(),
+                intensity: 3.5,
+                emission,
+                casts_shadows: true,
+            };
             let (cosines, turns) = (1000, 1000);
             let mut power = 0.0;
             for i in 0..cosines {

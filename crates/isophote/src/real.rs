@@ -60,6 +60,9 @@ pub trait Scalar: Real<Mask = bool> {
     /// A double, exactly.
     fn from_f64(value: f64) -> Self;
 
+    /// The nearest double.
+    fn rounded(self) -> f64;
+
     /// cosⁿ of an angle, from the squares of its cosine and its sine: the lobe (N·H)ⁿ of (3.3) to (3.6).
     ///
     /// Near the lobe's peak the power of the cosine would multiply its rounding error by n; the sine is small there
@@ -103,6 +106,11 @@ impl Scalar for f64 {
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         value
+    }
+
+    #[inline(always)]
+    fn rounded(self) -> f64 {
+        self
     }
 
     fn cosine_power(cos_squared: Self, sin_squared: Self, exponent: f64) -> Self {

@@ -99,6 +99,7 @@ fn a_plane_under_a_lambertian_source_has_the_irradiance_of_cie_171_case_5_2() {
         position: Vector::new(0.0, height, 0.0),
         intensity,
         emission: Emission::Lambertian { axis },
+        casts_shadows: true,
     };
     let material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };
     let formula = BrightnessFormula::new(Convention::Irradiance, &material);
@@ -135,7 +136,7 @@ fn a_distant_lambert_sphere_follows_the_phase_law() {
                 let ring = latitude.cos();
                 let direction = Vector::new(ring * longitude.sin(), latitude.sin(), ring * longitude.cos());
                 let reading = prepared.probe(&Place::NearestTo(direction)).expect("it is there");
-                reading.shading.brightness() * reading.point.cos_theta_o.max(0.0) * ring
+                reading.shading.brightness() * reading.hit.point.cos_theta_o.max(0.0) * ring
             })
         });
         let full = 2.0 / 3.0 * std::f64::consts::PI;

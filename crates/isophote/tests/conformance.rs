@@ -7,12 +7,12 @@ use isophote::conformance::conforms;
 use isophote::double_double::DoubleDouble;
 use isophote::lanes::{Instructions, Precision};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
-use isophote::prepare::PreparedScene;
+use isophote::prepare::{Hit, PreparedScene};
 use isophote::real::Scalar;
 use isophote::render::{Lanes, Reference, RenderError, RenderSettings, Renderer};
 use isophote::scene::source::{EmissionName, LightSource, MaterialSource};
 use isophote::scene::{Scene, SceneSource, Syntax};
-use isophote::shape::{Geometry, SurfacePoint};
+use isophote::shape::{Geometry, Primitive, SurfacePoint};
 use isophote::tolerance::{DOUBLE, PROBE, SINGLE};
 use isophote::vector::Vector;
 use proptest::prelude::*;
@@ -45,13 +45,18 @@ fn renderers() -> Vec<Box<dyn Renderer>> {
 }
 
 /// The surface point nearest to `point`, all of it in 32 digits; the eye is outside.
-fn precise_point(scene: &PreparedScene, shape: usize, point: Vector) -> SurfacePoint<DoubleDouble> {
-    let Geometry::Sphere(sphere) = scene.scene().shapes()[shape].geometry;
+fn precise_hit(scene: &PreparedScene, primitive: Primitive, point: Vector) -> Hit<DoubleDouble> {
+    let Geometry::Sphere(sphere) = scene.scene().shapes()[primitive.shape].geometry else {
+        panic!("these scenes are made of spheres");
+    };
     let center = Vector::<DoubleDouble>::from_f64(sphere.center);
     let normal = (Vector::from_f64(point) - center).normalized();
     let offset = normal * DoubleDouble::from_f64(sphere.radius);
-    let view = ((Vector::from_f64(scene.frame().eye) - center) - offset).normalized();
-    SurfacePoint { anchor: sphere.center, offset, normal, view, cos_theta_o: normal.dot(view) }
+    let to_eye = (Vector::from_f64(scene.frame().eye) - center) - offset;
+    let (distance, view) = (to_eye.length(), to_eye.normalized());
+    let point = SurfacePoint { anchor: sphere.center, offset, normal, view, cos_theta_o: normal.dot(view) };
+    let lift = Vector::from_f64(Vector::default());
+    Hit { primitive, distance, point, from_inside: false, lift }
 }
 
 #[test]
@@ -331,7 +336,7 @@ fn the_nearest_sphere_hides_the_others_and_spheres_behind_the_eye_are_not_seen()
     at("at the back", -5.0);
     let scene = prepared(source);
     let hit = scene.trace_pixel(Pixel { column: 400, row: 300 }).expect("a sphere is there");
-    assert_eq!(scene.scene().shapes()[hit.shape].name, "before");
+    assert_eq!(scene.scene().shapes()[hit.primitive.shape].name, "before");
     assert!((hit.distance - 2.0).abs() < 1e-4);
     let map = Reference.render(&scene, &RenderSettings::default()).expect("it renders");
     let seen: std::collections::BTreeSet<i32> = map.mask().shapes().into_iter().collect();
@@ -363,18 +368,19 @@ proptest! {
     fn random_probes_are_within_tolerance(source in random::scenes(), toward in prop::array::uniform3(-1.0..1.0_f64)) {
         let scene = prepared(source);
         for shape in scene.scene().shapes() {
-            let Geometry::Sphere(sphere) = shape.geometry;
+            let Geometry::Sphere(sphere) = shape.geometry else { panic!("these scenes are made of spheres") };
             let toward = Vector::from(toward);
             prop_assume!(toward.length() > 0.1);
             let point = sphere.center + toward.normalized() * sphere.radius;
             let reading = scene.probe(&Place::NearestTo(point)).expect("there are spheres");
-            let exact = precise_point(&scene, reading.shape, point);
-            let mut least_cosine = exact.cos_theta_o.rounded().abs();
+            let primitive = reading.hit.primitive;
+            let exact = precise_hit(&scene, primitive, point);
+            let mut least_cosine = exact.point.cos_theta_o.rounded().abs();
             let mut faintest_lobe = 1.0_f64;
-            let shininess = scene.scene().shapes()[reading.shape].material.map_or(1.0, |material| {
+            let shininess = scene.scene().shapes()[primitive.shape].material.map_or(1.0, |material| {
                 scene.scene().materials()[material].reflectance.shininess
             });
-            let expected = scene.shade(reading.shape, &exact, |_, term| {
+            let expected = scene.shade_precisely(&exact, |_, term| {
                 if term.irradiance.rounded() > 0.0 {
                     least_cosine = least_cosine.min(term.cos_theta_i.rounded());
                     faintest_lobe = faintest_lobe.min(term.cos_theta_h.rounded().powf(shininess));

@@ -7,7 +7,7 @@ use isophote::camera::{Camera, CameraFrame, Screen};
 use isophote::light::{Emission, Light};
 use isophote::reflectance::Reflectance;
 use isophote::scene::{Material, Probe, Problem, Scene, Shape};
-use isophote::shape::{Geometry, Sphere};
+use isophote::shape::Measure;
 use isophote::text::significant;
 use isophote::units::Choice;
 use isophote::vector::Vector;
@@ -68,17 +68,17 @@ fn materials(scene: &Scene) -> Option<String> {
 }
 
 fn shapes(scene: &Scene) -> Option<String> {
-    let columns = [
-        ("name", Align::Left),
-        ("shape", Align::Left),
-        ("centre, m", Align::Left),
-        ("radius, m", Align::Right),
-        ("material", Align::Left),
-    ];
+    let columns =
+        [("name", Align::Left), ("shape", Align::Left), ("measures, m", Align::Left), ("material", Align::Left)];
     let rows = scene.shapes().iter().map(|shape| {
-        let Geometry::Sphere(sphere) = shape.geometry;
         let material = shape.material.map_or("–", |index| scene.materials()[index].name.as_str());
-        vec![shape.name.clone(), "sphere".into(), vector(sphere.center), short(sphere.radius), material.to_owned()]
+        let measures = shape.geometry.measures().into_iter().map(|(name, measure)| match measure {
+            Measure::Vector(value) => format!("{name} {}", vector(value)),
+            Measure::Number(value) => format!("{name} {}", short(value)),
+            Measure::Count(count) => format!("{name} {count}"),
+        });
+        let measures = measures.collect::<Vec<_>>().join(", ");
+        vec![shape.name.clone(), shape.geometry.kind().into(), measures, material.to_owned()]
     });
     filled(&columns, &rows.collect::<Vec<_>>())
 }
@@ -165,11 +165,19 @@ fn material_json(material: &Material) -> Value {
 }
 
 fn shape_json(shape: &Shape, scene: &Scene) -> Value {
-    let Geometry::Sphere(Sphere { center, radius }) = shape.geometry;
     let material = shape.material.map(|index| scene.materials()[index].name.as_str());
-    json!({
-        "name": shape.name, "shape": "sphere", "center": center.to_array(), "radius": radius, "material": material,
-    })
+    let mut json = json!({
+        "name": shape.name, "shape": shape.geometry.kind(), "material": material,
+        "casts_shadow": shape.casts_shadow, "receives_shadow": shape.receives_shadow,
+    });
+    for (name, measure) in shape.geometry.measures() {
+        json[name] = match measure {
+            Measure::Vector(value) => json!(value.to_array()),
+            Measure::Number(value) => json!(value),
+            Measure::Count(count) => json!(count),
+        };
+    }
+    json
 }
 
 fn light_json(light: &Light) -> Value {

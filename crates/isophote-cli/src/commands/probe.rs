@@ -126,9 +126,9 @@ fn refusal(name: &str, error: &ProbeError, scene: &Scene) -> String {
 /// How far --snap moved a point, when it did.
 fn snapped(name: &str, place: &Place, reading: &ProbeReading, scene: &Scene) -> Option<String> {
     let Place::NearestTo(asked) = place else { return None };
-    let moved = (reading.point.position() - *asked).length();
-    let geometry = &scene.shapes()[reading.shape].geometry;
-    (moved > geometry.surface_tolerance()).then(|| {
+    let moved = (reading.hit.point.position() - *asked).length();
+    let geometry = &scene.shapes()[reading.hit.primitive.shape].geometry;
+    (moved > geometry.surface_tolerance(*asked)).then(|| {
         let length = scene.length();
         let moved = significant(length.from_metres(moved), 6);
         let [x, y, z] = reading.position(length);
@@ -182,7 +182,7 @@ fn unseen_note(reading: &ProbeReading, scene: &Scene) -> Option<String> {
     match reading.seen {
         SeenFromEye::Seen => None,
         SeenFromEye::FacesAway => Some("the surface faces away there (θ_o ≥ 90°)".into()),
-        SeenFromEye::HiddenBy(shape) => Some(format!("\"{}\" stands before it", scene.shapes()[shape].name)),
+        SeenFromEye::HiddenBy(other) => Some(format!("\"{}\" stands before it", scene.name_of(other))),
     }
 }
 
@@ -240,7 +240,7 @@ impl ProbeJson {
         let length = description.length();
         let brightness = |value| ValueJson { value, unit: description.convention().unit(description.quantities()) };
         let irradiance = |value| ValueJson { value, unit: description.quantities().irradiance_unit() };
-        let formula = scene.formula(reading.shape);
+        let formula = scene.formula(reading.hit.primitive);
         let lights = reading.terms.iter().zip(description.lights()).map(|(term, light)| LightJson {
             name: light.name.clone(),
             irradiance: term.irradiance,
@@ -249,16 +249,16 @@ impl ProbeJson {
             distance: length.from_metres(term.distance),
             intensity: term.intensity,
             visibility: term.visibility,
-            diffuse: term.diffuse(formula, &reading.point),
-            specular: term.specular(formula, &reading.point),
+            diffuse: term.diffuse(formula, &reading.hit.point),
+            specular: term.specular(formula, &reading.hit.point),
         });
         Self {
             name: name.into(),
             point: reading.position(length),
-            normal: reading.point.normal.to_array(),
-            shape: description.shapes()[reading.shape].name.clone(),
+            normal: reading.hit.point.normal.to_array(),
+            shape: description.name_of(reading.hit.primitive),
             seen: reading.is_seen(),
-            cos_theta_o: reading.point.cos_theta_o,
+            cos_theta_o: reading.hit.point.cos_theta_o,
             channels: ChannelsJson {
                 brightness: brightness(reading.shading.brightness()),
                 irradiance: irradiance(reading.shading.irradiance),

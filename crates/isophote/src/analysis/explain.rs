@@ -28,9 +28,8 @@ impl ProbeReading {
     fn explain_geometry(&self, text: &mut String, scene: &PreparedScene, name: &str) {
         let description = scene.scene();
         let length = description.length();
-        let shape = &description.shapes()[self.shape];
-        let point = &self.point;
-        let from_inside = point.normal.dot(point.offset) < 0.0;
+        let shape = &description.shapes()[self.hit.primitive.shape];
+        let point = &self.hit.point;
         let title = description.title();
         line(text, format_args!("{name}{}{title}", if title.is_empty() { "" } else { ": " }));
         line(
@@ -39,9 +38,17 @@ impl ProbeReading {
         );
         line(text, format_args!(""));
         line(text, format_args!("Geometry (2.2), lengths in {}", length.name()));
-        line(text, format_args!("  P   = {}   on \"{}\"", vector_in(point.position(), length), shape.name));
-        line(text, format_args!("  C   = {}   centre of \"{}\"", vector_in(point.anchor, length), shape.name));
-        let normal = if from_inside { "(C − P)/‖C − P‖, the eye is inside" } else { "(P − C)/‖P − C‖" };
+        let on = description.name_of(self.hit.primitive);
+        line(text, format_args!("  P   = {}   on \"{on}\"", vector_in(point.position(), length)));
+        if shape.geometry.is_round() {
+            line(text, format_args!("  C   = {}   centre of \"{on}\"", vector_in(point.anchor, length)));
+        }
+        let normal = match (shape.geometry.is_round(), self.hit.from_inside) {
+            (true, true) => "(C − P)/‖C − P‖, the eye is inside",
+            (true, false) => "(P − C)/‖P − C‖",
+            (false, true) => "inward, the eye is inside",
+            (false, false) => "on the eye's side",
+        };
         line(text, format_args!("  N   = {}   {normal}", vector(point.normal)));
         line(text, format_args!("  O   = {}   eye", vector_in(scene.frame().eye, length)));
         line(text, format_args!("  V   = {}   (O − P)/‖O − P‖", vector(point.view)));
@@ -57,7 +64,7 @@ impl ProbeReading {
                 );
             }
             SeenFromEye::HiddenBy(other) => {
-                let other = &description.shapes()[other].name;
+                let other = description.name_of(other);
                 line(text, format_args!("  The eye does not see the point: \"{other}\" stands before it."));
             }
         }
@@ -79,7 +86,7 @@ impl ProbeReading {
             line(text, format_args!("  r   = ‖S − P‖ = {distance} {} = {metres} m", length.name()));
         }
         line(text, format_args!("  L   = (S − P)/r = {}", vector(term.direction)));
-        let cosine = self.point.normal.dot(term.direction);
+        let cosine = self.hit.point.normal.dot(term.direction);
         line(text, format_args!("  cosθ_i = max(0, N·L) = max(0, {}) = {}", digits(cosine), digits(term.cos_theta_i)));
         let intensity_unit = description.quantities().intensity_unit();
         match light.emission {
@@ -100,8 +107,10 @@ impl ProbeReading {
                 );
             }
         }
-        if term.visibility < 1.0 {
-            line(text, format_args!("  v   = {}: the wall of the shape stands between", term.visibility));
+        if let Some(blocker) = self.blockers[index] {
+            let name = scene.scene().name_of(blocker);
+            let what = if blocker == self.hit.primitive { "the wall of " } else { "" };
+            line(text, format_args!("  v   = {}: {what}\"{name}\" stands between", term.visibility));
         }
         line(
             text,
@@ -119,15 +128,15 @@ impl ProbeReading {
 
     fn explain_reflection(&self, text: &mut String, scene: &PreparedScene, term: &LightTerm) {
         let convention = scene.scene().convention();
-        let Some(material) = scene.scene().shapes()[self.shape].material else { return };
+        let Some(material) = scene.scene().material_of(self.hit.primitive) else { return };
         if !convention.uses_material() {
             return;
         }
         let Reflectance { diffuse: k_d, specular: k_s, shininess: n } = scene.scene().materials()[material].reflectance;
-        let formula = scene.formula(self.shape);
+        let formula = scene.formula(self.hit.primitive);
         let irradiance = digits(term.irradiance);
         let end = format!("{}   ({})", convention.unit(scene.scene().quantities()), convention.formula_number());
-        if self.point.cos_theta_o <= 0.0 {
+        if self.hit.point.cos_theta_o <= 0.0 {
             line(text, format_args!("  diffuse = specular = 0 {end}, since θ_o ≥ 90°"));
             return;
         }
@@ -136,11 +145,11 @@ impl ProbeReading {
                 format!("E k_d = {irradiance} × {k_d}")
             }
             Convention::Lab => {
-                format!("E k_d cosθ_o = {irradiance} × {k_d} × {}", digits(self.point.cos_theta_o))
+                format!("E k_d cosθ_o = {irradiance} × {k_d} × {}", digits(self.hit.point.cos_theta_o))
             }
             Convention::CoursePi | Convention::Radiance => format!("E k_d/π = {irradiance} × {k_d}/π"),
         };
-        line(text, format_args!("  diffuse  = {diffuse} = {} {end}", digits(term.diffuse(formula, &self.point))));
+        line(text, format_args!("  diffuse  = {diffuse} = {} {end}", digits(term.diffuse(formula, &self.hit.point))));
         if !convention.has_specular_part() || k_s == 0.0 {
             return;
         }
@@ -157,7 +166,7 @@ impl ProbeReading {
             }
             _ => format!("E k_s (N·H)^n = {irradiance} × {k_s} × {lobe}"),
         };
-        line(text, format_args!("  specular = {specular} = {} {end}", digits(term.specular(formula, &self.point))));
+        line(text, format_args!("  specular = {specular} = {} {end}", digits(term.specular(formula, &self.hit.point))));
     }
 
     fn explain_sum(&self, text: &mut String, scene: &PreparedScene) {

@@ -1,9 +1,10 @@
 //! Exact values at a point.
 
+use crate::camera::ScreenPosition;
 use crate::map::Pixel;
-use crate::prepare::PreparedScene;
+use crate::prepare::{Hit, PreparedScene};
 use crate::shade::{LightTerm, Shading};
-use crate::shape::{Located, Miss, SurfacePoint, surface_at};
+use crate::shape::{Located, Miss, Primitive, surface_at};
 use crate::units::LengthUnit;
 use crate::vector::Vector;
 
@@ -31,14 +32,14 @@ pub enum Place {
 /// Values at a point of a surface, in double precision: within 1e-12 relative where cosθ_i and cosθ_o exceed 1e-3.
 #[derive(Clone, Debug)]
 pub struct ProbeReading {
-    /// Index of the shape.
-    pub shape: usize,
-    /// The point and its directions.
-    pub point: SurfacePoint,
+    /// The point, what it is on, and its directions.
+    pub hit: Hit,
     /// Irradiance and brightness.
     pub shading: Shading,
     /// Each light's term, in the order of the scene.
     pub terms: Vec<LightTerm>,
+    /// What stands between the point and each light.
+    pub blockers: Vec<Option<Primitive>>,
     /// Whether the eye sees the point.
     pub seen: SeenFromEye,
 }
@@ -50,15 +51,15 @@ pub enum SeenFromEye {
     Seen,
     /// The surface faces away from the eye there: θ_o ≥ 90°.
     FacesAway,
-    /// A shape with this index stands before it.
-    HiddenBy(usize),
+    /// This stands before it.
+    HiddenBy(Primitive),
 }
 
 impl ProbeReading {
     /// The point, in the scene's unit.
     #[must_use]
     pub fn position(&self, length: LengthUnit) -> [f64; 3] {
-        self.point.position().to_array().map(|metres| length.from_metres(metres))
+        self.hit.point.position().to_array().map(|metres| length.from_metres(metres))
     }
 
     /// Whether the eye sees the point.
@@ -73,10 +74,16 @@ impl ProbeReading {
 pub enum ProbeError {
     /// The point is on no surface.
     #[error("the point is on no surface")]
-    OffSurface(Miss),
+    OffSurface(Box<Miss>),
     /// The scene has no shapes.
     #[error("the scene has no shapes")]
     NoShapes,
+    /// Only spheres have points by angles.
+    #[error("points are given by angles on a sphere only, not on a {kind}")]
+    NoAngles {
+        /// What the shape is.
+        kind: &'static str,
+    },
     /// The pixel is outside the image.
     #[error("there is no pixel at column {}, row {}", pixel.column, pixel.row)]
     NoSuchPixel {
@@ -106,7 +113,10 @@ impl PreparedScene {
             },
             Place::NearestTo(point) => match surface_at(geometries(), point) {
                 Ok(located) => Ok(self.reading_at(&located)),
-                Err(Some(Miss { shape, nearest, .. })) => Ok(self.reading_at(&Located { shape, nearest })),
+                Err(Some(miss)) => {
+                    let Miss { shape, nearest, .. } = *miss;
+                    Ok(self.reading_at(&Located { shape, nearest }))
+                }
                 Err(None) => Err(ProbeError::NoShapes),
             },
             Place::Pixel(pixel) => self.probe_pixel(pixel),
@@ -114,8 +124,9 @@ impl PreparedScene {
                 let frame = self.frame();
                 let ring = frame.right * libm::cos(phi) + frame.up * libm::sin(phi);
                 let direction = ring * libm::sin(theta) - frame.forward * libm::cos(theta);
-                let geometry = self.scene().shapes().get(shape).ok_or(ProbeError::NoShapes)?.geometry;
-                Ok(self.reading_at(&Located { shape, nearest: geometry.in_direction(direction) }))
+                let geometry = &self.scene().shapes().get(shape).ok_or(ProbeError::NoShapes)?.geometry;
+                let nearest = geometry.in_direction(direction).ok_or(ProbeError::NoAngles { kind: geometry.kind() })?;
+                Ok(self.reading_at(&Located { shape, nearest }))
             }
         }
     }
@@ -126,26 +137,31 @@ impl PreparedScene {
             return Err(ProbeError::NoSuchPixel { pixel });
         }
         let hit = self.trace_pixel(pixel).ok_or(ProbeError::NothingSeen { pixel })?;
-        Ok(self.reading(hit.shape, hit.point, SeenFromEye::Seen))
+        Ok(self.reading(hit, Some(ScreenPosition::PixelCenter(pixel)), SeenFromEye::Seen))
     }
 
     fn reading_at(&self, located: &Located) -> ProbeReading {
-        let point = self.surface_point(located);
-        self.reading(located.shape, point, self.seen_from_eye(located.shape, &point))
+        let hit = self.surface_point(located);
+        self.reading(hit, None, self.seen_from_eye(&hit))
     }
 
-    fn reading(&self, shape: usize, point: SurfacePoint, seen: SeenFromEye) -> ProbeReading {
-        let mut terms = Vec::with_capacity(self.scene().lights().len());
-        let shading = self.shade(shape, &point, |_, term| terms.push(*term));
-        ProbeReading { shape, point, shading, terms, seen }
+    fn reading(&self, hit: Hit, seen_at: Option<ScreenPosition>, seen: SeenFromEye) -> ProbeReading {
+        let lights = self.scene().lights().len();
+        let mut terms = Vec::with_capacity(lights);
+        let shading = self.shade(&hit, seen_at, |_, term| terms.push(*term));
+        let blocker = |(light, term): (usize, &LightTerm)| {
+            if term.visibility > 0.0 { None } else { self.blocking(&hit, light).blocker }
+        };
+        let blockers = terms.iter().enumerate().map(blocker).collect();
+        ProbeReading { hit, shading, terms, blockers, seen }
     }
 
-    fn seen_from_eye(&self, shape: usize, point: &SurfacePoint) -> SeenFromEye {
-        if point.cos_theta_o <= 0.0 {
+    fn seen_from_eye(&self, hit: &Hit) -> SeenFromEye {
+        if hit.point.cos_theta_o <= 0.0 {
             return SeenFromEye::FacesAway;
         }
-        match self.first_shape_towards(point.position()) {
-            Some(first) if first != shape => SeenFromEye::HiddenBy(first),
+        match self.first_towards(hit.point.position()) {
+            Some(first) if first != hit.primitive => SeenFromEye::HiddenBy(first),
             _ => SeenFromEye::Seen,
         }
     }

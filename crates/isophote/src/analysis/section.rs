@@ -64,7 +64,7 @@ impl PreparedScene {
     pub fn section(&self, line: SectionLine) -> Result<Vec<Sample>, SectionError> {
         let positions = self.positions(line)?;
         let sample = |position| {
-            let seen = self.trace(position).map(|hit| (hit, self.shade(hit.shape, &hit.point, |_, _| {})));
+            let seen = self.trace(position).map(|hit| (hit, self.shade(&hit, Some(position), |_, _| {})));
             Sample { screen: self.frame().point_on_screen(position), seen }
         };
         Ok(positions.into_iter().map(sample).collect())

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::{Observer, RenderError, RenderSettings};
+use crate::camera::ScreenPosition;
 use crate::lanes::{Element, Precision};
 use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Run, Values, Window};
 use crate::prepare::{Hit, PreparedScene};
@@ -235,7 +236,7 @@ impl Band<'_> {
                 let pixel = Pixel { column: self.first.column + column, row: self.first.row + row };
                 if let Some(hit) = scene.trace_pixel(pixel) {
                     self.store(pixel, scene, &hit)?;
-                    self.see(pixel, 1, hit.shape, &mut runs);
+                    self.see(pixel, 1, hit.primitive.shape, &mut runs);
                 }
             }
             advance(observer, self.size.width.into())?;
@@ -286,7 +287,12 @@ impl Band<'_> {
     /// Shades what is seen at a pixel and stores it.
     pub fn store(&mut self, pixel: Pixel, scene: &PreparedScene, hit: &Hit) -> Result<(), RenderError> {
         let index = self.index(pixel);
-        let shading = scene.shade(hit.shape, &hit.point, |_, _| {});
+        let mut by_light: Vec<(usize, f64)> = self.lights().into_iter().map(|light| (light, 0.0)).collect();
+        let shading = scene.shade(hit, Some(ScreenPosition::PixelCenter(pixel)), |light, term| {
+            for (_, irradiance) in by_light.iter_mut().filter(|(wanted, _)| *wanted == light) {
+                *irradiance = term.irradiance;
+            }
+        });
         let length = self.length;
         let scalar = |scalar: ScalarChannel| match scalar {
             ScalarChannel::Brightness => shading.brightness(),
@@ -294,7 +300,9 @@ impl Band<'_> {
             ScalarChannel::Diffuse => shading.diffuse,
             ScalarChannel::Specular => shading.specular,
             ScalarChannel::Depth => length.from_metres(hit.distance),
-            ScalarChannel::Light(light) => scene.light_term(hit.shape, &hit.point, light).irradiance,
+            ScalarChannel::Light(light) => {
+                by_light.iter().find(|(wanted, _)| *wanted == light).map_or(0.0, |(_, irradiance)| *irradiance)
+            }
         };
         for channel in &mut self.channels {
             match channel {

@@ -31,7 +31,7 @@ pub struct Node {
 #[derive(Debug)]
 pub enum Value {
     /// `true` or `false`.
-    Boolean,
+    Boolean(bool),
     /// A number without a fraction or an exponent.
     Integer(i64),
     /// Any other number; TOML has NaN and infinities too.
@@ -51,7 +51,7 @@ impl Value {
     #[must_use]
     pub fn describe(&self) -> String {
         match self {
-            Self::Boolean => "true or false".into(),
+            Self::Boolean(value) => value.to_string(),
             Self::Integer(number) => format!("the number {number}"),
             Self::Float(number) => format!("the number {number:?}"),
             Self::Text(_) => "a text".into(),
@@ -202,7 +202,7 @@ fn toml_entries(table: DeTable<'_>) -> Vec<Entry> {
 fn toml_node(value: Spanned<DeValue<'_>>) -> Node {
     let span = value.span();
     let value = match value.into_inner() {
-        DeValue::Boolean(_) => Value::Boolean,
+        DeValue::Boolean(value) => Value::Boolean(value),
         DeValue::String(text) => Value::Text(text.into_owned()),
         DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
             .map_or_else(|_| number(integer.as_str()), Value::Integer),
@@ -256,7 +256,7 @@ fn json_node(value: jsonc_parser::ast::Value<'_>, problems: &mut Vec<Problem>) -
     use jsonc_parser::ast::Value as Json;
     let span = value.range().start..value.range().end;
     let value = match value {
-        Json::BooleanLit(_) => Value::Boolean,
+        Json::BooleanLit(literal) => Value::Boolean(literal.value),
         Json::NullKeyword(_) => Value::Other("null"),
         Json::StringLit(text) => Value::Text(text.value.into_owned()),
         Json::NumberLit(literal) => literal.value.parse().map_or_else(|_| number(literal.value), Value::Integer),

@@ -13,13 +13,14 @@ use std::path::Path as FilePath;
 pub use document::Syntax;
 pub use error::{Place, Problem, ProblemKind, SceneError};
 pub use source::SceneSource;
+use source::ShadowSource;
 pub use validate::limits;
 
 use crate::camera::Camera;
 use crate::light::Light;
 use crate::map::Resolution;
 use crate::reflectance::{Convention, Reflectance};
-use crate::shape::Geometry;
+use crate::shape::{Geometry, Primitive};
 use crate::units::{LengthUnit, Quantities};
 use crate::vector::Vector;
 use document::Document;
@@ -32,6 +33,7 @@ pub struct Scene {
     pub(crate) title: String,
     pub(crate) length: LengthUnit,
     pub(crate) convention: Convention,
+    pub(crate) shadows: bool,
     pub(crate) quantities: Quantities,
     pub(crate) camera: Camera,
     pub(crate) materials: Vec<Material>,
@@ -60,6 +62,18 @@ pub struct Shape {
     pub material: Option<usize>,
     /// Its form and place.
     pub geometry: Geometry,
+    /// Whether it stands in other shapes' light, if the scene has shadows.
+    pub casts_shadow: bool,
+    /// Whether other shapes stand in its light.
+    pub receives_shadow: bool,
+}
+
+impl Shape {
+    fn new(name: String, material: Option<usize>, geometry: Geometry, shadow: ShadowSource) -> Self {
+        let [casts_shadow, receives_shadow] =
+            [shadow.casts_shadow, shadow.receives_shadow].map(|written| written.unwrap_or(true));
+        Self { name, material, geometry, casts_shadow, receives_shadow }
+    }
 }
 
 /// A point on a surface whose values are reported.
@@ -180,6 +194,32 @@ impl Scene {
     #[must_use]
     pub fn convention(&self) -> Convention {
         self.convention
+    }
+
+    /// Whether shapes stand in each other's light.
+    #[must_use]
+    pub fn shadows(&self) -> bool {
+        self.shadows
+    }
+
+    /// Whether other shapes may stand between a shape and a light.
+    #[must_use]
+    pub fn casts_shadows(&self, shape: usize, light: usize) -> bool {
+        self.shadows && self.shapes[shape].receives_shadow && self.lights[light].casts_shadows
+    }
+
+    /// The name of a primitive: its shape's, with the number of the part if it has several.
+    #[must_use]
+    pub fn name_of(&self, primitive: Primitive) -> String {
+        let Shape { name, geometry, .. } = &self.shapes[primitive.shape];
+        if geometry.parts() > 1 { format!("{name}[{}]", primitive.part) } else { name.clone() }
+    }
+
+    /// The index of a primitive's material; none only in the `irradiance` convention.
+    #[must_use]
+    pub fn material_of(&self, primitive: Primitive) -> Option<usize> {
+        let shape = &self.shapes[primitive.shape];
+        shape.geometry.material_of(primitive.part).or(shape.material)
     }
 
     /// Radiometric or photometric.

@@ -5,7 +5,9 @@ use std::collections::{BTreeMap, HashSet};
 
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
-use super::source::{CameraSource, LightSource, MaterialSource, ProbeSource, SceneSource, ScreenSource, SphereSource};
+use super::source::{
+    CameraSource, LightSource, MaterialSource, ProbeSource, SceneSource, ScreenSource, ShadowSource, SphereSource,
+};
 use crate::units::Choice;
 
 /// Reads a scene out of a document. What cannot be read is reported and left out.
@@ -27,6 +29,7 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         handedness: table.choice("handedness"),
         convention: table.choice("convention"),
         quantities: table.choice("quantities"),
+        shadows: table.boolean("shadows"),
         camera: table.table("camera", read_camera),
         material: table.named_tables("material", read_material),
         sphere: table.tables("sphere", read_sphere),
@@ -64,7 +67,12 @@ fn read_sphere(table: &mut Table<'_>) -> SphereSource {
         center: table.numbers("center"),
         radius: table.number("radius"),
         material: table.text("material"),
+        shadow: read_shadow(table),
     }
+}
+
+fn read_shadow(table: &mut Table<'_>) -> ShadowSource {
+    ShadowSource { casts_shadow: table.boolean("casts_shadow"), receives_shadow: table.boolean("receives_shadow") }
 }
 
 fn read_light(table: &mut Table<'_>) -> LightSource {
@@ -76,6 +84,7 @@ fn read_light(table: &mut Table<'_>) -> LightSource {
         emission: table.choice("emission"),
         axis: table.numbers("axis"),
         target: table.numbers("target"),
+        casts_shadows: table.boolean("casts_shadows"),
     }
 }
 
@@ -172,6 +181,13 @@ impl<'t> Table<'t> {
     fn number(&mut self, key: &'static str) -> Option<f64> {
         let number = self.value(key, "a number", as_number)?;
         self.finite(&self.path.key(key), number)
+    }
+
+    fn boolean(&mut self, key: &'static str) -> Option<bool> {
+        self.value(key, "true or false", |value| match value {
+            Value::Boolean(value) => Some(*value),
+            _ => None,
+        })
     }
 
     fn count(&mut self, key: &'static str) -> Option<u64> {

@@ -35,6 +35,10 @@ pub struct SceneSource {
     #[schemars(extend("default" = "radiance"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub convention: Option<Convention>,
+    /// Whether shapes stand in each other's light.
+    #[schemars(extend("default" = false))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shadows: Option<bool>,
     /// Whether lights are given in W and W/sr, or in lm and cd.
     #[schemars(extend("default" = "radiometric"))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -144,6 +148,22 @@ pub struct SphereSource {
     /// Name of its material. May be left out in the `irradiance` convention, which knows no material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+    /// What it has to do with shadows.
+    #[serde(flatten)]
+    pub shadow: ShadowSource,
+}
+
+/// What a shape has to do with the shadows of a scene that has them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
+pub struct ShadowSource {
+    /// Whether it stands in other shapes' light.
+    #[schemars(extend("default" = true))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub casts_shadow: Option<bool>,
+    /// Whether other shapes stand in its light.
+    #[schemars(extend("default" = true))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub receives_shadow: Option<bool>,
 }
 
 /// A point light.
@@ -175,6 +195,10 @@ pub struct LightSource {
     /// A point at which a lambertian light is aimed. Either this or `axis`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<[f64; 3]>,
+    /// Whether shapes keep its light from each other, if the scene has shadows.
+    #[schemars(extend("default" = true))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub casts_shadows: Option<bool>,
 }
 
 /// The emission patterns by name.

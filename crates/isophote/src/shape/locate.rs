@@ -29,17 +29,17 @@ pub struct Miss {
 ///
 /// # Errors
 /// The nearest surface when the point is on none; nothing when there are no shapes at all.
-pub fn surface_at<'g>(shapes: impl Iterator<Item = &'g Geometry>, point: Vector) -> Result<Located, Option<Miss>> {
+pub fn surface_at<'g>(shapes: impl Iterator<Item = &'g Geometry>, point: Vector) -> Result<Located, Option<Box<Miss>>> {
     let nearest = shapes
         .enumerate()
         .map(|(index, geometry)| (index, geometry, geometry.signed_distance(point)))
         .min_by(|first, second| first.2.abs().total_cmp(&second.2.abs()));
     let Some((shape, geometry, distance)) = nearest else { return Err(None) };
     let nearest = geometry.nearest(point);
-    if distance.abs() <= geometry.surface_tolerance() {
+    if distance.abs() <= geometry.surface_tolerance(point) {
         Ok(Located { shape, nearest })
     } else {
-        Err(Some(Miss { shape, distance, nearest }))
+        Err(Some(Box::new(Miss { shape, distance, nearest })))
     }
 }
 

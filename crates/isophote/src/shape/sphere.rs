@@ -1,6 +1,6 @@
 //! The sphere (2.2).
 
-use super::{Approach, Intersection, NearestPoint, Ray, SurfacePoint};
+use super::{Accuracy, Bounds, Intersection, Meeting, NearestPoint, Ray, SurfacePoint, TracingError};
 use crate::real::Scalar;
 use crate::vector::Vector;
 
@@ -14,40 +14,48 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// How a ray passes the sphere: all that tells a hit from a miss.
+    /// The nearest root of ‖O + tD − C‖² = R² with t > 0: the near one from outside, the far one from inside, with N
+    /// turned to the viewer (2.2).
     ///
     /// Everything is built from the perpendicular from the centre to the ray, `l`, and the half chord
     /// h = √(R² − l²): P − C = l ∓ hD, and cosθ_o = h/R exactly. The textbook form b² − 4ac subtracts the squares of
     /// large distances and loses the limb; this one loses only what the ray itself has lost. (Haines, Günther and
     /// Akenine-Möller, "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019.)
     #[inline(always)]
-    pub fn approach<T: Scalar>(&self, ray: &Ray<T>, from_inside: bool) -> Approach<T> {
+    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let radius = T::from_f64(self.radius);
-        let to_center = Vector::from_f64(self.center) - ray.origin;
+        let to_center = -ray.start_from(self.center);
         let along = to_center.dot(ray.direction);
         let perpendicular = ray.direction * along - to_center;
+        // How far the ray is from grazing: cos²θ_o of a hit. A ray that touches at a single point sees no area: a miss.
         let clearance = (radius * radius - perpendicular.dot(perpendicular)) / (radius * radius);
-        // Seen from outside, a sphere behind the eye is a miss as clear as any.
-        let clearance =
-            if from_inside { clearance } else { T::select(T::zero().is_less(along), clearance, -T::from_f64(1.0)) };
-        Approach { clearance, along, perpendicular }
-    }
-
-    /// The nearest root of ‖O + tD − C‖² = R² with t > 0: the near one from outside, the far one from inside, with N
-    /// turned to the viewer (2.2). Means something only where the approach is a hit.
-    #[inline(always)]
-    pub fn intersection<T: Scalar>(&self, ray: &Ray<T>, from_inside: bool, approach: &Approach<T>) -> Intersection<T> {
-        let Approach { clearance, along, perpendicular } = *approach;
+        let remoteness = (along.rounded().abs() + perpendicular.length().rounded()) / self.radius;
+        let doubtful = accuracy.doubtful_clearance(&TracingError::of_ray(remoteness));
+        // Seen from outside, a sphere behind the start is a miss as clear as any; from inside, none is.
+        let nearby = T::from_f64(-2.0 * self.radius);
+        if clearance.rounded() <= doubtful.start || along.is_less(nearby) {
+            return Meeting::MISS;
+        }
         let cos_theta_o = clearance.max(T::zero()).sqrt();
-        let half_chord = cos_theta_o * T::from_f64(self.radius);
+        let half_chord = cos_theta_o * radius;
+        let (near, far) = (along - half_chord, along + half_chord);
+        let starts_on_surface = T::from_f64(doubtful.start * self.radius);
+        let is_doubtful = clearance.rounded() < doubtful.end
+            || [near, far].iter().any(|root| starts_on_surface.is_less(*root) && root.is_less(-starts_on_surface));
+        let doubtful_from = is_doubtful.then_some(near);
+        let from_inside = !T::zero().is_less(near);
+        if !T::zero().is_less(clearance) || !T::zero().is_less(far) {
+            return Meeting { hit: None, doubtful_from };
+        }
         let (offset, outwards, distance) = if from_inside {
-            (perpendicular + ray.direction * half_chord, -T::from_f64(1.0), along + half_chord)
+            (perpendicular + ray.direction * half_chord, -T::from_f64(1.0), far)
         } else {
-            (perpendicular - ray.direction * half_chord, T::from_f64(1.0), along - half_chord)
+            (perpendicular - ray.direction * half_chord, T::from_f64(1.0), near)
         };
-        let normal = offset * (outwards / T::from_f64(self.radius));
-        let anchor = self.center;
-        Intersection { distance, point: SurfacePoint { anchor, offset, normal, view: -ray.direction, cos_theta_o } }
+        let normal = offset * (outwards / radius);
+        let point = SurfacePoint { anchor: self.center, offset, normal, view: -ray.direction, cos_theta_o };
+        let lift = Vector::from_f64(Vector::default());
+        Meeting { hit: Some(Intersection { distance, point, from_inside, lift }), doubtful_from }
     }
 
     /// ‖P − C‖ − R.
@@ -67,6 +75,13 @@ impl Sphere {
     /// The surface point in a direction from the centre.
     #[must_use]
     pub fn in_direction(&self, direction: Vector) -> NearestPoint {
-        NearestPoint { anchor: self.center, offset: direction * self.radius, outward_normal: direction }
+        NearestPoint::new(self.center, direction * self.radius, direction)
+    }
+
+    /// The corners of the box around it.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        let half = Vector::new(self.radius, self.radius, self.radius);
+        Bounds { least: self.center - half, greatest: self.center + half }
     }
 }

@@ -14,7 +14,7 @@ use crate::reflectance::{BrightnessFormula, Lobe};
 use crate::render::band::{self, Band, BandChannel, ScalarChannel};
 use crate::render::{Observer, RenderError};
 use crate::shade::light_term;
-use crate::shape::{PlaceInRow, PointInRow, RowOfEllipse, SurfacePoint};
+use crate::shape::{PlaceInRow, PointInRow, Primitive, RowOfEllipse, Sphere, SurfacePoint};
 use crate::vector::Vector;
 
 /// A band to be filled.
@@ -64,14 +64,14 @@ impl LaneJob for BandJob<'_, '_> {
                 else {
                     unreachable!("what is seen is among the candidates");
                 };
-                let ellipse = self.candidates[index].ellipse;
-                let geometry = &self.scene.scene().shapes()[stretch.shape].geometry;
+                let candidate = &self.candidates[index];
+                let ellipse = candidate.ellipse;
                 let mut work = StretchWork {
                     row: ellipse.in_row(row),
                     counted_from: ellipse.column,
-                    center: geometry.center(),
-                    radius: geometry.size(),
-                    formula: self.scene.formula(stretch.shape),
+                    center: candidate.sphere.center,
+                    radius: candidate.sphere.radius,
+                    formula: self.scene.formula(candidate.primitive()),
                     stretch: *stretch,
                     at_row: row,
                     observer: self.observer,
@@ -107,7 +107,8 @@ fn seen_rows(candidates: &[Candidate<'_>], rows: &Range<u32>) -> Range<u32> {
 
 /// Puts the stretches and the traced pixels of a row in order.
 fn see(band: &Band<'_>, row: u32, view: &RowView, runs: &mut Vec<Run>) {
-    let mut traced = view.traced.iter().filter_map(|traced| Some((traced.pixel, traced.hit?.shape))).peekable();
+    let mut traced =
+        view.traced.iter().filter_map(|traced| Some((traced.pixel, traced.hit?.primitive.shape))).peekable();
     for stretch in &view.stretches {
         while let Some((pixel, shape)) = traced.next_if(|(pixel, _)| pixel.column < stretch.start) {
             band.see(pixel, 1, shape, runs);
@@ -122,7 +123,7 @@ fn see(band: &Band<'_>, row: u32, view: &RowView, runs: &mut Vec<Run>) {
 /// The lights of each candidate, placed when it is first seen.
 struct Shadings<'a> {
     scene: &'a PreparedScene,
-    shapes: Vec<usize>,
+    shapes: Vec<(Primitive, Sphere)>,
     /// Whether single precision can hold what the outline of each is computed from.
     holds_single: Vec<bool>,
     order: &'a [usize],
@@ -138,7 +139,8 @@ const KEPT: usize = 1 << 20;
 
 impl<'a> Shadings<'a> {
     fn new(job: &BandJob<'a, '_>) -> Self {
-        let shapes: Vec<usize> = job.candidates.iter().map(|candidate| candidate.shape).collect();
+        let shapes: Vec<(Primitive, Sphere)> =
+            job.candidates.iter().map(|candidate| (candidate.primitive(), candidate.sphere)).collect();
         Self {
             scene: job.scene,
             holds_single: job.candidates.iter().map(|candidate| candidate.ellipse.fits_single()).collect(),
@@ -160,7 +162,8 @@ impl<'a> Shadings<'a> {
         kept[index].get_or_insert_with(|| {
             *count += scene.scene().lights().len();
             let precision = if holds_single[index] { *precision } else { Precision::Double };
-            ShapeShading::new(scene, shapes[index], order, wanted, precision)
+            let (primitive, sphere) = shapes[index];
+            ShapeShading::new(scene, primitive, &sphere, order, wanted, precision)
         })
     }
 }

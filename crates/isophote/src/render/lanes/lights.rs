@@ -4,6 +4,7 @@ use crate::lanes::{Element, Precision};
 use crate::light::{Light, PlacedLight};
 use crate::prepare::PreparedScene;
 use crate::render::lanes::power::Power;
+use crate::shape::{Primitive, Sphere};
 use crate::vector::Vector;
 
 /// The lights as seen from the centre of a shape, lengths in its radii: irradiances then come out right when
@@ -50,23 +51,28 @@ const INTENSITIES_IN_SINGLE: std::ops::Range<f64> = 1e-18..1e18;
 
 impl ShapeShading {
     /// The lights of a scene as a shape sees them, in an [order](by_place). `wanted` are those whose irradiance is asked for by itself.
-    pub fn new(scene: &PreparedScene, shape: usize, order: &[usize], wanted: &[usize], precision: Precision) -> Self {
+    pub fn new(
+        scene: &PreparedScene,
+        primitive: Primitive,
+        sphere: &Sphere,
+        order: &[usize],
+        wanted: &[usize],
+        precision: Precision,
+    ) -> Self {
         let description = scene.scene();
-        let geometry = &description.shapes()[shape].geometry;
-        let (center, radius) = (geometry.center(), geometry.size());
+        let Sphere { center, radius } = *sphere;
         let place = |&index: &usize| {
             let light = description.lights()[index].seen_from::<f64>(center);
-            let visibility = scene.visibility(shape, index);
             PlacedLight {
                 position: light.position * (1.0 / radius),
-                intensity: light.intensity * visibility / (radius * radius),
+                intensity: light.intensity / (radius * radius),
                 emission: light.emission,
             }
         };
         // What sends nothing is nothing to sum.
         let lights: Vec<PlacedLight> = order.iter().map(place).filter(|light| light.intensity > 0.0).collect();
         let asked_for: Vec<PlacedLight> = wanted.iter().map(place).collect();
-        let shininess = scene.formula(shape).sharpness();
+        let shininess = scene.formula(primitive).sharpness();
         if precision == Precision::Single && fits_single(&lights, shininess) {
             Self::Single(ShapeLights::new(&lights, &asked_for, shininess))
         } else {

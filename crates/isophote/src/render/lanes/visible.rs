@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::camera::ScreenPosition;
 use crate::map::Pixel;
 use crate::prepare::{ERROR_OF_DISTANCE, Hit, PreparedScene};
-use crate::shape::{Ellipse, Outline, RowOfEllipse};
+use crate::shape::{Ellipse, Geometry, Outline, Primitive, RowOfEllipse, Sphere};
 
 /// Columns of a row that see the same shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,15 +59,21 @@ pub struct Candidate<'s> {
     pub ellipse: &'s Ellipse,
     /// The rows in which it can be seen.
     pub rows: Range<u32>,
-    radius: f64,
+    /// The shape's geometry.
+    pub sphere: Sphere,
     doubtful: &'s Range<f64>,
 }
 
 impl<'s> Candidate<'s> {
-    /// The shapes that may be seen in these rows, or nothing if there is one whose outline is unknown.
+    /// The shapes that may be seen in these rows, or nothing if there is one whose outline is unknown, or
+    /// that may stand in another one's light.
     pub fn all(scene: &'s PreparedScene, rows: Range<u32>) -> Option<Vec<Self>> {
         let mut candidates = Vec::new();
-        for shape in 0..scene.scene().shapes().len() {
+        if scene.casts_shadows_between_shapes() {
+            return None;
+        }
+        for (shape, description) in scene.scene().shapes().iter().enumerate() {
+            let Geometry::Sphere(sphere) = &description.geometry else { return None };
             match scene.outline(shape) {
                 Outline::Unseen => {}
                 Outline::Unknown => return None,
@@ -78,13 +84,17 @@ impl<'s> Candidate<'s> {
                     let rows = bound(first - 1.0)..bound(last + 3.0);
                     if !rows.is_empty() {
                         let doubtful = scene.doubtful_in_outline(shape);
-                        let radius = scene.scene().shapes()[shape].geometry.size();
-                        candidates.push(Self { shape, ellipse, rows, radius, doubtful });
+                        candidates.push(Self { shape, ellipse, rows, sphere: *sphere, doubtful });
                     }
                 }
             }
         }
         Some(candidates)
+    }
+
+    /// What rays hit.
+    pub fn primitive(&self) -> Primitive {
+        Primitive { shape: self.shape, part: 0 }
     }
 
     /// The columns of a row that the shape covers, and those in doubt.
@@ -100,8 +110,8 @@ impl<'s> Candidate<'s> {
             return None;
         }
         let center = in_row.center.length();
-        let near = (center - 1.0) * self.radius;
-        let far = ((center - 1.0) * (center + 1.0)).sqrt() * self.radius;
+        let near = (center - 1.0) * self.sphere.radius;
+        let far = ((center - 1.0) * (center + 1.0)).sqrt() * self.sphere.radius;
         Some(Span { start: whole(start), end: whole(end), shape: self.shape, near, far })
     }
 
@@ -198,7 +208,7 @@ impl RowView {
         self.doubtful.dedup();
         for &column in &self.doubtful {
             let pixel = Pixel { column, row };
-            let shapes = candidates.iter().map(|candidate| candidate.shape);
+            let shapes = candidates.iter().map(Candidate::primitive);
             let hit = scene.trace_precisely_among(ScreenPosition::PixelCenter(pixel), shapes);
             self.traced.push(Traced { pixel, hit: hit.map(Hit::rounded) });
         }
@@ -226,7 +236,7 @@ impl RowView {
 fn nearest(front: &[&Candidate<'_>], row: u32, column: u32, doubtful: &mut Vec<u32>) -> usize {
     let (mut best, mut second) = ((f64::INFINITY, usize::MAX), f64::INFINITY);
     for candidate in front {
-        let distance = candidate.ellipse.distance_at(row, column.into()) * candidate.radius;
+        let distance = candidate.ellipse.distance_at(row, column.into()) * candidate.sphere.radius;
         if distance < best.0 {
             second = best.0;
             best = (distance, candidate.shape);
@@ -235,7 +245,7 @@ fn nearest(front: &[&Candidate<'_>], row: u32, column: u32, doubtful: &mut Vec<u
         }
     }
     // The error of half the chord is a part of the radius, whatever the distance.
-    let radius = front.iter().map(|candidate| candidate.radius).fold(0.0, f64::max);
+    let radius = front.iter().map(|candidate| candidate.sphere.radius).fold(0.0, f64::max);
     if second - best.0 < ERROR_OF_DISTANCE * (best.0 + radius) {
         doubtful.push(column);
     }

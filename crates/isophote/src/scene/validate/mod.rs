@@ -64,6 +64,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
             title: source.title.clone().unwrap_or_default(),
             length,
             convention,
+            shadows: source.shadows.unwrap_or(false),
             quantities: source.quantities.unwrap_or(Quantities::Radiometric),
             camera,
             materials: materials.into_iter().flatten().collect(),
@@ -109,9 +110,13 @@ impl Validator {
         if source.light.is_empty() {
             self.warn(&root.key("light"), "the scene has no lights: all is black".into(), "write a table [[light]]");
         }
-        if source.sphere.len() > 1 && !source.light.is_empty() {
-            let message = "the spheres cast no shadows on each other: this version cannot do that yet";
-            self.warn(&root.key("sphere").index(1), message.into(), "each is lit as if it were alone");
+        if source.sphere.len() > 1 && !source.light.is_empty() && source.shadows.is_none() {
+            let message = "the shapes cast no shadows on each other: each is lit as if it were alone";
+            self.warn(
+                &root.key("shadows"),
+                message.into(),
+                "write `shadows = true`, or `shadows = false` if that is meant",
+            );
         }
         let used: HashSet<&String> = source.sphere.iter().filter_map(|sphere| sphere.material.as_ref()).collect();
         for name in source.material.keys() {

@@ -12,7 +12,7 @@ impl Validator {
         let Some(camera) = camera else { return };
         for shape in shapes.iter().flatten() {
             let distance = shape.geometry.signed_distance(camera.eye);
-            if distance.abs() <= shape.geometry.surface_tolerance() {
+            if distance.abs() <= shape.geometry.surface_tolerance(camera.eye) {
                 let message = format!("the eye is on the surface of \"{}\"", shape.name);
                 let path = Path::root().key("camera").key("eye");
                 self.wrong(&path, message, "allowed: outside or inside a shape, not on its surface");
@@ -37,7 +37,7 @@ impl Validator {
                 let Some(light) = light else { continue };
                 let distance = shape.geometry.signed_distance(light.position);
                 let path = Path::root().key("light").index(index).key("position");
-                if distance.abs() <= shape.geometry.surface_tolerance() {
+                if distance.abs() <= shape.geometry.surface_tolerance(light.position) {
                     let message = format!("the light \"{}\" is on the surface of \"{}\"", light.name, shape.name);
                     self.wrong(&path, message, "move it away: the irradiance next to a point light has no bound");
                 } else if distance < 0.0 && !eye_inside && camera.is_some() {

@@ -56,7 +56,7 @@ impl Validator {
             let radius = self.required_size(&path, "radius", sphere.radius);
             let material = self.material_of(&path, sphere.material.as_deref(), &known);
             let geometry = Geometry::Sphere(Sphere { center: center?, radius: radius? });
-            Some(Shape { name: name?, material: material.ok()?, geometry })
+            Some(Shape::new(name?, material.ok()?, geometry, sphere.shadow))
         };
         source.sphere.iter().enumerate().map(check).collect()
     }
@@ -95,7 +95,8 @@ impl Validator {
             let position = self.required_point(&path, "position", light.position);
             let emission = self.emission(&path, light, position);
             let intensity = self.intensity(&path, light, emission);
-            Some(Light { name: name?, position: position?, intensity: intensity?, emission: emission? })
+            let casts_shadows = light.casts_shadows.unwrap_or(true);
+            Some(Light { name: name?, position: position?, intensity: intensity?, emission: emission?, casts_shadows })
         };
         source.light.iter().enumerate().map(check).collect()
     }

@@ -1,0 +1,313 @@
+//! A scene laid out for tracing and shading. It chooses no renderer.
+
+mod visibility;
+
+use std::cell::OnceCell;
+use std::ops::Range;
+use std::sync::OnceLock;
+
+pub use visibility::Blocking;
+
+use crate::camera::{CameraFrame, ScreenPosition};
+use crate::double_double::DoubleDouble;
+use crate::map::Pixel;
+use crate::real::Scalar;
+use crate::reflectance::{BrightnessFormula, Reflectance};
+use crate::scene::Scene;
+use crate::shade::{LightTerm, Shading, shade};
+use crate::shape::{Accuracy, Geometry, Located, Outline, Primitive, Ray, SurfacePoint, TracingError};
+use crate::vector::Vector;
+
+/// A scene with everything computed that does not depend on the pixel.
+#[derive(Clone, Debug)]
+pub struct PreparedScene {
+    scene: Scene,
+    frame: CameraFrame<f64>,
+    precise_frame: CameraFrame<DoubleDouble>,
+    shapes: Vec<PreparedShape>,
+    /// The convention applied to each material, and last to what has none.
+    formulas: Vec<PreparedFormula>,
+    /// Written when the first map asks for it.
+    source_text: OnceLock<String>,
+}
+
+#[derive(Clone, Debug)]
+struct PreparedShape {
+    geometry: Geometry,
+    /// Index of the formula of parts that have no material of their own.
+    formula: usize,
+    /// Where it appears on the screen; found when a renderer first asks, as probes never do.
+    outline: OnceLock<Outline>,
+}
+
+#[derive(Clone, Debug)]
+struct PreparedFormula {
+    formula: BrightnessFormula,
+    /// Of a ray whose hit is shaded so.
+    accuracy: Accuracy,
+    /// For which clearances in its outline a shape has to be traced with 32 digits.
+    doubtful_in_outline: Range<f64>,
+}
+
+/// What a ray from the eye meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit<T = f64> {
+    /// What was hit.
+    pub primitive: Primitive,
+    /// t, the distance from the eye in metres (2.2).
+    pub distance: T,
+    /// The point.
+    pub point: SurfacePoint<T>,
+    /// Whether a closed shape is seen from inside.
+    pub from_inside: bool,
+    /// See [`Intersection::lift`](crate::shape::Intersection::lift).
+    pub lift: Vector<T>,
+}
+
+impl PreparedScene {
+    /// Lays a scene out.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let without_material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };
+        let materials = scene.materials.iter().map(|material| &material.reflectance);
+        let formulas = materials.chain([&without_material]).map(|material| {
+            let formula = BrightnessFormula::new(scene.convention, material);
+            let accuracy = Accuracy::for_shading((formula.specular > 0.0).then_some(formula.shininess));
+            let doubtful_in_outline = accuracy.doubtful_clearance(&TracingError::IN_OUTLINE);
+            PreparedFormula { formula, accuracy, doubtful_in_outline }
+        });
+        let shapes = scene.shapes.iter().map(|shape| PreparedShape {
+            geometry: shape.geometry.clone(),
+            formula: shape.material.unwrap_or(scene.materials.len()),
+            outline: OnceLock::new(),
+        });
+        Self {
+            frame: CameraFrame::new(&scene.camera),
+            precise_frame: CameraFrame::new(&scene.camera),
+            shapes: shapes.collect(),
+            formulas: formulas.collect(),
+            source_text: OnceLock::new(),
+            scene: scene.clone(),
+        }
+    }
+
+    /// The scene it was made from.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The scene it was made from, as a TOML scene file.
+    #[must_use]
+    pub fn source_text(&self) -> &str {
+        self.source_text.get_or_init(|| self.scene.source.to_toml())
+    }
+
+    /// The camera's axes.
+    #[must_use]
+    pub fn frame(&self) -> &CameraFrame {
+        &self.frame
+    }
+
+    /// What the ray through a place on the screen meets first (2.1), (2.2).
+    ///
+    /// cosθ_o of a double has an error that grows without bound towards the silhouette; rays that come near it are
+    /// traced again with 32 digits, so that the bound on the error holds at every visible pixel.
+    #[must_use]
+    pub fn trace(&self, position: ScreenPosition) -> Option<Hit> {
+        let Traced { hit, is_doubtful } = self.nearest(&self.frame.ray(position), self.primitives());
+        if is_doubtful { self.trace_precisely(position).map(Hit::rounded) } else { hit }
+    }
+
+    /// What the ray through a place on the screen meets first, with 32 digits.
+    #[must_use]
+    pub fn trace_precisely(&self, position: ScreenPosition) -> Option<Hit<DoubleDouble>> {
+        self.trace_precisely_among(position, self.primitives())
+    }
+
+    /// The same, when it can only be one of these.
+    pub(crate) fn trace_precisely_among(
+        &self,
+        position: ScreenPosition,
+        primitives: impl Iterator<Item = Primitive>,
+    ) -> Option<Hit<DoubleDouble>> {
+        self.nearest(&self.precise_frame.ray(position), primitives).hit
+    }
+
+    /// Where a shape appears on the screen.
+    #[must_use]
+    pub fn outline(&self, shape: usize) -> &Outline {
+        let shape = &self.shapes[shape];
+        shape.outline.get_or_init(|| shape.geometry.outline(&self.precise_frame))
+    }
+
+    /// For which clearances in its outline a shape has to be traced with 32 digits.
+    pub(crate) fn doubtful_in_outline(&self, shape: usize) -> &Range<f64> {
+        &self.formulas[self.shapes[shape].formula].doubtful_in_outline
+    }
+
+    /// What is seen at a pixel of the full image.
+    #[must_use]
+    pub fn trace_pixel(&self, pixel: Pixel) -> Option<Hit> {
+        self.trace(ScreenPosition::PixelCenter(pixel))
+    }
+
+    /// What the eye meets first in the direction of a point, on the screen or not.
+    #[must_use]
+    pub fn first_towards(&self, point: Vector) -> Option<Primitive> {
+        let direction = (point - self.frame.eye).normalized();
+        let ray = Ray { anchor: self.frame.eye, offset: Vector::default(), direction };
+        self.nearest(&ray, self.primitives()).hit.map(|hit| hit.primitive)
+    }
+
+    /// Whether a shape may stand in another one's light.
+    pub(crate) fn casts_shadows_between_shapes(&self) -> bool {
+        self.scene.shadows && self.primitives().nth(1).is_some()
+    }
+
+    /// All that can be hit.
+    fn primitives(&self) -> impl Iterator<Item = Primitive> {
+        let parts = |(shape, prepared): (usize, &PreparedShape)| {
+            (0..prepared.geometry.parts()).map(move |part| Primitive { shape, part })
+        };
+        self.shapes.iter().enumerate().flat_map(parts)
+    }
+
+    fn nearest<T: Scalar>(&self, ray: &Ray<T>, primitives: impl Iterator<Item = Primitive>) -> Traced<T> {
+        let mut nearest: Option<Hit<T>> = None;
+        let mut doubtful_from: Option<T> = None;
+        for primitive in primitives {
+            let accuracy = self.prepared_formula(primitive).accuracy;
+            let meeting = self.shapes[primitive.shape].geometry.meet(primitive.part, ray, accuracy);
+            doubtful_from = least(doubtful_from, meeting.doubtful_from);
+            let Some(hit) = meeting.hit else { continue };
+            let ahead_by = nearest.map(|nearest| nearest.distance - hit.distance);
+            // Where surfaces cross, the order of their distances is as uncertain as the distances.
+            let uncertain = T::from_f64(ERROR_OF_DISTANCE) * hit.distance;
+            if ahead_by.is_some_and(|by| by.is_less(uncertain) && (-uncertain).is_less(by)) {
+                doubtful_from = least(doubtful_from, Some(hit.distance - uncertain));
+            }
+            if ahead_by.is_none_or(|by| T::zero().is_less(by)) {
+                let crate::shape::Intersection { distance, point, from_inside, lift } = hit;
+                nearest = Some(Hit { primitive, distance, point, from_inside, lift });
+            }
+        }
+        let nearer_than_hit = |from: T| nearest.is_none_or(|hit| from.is_less(hit.distance));
+        Traced { hit: nearest, is_doubtful: doubtful_from.is_some_and(nearer_than_hit) }
+    }
+
+    /// The brightness of a hit by the scene's convention, summed over the lights; `each` sees every light's own term.
+    /// `seen_at` is the place on the screen where the hit was found: at the edge of a shadow it is found again with 32
+    /// digits. A hit of a given point has none, and is taken as exact.
+    pub fn shade(&self, hit: &Hit, seen_at: Option<ScreenPosition>, each: impl FnMut(usize, &LightTerm)) -> Shading {
+        let precise = OnceCell::new();
+        let find_again = || seen_at.and_then(|position| self.trace_precisely(position));
+        let visibility = |light| {
+            let Blocking { blocker, is_doubtful } = self.blocking(hit, light);
+            let blocker = if is_doubtful {
+                let precise = precise.get_or_init(|| find_again().unwrap_or_else(|| hit.exactly()));
+                self.blocking(precise, light).blocker
+            } else {
+                blocker
+            };
+            if blocker.is_some() { 0.0 } else { 1.0 }
+        };
+        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), visibility, each)
+    }
+
+    /// The same for a hit of 32 digits.
+    pub fn shade_precisely(
+        &self,
+        hit: &Hit<DoubleDouble>,
+        each: impl FnMut(usize, &LightTerm<DoubleDouble>),
+    ) -> Shading<DoubleDouble> {
+        let visibility = |light| {
+            let is_blocked = self.blocking(hit, light).blocker.is_some();
+            DoubleDouble::from_f64(if is_blocked { 0.0 } else { 1.0 })
+        };
+        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), visibility, each)
+    }
+
+    fn prepared_formula(&self, primitive: Primitive) -> &PreparedFormula {
+        let shape = &self.shapes[primitive.shape];
+        &self.formulas[shape.geometry.material_of(primitive.part).unwrap_or(shape.formula)]
+    }
+
+    /// The convention applied to the material of a primitive.
+    #[must_use]
+    pub fn formula(&self, primitive: Primitive) -> &BrightnessFormula {
+        &self.prepared_formula(primitive).formula
+    }
+
+    /// A point of a surface as the eye sees it, also where the eye cannot: cosθ_o is then negative. Of a closed shape
+    /// the eye sees the outside, unless it is inside; of another one the side that is turned to it.
+    #[must_use]
+    pub fn surface_point(&self, located: &Located) -> Hit {
+        let nearest = &located.nearest;
+        let geometry = &self.shapes[located.shape].geometry;
+        let from_inside = geometry.part_encloses(nearest.part, self.frame.eye);
+        let to_eye = (self.frame.eye - nearest.anchor) - nearest.offset;
+        let distance = to_eye.length();
+        let view = to_eye * (1.0 / distance);
+        let normal = if from_inside { -nearest.outward_normal } else { nearest.outward_normal };
+        let point = SurfacePoint {
+            anchor: nearest.anchor,
+            offset: nearest.offset,
+            normal,
+            view,
+            cos_theta_o: normal.dot(view),
+        };
+        let primitive = Primitive { shape: located.shape, part: nearest.part };
+        Hit { primitive, distance, point, from_inside, lift: nearest.lift }
+    }
+}
+
+/// What a search for the nearest shape found, and whether the number type was good enough for it.
+struct Traced<T> {
+    hit: Option<Hit<T>>,
+    is_doubtful: bool,
+}
+
+/// Distances that differ by less, relatively, are told apart with 32 digits.
+pub(crate) const ERROR_OF_DISTANCE: f64 = 1e-12;
+
+/// The smaller of two numbers that may be missing.
+fn least<T: Scalar>(first: Option<T>, second: Option<T>) -> Option<T> {
+    match (first, second) {
+        (Some(first), Some(second)) => Some(T::select(second.is_less(first), second, first)),
+        (first, second) => first.or(second),
+    }
+}
+
+impl<T: Scalar> Hit<T> {
+    /// The same hit in another number type.
+    fn map<U: Scalar>(self, convert: impl Fn(T) -> U) -> Hit<U> {
+        let vector = |vector: Vector<T>| vector.map(&convert);
+        let point = self.point;
+        Hit {
+            primitive: self.primitive,
+            distance: convert(self.distance),
+            point: SurfacePoint {
+                anchor: point.anchor,
+                offset: vector(point.offset),
+                normal: vector(point.normal),
+                view: vector(point.view),
+                cos_theta_o: convert(point.cos_theta_o),
+            },
+            from_inside: self.from_inside,
+            lift: vector(self.lift),
+        }
+    }
+}
+
+impl Hit {
+    fn exactly(&self) -> Hit<DoubleDouble> {
+        self.map(DoubleDouble::from_f64)
+    }
+}
+
+impl Hit<DoubleDouble> {
+    pub(crate) fn rounded(self) -> Hit {
+        self.map(DoubleDouble::rounded)
+    }
+}

@@ -1,0 +1,76 @@
+//! Shadows: which lights a surface point sees.
+
+use super::{ERROR_OF_DISTANCE, Hit, PreparedScene};
+use crate::real::Scalar;
+use crate::shape::{Accuracy, Primitive, Ray};
+use crate::vector::Vector;
+
+/// What stands between a surface point and a light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Blocking {
+    /// The primitive nearest to the point that does, if any.
+    pub blocker: Option<Primitive>,
+    /// Whether more digits could tell otherwise: the light is seen close to an edge.
+    pub is_doubtful: bool,
+}
+
+impl Blocking {
+    const NONE: Self = Self { blocker: None, is_doubtful: false };
+}
+
+impl PreparedScene {
+    /// What stands between a hit and a light: v_j of (3.1) is 0 where something does.
+    ///
+    /// The primitive that was hit is never traced, so no distance has to be kept from it, at any scale: a convex one
+    /// does not hide what is above its horizon, and what is below gets no light anyway. From inside it hides every
+    /// light that it does not enclose, shadows or not.
+    pub fn blocking<T: Scalar>(&self, hit: &Hit<T>, light: usize) -> Blocking {
+        let source = &self.scene.lights[light];
+        let own = hit.primitive;
+        let geometry = &self.shapes[own.shape].geometry;
+        if hit.from_inside && !geometry.part_encloses(own.part, source.position) {
+            return Blocking { blocker: Some(own), is_doubtful: false };
+        }
+        if !self.scene.casts_shadows(own.shape, light) {
+            return Blocking::NONE;
+        }
+        let start = hit.point.offset + hit.lift;
+        let to_light = Vector::from_f64(source.position - hit.point.anchor) - start;
+        if !T::zero().is_less(hit.point.normal.dot(to_light)) {
+            return Blocking::NONE;
+        }
+        let distance = to_light.length();
+        let direction = to_light * (T::from_f64(1.0) / distance);
+        let ray = Ray { anchor: Vector::from_f64(hit.point.anchor), offset: start, direction };
+        self.nearest_blocker(own, &ray, distance)
+    }
+
+    fn nearest_blocker<T: Scalar>(&self, own: Primitive, ray: &Ray<T>, distance: T) -> Blocking {
+        let least = T::from_f64(self.shapes[own.shape].geometry.least_shadow_distance(own.part));
+        // What is nearer to the light than this may as well be behind it.
+        let uncertain = distance * T::from_f64(ERROR_OF_DISTANCE);
+        let mut nearest: Option<(T, Primitive)> = None;
+        let mut doubtful_from: Option<T> = None;
+        let casting = |primitive: &Primitive| *primitive != own && self.scene.shapes[primitive.shape].casts_shadow;
+        for primitive in self.primitives().filter(casting) {
+            let meeting = self.shapes[primitive.shape].geometry.meet(primitive.part, ray, Accuracy::OF_VISIBILITY);
+            let is_before_light = |at: &T| at.is_less(distance + uncertain);
+            doubtful_from = super::least(doubtful_from, meeting.doubtful_from.filter(is_before_light));
+            let Some(at) = meeting.hit.map(|hit| hit.distance) else { continue };
+            let is_own_neighbour = primitive.shape == own.shape && at.is_less(least);
+            if is_own_neighbour || !at.is_less(distance) {
+                continue;
+            }
+            if (distance - uncertain).is_less(at) {
+                doubtful_from = super::least(doubtful_from, Some(at));
+            }
+            if nearest.is_none_or(|(nearest, _)| at.is_less(nearest)) {
+                nearest = Some((at, primitive));
+            }
+        }
+        // Beyond a certain blocker, doubt does not matter.
+        let blocks_for_sure = |from: T| nearest.is_some_and(|(at, _)| at.is_less(from));
+        let is_doubtful = doubtful_from.is_some_and(|from| !blocks_for_sure(from));
+        Blocking { blocker: nearest.map(|(_, primitive)| primitive), is_doubtful }
+    }
+}

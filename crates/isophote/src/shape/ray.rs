@@ -1,0 +1,149 @@
+//! Rays, and how they meet shapes.
+
+use std::ops::Range;
+
+use crate::real::Scalar;
+use crate::tolerance;
+use crate::vector::Vector;
+
+/// A ray from the eye, or from a surface to a light. It starts at `anchor + offset`, kept apart because far from the
+/// origin the sum would lose the digits that the offset still has.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray<T = f64> {
+    /// A place near the start, in metres.
+    pub anchor: Vector<T>,
+    /// From the anchor to the start, in metres.
+    pub offset: Vector<T>,
+    /// D, a unit vector.
+    pub direction: Vector<T>,
+}
+
+impl<T: Scalar> Ray<T> {
+    /// Where the ray starts, as seen from a place.
+    #[inline(always)]
+    pub fn start_from(&self, place: Vector) -> Vector<T> {
+        (self.anchor - Vector::from_f64(place)) + self.offset
+    }
+}
+
+/// How a ray meets a shape.
+#[derive(Clone, Copy, Debug)]
+pub struct Meeting<T = f64> {
+    /// The nearest intersection with t > 0.
+    pub hit: Option<Intersection<T>>,
+    /// From which distance on (in metres) double precision may have decided wrongly, or lost more digits than the
+    /// accuracy allows: the ray comes near a silhouette, an edge or the surface on which it starts.
+    pub doubtful_from: Option<T>,
+}
+
+/// Where a ray meets a shape.
+#[derive(Clone, Copy, Debug)]
+pub struct Intersection<T = f64> {
+    /// t, the distance from the start of the ray in metres.
+    pub distance: T,
+    /// The point that was hit.
+    pub point: SurfacePoint<T>,
+    /// Whether the ray comes from inside a closed shape.
+    pub from_inside: bool,
+    /// From the point to where its shadow rays start, in metres: not zero on meshes with smooth normals only.
+    pub lift: Vector<T>,
+}
+
+/// A point on a surface, as its shading needs it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint<T = f64> {
+    /// A place near the point (the centre of a sphere), in metres. The point is kept as `anchor + offset`, because
+    /// far from the origin the sum would lose the digits that the offset still has.
+    pub anchor: Vector,
+    /// From the anchor to the point, in metres.
+    pub offset: Vector<T>,
+    /// N, the unit normal on the viewer's side.
+    pub normal: Vector<T>,
+    /// V, the unit vector to the eye.
+    pub view: Vector<T>,
+    /// cosθ_o = N·V.
+    pub cos_theta_o: T,
+}
+
+impl<T: Scalar> SurfacePoint<T> {
+    /// P, in metres.
+    #[must_use]
+    pub fn position(&self) -> Vector<T> {
+        Vector::from_f64(self.anchor) + self.offset
+    }
+}
+
+impl<T> Meeting<T> {
+    /// The ray passes, beyond doubt.
+    pub const MISS: Self = Self { hit: None, doubtful_from: None };
+}
+
+/// How many digits of a hit its use needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// How much shading magnifies an error of the normal: see [`for_shading`](Self::for_shading). Zero where only hit
+    /// or miss matters.
+    magnification: f64,
+}
+
+impl Accuracy {
+    /// Hit or miss is all that matters, as for shadows.
+    pub const OF_VISIBILITY: Self = Self { magnification: 0.0 };
+
+    /// A hit that is shaded with a lobe of this shininess, if any.
+    ///
+    /// The error of the normal is magnified by a terminator, by 1/cosθ_i, and by a highlight: n tanθ_h, largest where
+    /// the highlight has fallen to a millionth of its peak, tan²θ_h = 10^(12/n) − 1, or where θ_h is as large as the
+    /// cosines of the promise let it be. Some four roundings go into θ_h.
+    #[must_use]
+    pub fn for_shading(shininess: Option<f64>) -> Self {
+        let terminator = 1.0 / tolerance::DOUBLE.peak_cosine;
+        let highlight = shininess.map_or(0.0, |n| {
+            let faintest = (libm::pow(10.0, 12.0 / n) - 1.0).sqrt();
+            4.0 * n * faintest.min(1.0 / tolerance::DOUBLE.above_cosine)
+        });
+        Self { magnification: terminator.max(highlight) }
+    }
+
+    /// For which clearances cos²θ_o a ray is traced again with 32 digits: around zero, where hit and miss are told
+    /// apart, and up to where the error is within half of what [`tolerance::DOUBLE`] allows; shading has the rest.
+    ///
+    /// cosθ_o is the root of the clearance, so its error is that of the clearance over 2 cosθ_o. Where an error of the
+    /// normal is too much by itself, every hit is traced again.
+    #[must_use]
+    #[inline(always)]
+    pub fn doubtful_clearance(self, error: &TracingError) -> Range<f64> {
+        let allowed = 0.5 * tolerance::DOUBLE.of_peak;
+        let least = -2.0 * error.clearance;
+        if self.magnification == 0.0 {
+            return least..-least;
+        }
+        let least_cosine = 0.5 * error.clearance / allowed;
+        let is_too_much = error.normal * self.magnification > allowed;
+        least..if is_too_much { f64::INFINITY } else { least_cosine * least_cosine }
+    }
+}
+
+/// How much of the clearance cos²θ_o, and of the normal, is lost to rounding.
+#[derive(Clone, Copy, Debug)]
+pub struct TracingError {
+    /// Of the clearance.
+    pub clearance: f64,
+    /// Of the normal.
+    pub normal: f64,
+}
+
+impl TracingError {
+    /// Of a pixel in an [outline](super::Outline), which distance does not magnify.
+    pub const IN_OUTLINE: Self = Self { clearance: 32.0 * f64::EPSILON, normal: 2.0 * f64::EPSILON };
+
+    /// Of a ray that is traced in double precision and starts so many sizes of the shape away from it: in units of
+    /// ε (1 + ρ). The rays' own rounding is most of it; the figures are above what `tests/conformance.rs` finds in a
+    /// hundred thousand random scenes.
+    #[must_use]
+    #[inline(always)]
+    pub fn of_ray(remoteness: f64) -> Self {
+        let error = f64::EPSILON * (1.0 + remoteness);
+        Self { clearance: 16.0 * error, normal: 1.25 * error }
+    }
+}
