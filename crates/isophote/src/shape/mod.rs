@@ -9,6 +9,7 @@ mod spheres;
 use std::sync::Arc;
 
 pub use locate::{Located, Miss, surface_at};
+pub(crate) use outline::{BEFORE_THE_EYE, Grid};
 pub use outline::{Ellipse, Outline, PlaceInRow, PointInRow, RowOfEllipse};
 pub use ray::{Accuracy, Intersection, Meeting, Ray, SurfacePoint, TracingError};
 pub use sphere::Sphere;
