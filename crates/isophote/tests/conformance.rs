@@ -289,7 +289,7 @@ fn crossing_spheres_are_told_apart_to_the_last_digit() {
         conforms(renderer.as_ref(), &scene, &DOUBLE).unwrap_or_else(|error| panic!("{error}"));
     }
     let middle = scene.trace_pixel(Pixel { column: 1, row: 4 }).expect("the spheres cross there");
-    assert_eq!(middle.shape, 1, "the middle pixel is a hair to the right");
+    assert_eq!(middle.primitive.shape, 1, "the middle pixel is a hair to the right");
 }
 
 /// From inside, the far wall is seen, with N towards the eye; a light inside lights it, one outside does not.
@@ -313,8 +313,8 @@ fn the_inside_of_a_sphere_is_seen_and_lit_from_inside() {
     let deviation = conforms(&Reference, &scene, &DOUBLE).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(deviation.visible, 1600, "the wall is everywhere");
     let reading = scene.probe(&Place::Pixel(Pixel { column: 3, row: 30 })).expect("the wall is there");
-    assert!(reading.point.offset.dot(reading.point.normal) < 0.0, "N points inwards");
-    assert!((reading.point.offset.length() - 2.0).abs() < 1e-15);
+    assert!(reading.hit.point.offset.dot(reading.hit.point.normal) < 0.0, "N points inwards");
+    assert!((reading.hit.point.offset.length() - 2.0).abs() < 1e-15);
     assert!(reading.terms[0].irradiance > 0.0);
     assert_eq!(reading.terms[1].irradiance, 0.0);
     assert_eq!(reading.shading.irradiance, reading.terms[0].irradiance);

@@ -192,8 +192,8 @@ impl PreparedScene {
                 nearest = Some(Hit { primitive, distance, point, from_inside, lift });
             }
         }
-        let nearer_than_hit = |from: T| nearest.is_none_or(|hit| from.is_less(hit.distance));
-        Traced { hit: nearest, is_doubtful: doubtful_from.is_some_and(nearer_than_hit) }
+        let is_beyond = |from: T| nearest.is_some_and(|hit| hit.distance.is_less(from));
+        Traced { hit: nearest, is_doubtful: doubtful_from.is_some_and(|from| !is_beyond(from)) }
     }
 
     /// The brightness of a hit by the scene's convention, summed over the lights; `each` sees every light's own term.
