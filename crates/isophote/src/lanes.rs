@@ -31,6 +31,9 @@ pub trait Lane: Real {
     /// Reads the numbers; the slice has [`COUNT`](Self::COUNT) of them at least.
     fn load(kind: Self::Kind, numbers: &[Self::Element]) -> Self;
 
+    /// Reads doubles and rounds them; the slice has [`COUNT`](Self::COUNT) of them at least.
+    fn load_doubles(kind: Self::Kind, numbers: &[f64]) -> Self;
+
     /// Bit i tells whether the mask is set in lane i.
     fn bits(mask: Self::Mask) -> u32;
 
@@ -304,6 +307,11 @@ macro_rules! lane {
             }
 
             #[inline(always)]
+            fn load_doubles(kind: S, numbers: &[f64]) -> Self {
+                doubles::$vector(kind, numbers)
+            }
+
+            #[inline(always)]
             #[expect(clippy::cast_possible_truncation, reason = "at most 16 lanes")]
             fn bits(mask: $mask<S>) -> u32 {
                 SimdMask::to_bitmask(mask) as u32
@@ -368,6 +376,20 @@ lane!(f32x16, mask32x16, u32x16, f32, max_f32x16, min_f32x16, half: 4097.0, negl
     mantissa bits: 23, whole: 8_388_608.0, bias: 127.0);
 lane!(f64x8, mask64x8, u64x8, f64, max_f64x8, min_f64x8, half: 134_217_729.0, negligible: 1e-32,
     mantissa bits: 52, whole: 4_503_599_627_370_496.0, bias: 1023.0);
+
+mod doubles {
+    use super::{Simd, SimdBase, SimdNarrow, f32x16, f64x8};
+
+    #[inline(always)]
+    pub fn f64x8<S: Simd>(kind: S, numbers: &[f64]) -> f64x8<S> {
+        f64x8::from_slice(kind, &numbers[..8])
+    }
+
+    #[inline(always)]
+    pub fn f32x16<S: Simd>(kind: S, numbers: &[f64]) -> f32x16<S> {
+        f64x8(kind, numbers).narrow(f64x8(kind, &numbers[8..]))
+    }
+}
 
 mod distances {
     use super::{Simd, SimdBase, SimdNarrow, f32x16, f64x8};
@@ -466,6 +488,11 @@ impl<V: Lane> Lane for Pair<V> {
     #[inline(always)]
     fn load(kind: V::Kind, numbers: &[V::Element]) -> Self {
         Self(V::load(kind, numbers), V::load(kind, &numbers[V::COUNT..]))
+    }
+
+    #[inline(always)]
+    fn load_doubles(kind: V::Kind, numbers: &[f64]) -> Self {
+        Self(V::load_doubles(kind, numbers), V::load_doubles(kind, &numbers[V::COUNT..]))
     }
 
     #[inline(always)]

@@ -11,8 +11,8 @@ mod walk;
 #[cfg(test)]
 mod tests;
 
-pub use query::{Beam, Tube};
-pub use walk::Walk;
+pub(crate) use query::{Beam, Tube};
+pub(crate) use walk::Walk;
 
 use self::node::Node;
 use self::query::Query;
@@ -45,7 +45,7 @@ impl Accelerator {
         for primitive in &self.unbounded {
             limit = limit.min(test(*primitive));
         }
-        let Some(tube) = Tube::new(&self.unit, start, direction, 0.0) else { return };
+        let Some(tube) = Tube::new(&self.unit, start, direction, Vector::default()) else { return };
         let mut walk = Walk::default();
         walk.start(self);
         while let Some(primitive) = walk.next_with(self.instructions, self, &tube, tube.depth_of(limit)) {
@@ -59,19 +59,14 @@ impl Accelerator {
         self.nodes.capacity() * size_of::<Node>() + self.unbounded.capacity() * size_of::<u32>()
     }
 
-    /// A tube of this radius along a ray; nothing where it passes all boxes.
-    pub(crate) fn tube(&self, start: Vector, direction: Vector, radius: f64) -> Option<Tube> {
+    /// What a box, given by half its sides, meets on its way along a ray; nothing where it passes all boxes.
+    pub(crate) fn tube(&self, start: Vector, direction: Vector, radius: Vector) -> Option<Tube> {
         Tube::new(&self.unit, start, direction, radius)
     }
 
     /// A beam of rays from a point between four directions, given in turn.
     pub(crate) fn beam(&self, eye: Vector, corners: [Vector; 4], forward: Vector) -> Beam {
         Beam::new(&self.unit, eye, corners, forward)
-    }
-
-    /// Whether every primitive has an end, and is in the tree.
-    pub(crate) fn holds_all(&self) -> bool {
-        self.unbounded.is_empty()
     }
 }
 
@@ -81,6 +76,8 @@ struct Unit {
     center: Vector,
     /// Units per metre: a power of two.
     scale: f64,
+    /// By how much places in the frame may be off: far from the origin they were rounded before.
+    slack: f64,
 }
 
 impl Unit {
@@ -88,7 +85,8 @@ impl Unit {
         let half = (bounds.greatest - bounds.least) * 0.5;
         let size = half.to_array().into_iter().fold(0.0, f64::max);
         let scale = if size > 0.0 { libm::exp2(-libm::log2(size).ceil()) } else { 1.0 };
-        Self { center: bounds.least + half, scale }
+        let center = bounds.least + half;
+        Self { center, scale, slack: query::SLACK + 16.0 * f64::EPSILON * center.length() * scale }
     }
 
     fn place(&self, point: Vector) -> Vector {

@@ -42,12 +42,12 @@ impl<Q: Query> LaneJob for Meet<'_, Q> {
 
 /// What the rounding of single precision may come to in the tests below, where all places are within a few units of the
 /// middle: some ten roundings of 2⁻²⁴ of 8.
-const SLACK: f64 = 4e-6;
+pub(super) const SLACK: f64 = 4e-6;
 
 /// Farther from the middle than this, in units, a ray starts at a point nearer to it.
 const FAR: f64 = 4.0;
 
-/// All that is nearer to a ray than some radius, along any axis. Depths are distances from its start.
+/// All that a box meets that is drawn along a ray. Depths are distances from its start.
 #[derive(Clone, Copy, Debug)]
 pub struct Tube {
     /// Where it starts, moved forwards or backwards along each axis: how boxes are widened.
@@ -63,25 +63,27 @@ pub struct Tube {
 
 impl Tube {
     /// A tube in the unit frame; nothing where it passes all boxes.
-    #[expect(clippy::cast_possible_truncation, reason = "SLACK covers the rounding")]
-    pub(super) fn new(unit: &Unit, start: Vector, direction: Vector, radius: f64) -> Option<Self> {
+    #[expect(clippy::cast_possible_truncation, reason = "the slack covers the rounding")]
+    pub(super) fn new(unit: &Unit, start: Vector, direction: Vector, radius: Vector) -> Option<Self> {
         let length = direction.length();
         let direction = direction * (1.0 / length);
         let start = unit.place(start);
         let distance = start.length();
-        let widening = SLACK + 64.0 * f64::EPSILON * distance + radius * unit.scale;
+        let slack = unit.slack + 64.0 * f64::EPSILON * distance;
+        let widening = radius.to_array().map(|radius| slack + radius * unit.scale);
+        let widest = widening.into_iter().fold(0.0, f64::max);
         let middle = -start.dot(direction);
         let skipped = if distance > FAR { (middle - FAR).max(0.0) } else { 0.0 };
         let start = start + direction * skipped;
         // What is still far away after that passes by, or leads away.
-        if start.length() - widening > 2.0 * FAR {
+        if start.length() - 2.0 * widest > 2.0 * FAR {
             return None;
         }
         // Steeper than this, a ray does not leave its slack in the length of the scene.
         let steepest = 1e-9;
         let (direction, start) = (direction.to_array(), start.to_array());
         let steep = direction.map(|d: f64| if d.abs() < steepest { steepest.copysign(d) } else { d });
-        let moved = |side: f64| [0, 1, 2].map(|axis| (start[axis] + side * widening.copysign(steep[axis])) as f32);
+        let moved = |side: f64| [0, 1, 2].map(|axis| (start[axis] + side * widening[axis].copysign(steep[axis])) as f32);
         Some(Self {
             starts: [moved(1.0), moved(-1.0)],
             inverse: steep.map(|d| (1.0 / d) as f32),
@@ -134,7 +136,7 @@ impl Beam {
         let eye = unit.place(eye);
         let middle = corners.into_iter().fold(Vector::default(), |sum, corner| sum + corner.normalized());
         // Rounded normals err by 2⁻²⁴ of a place; the eye may be far.
-        let slack = SLACK + 4e-7 * eye.length();
+        let slack = unit.slack + 4e-7 * eye.length();
         let plane = |normal: Vector| {
             let offset = slack - normal.dot(eye);
             (normal.to_array().map(|x| x as f32), offset as f32)

@@ -119,7 +119,7 @@ proptest! {
         let tree = Accelerator::new(&boxes);
         for instructions in Instructions::all() {
             let seen = instructions.run(All { tree: &tree, query: &tree.beam(eye, corners, forward) });
-            let tube = tree.tube(eye, forward, radius);
+            let tube = tree.tube(eye, forward, Vector::new(radius, radius, radius));
             let near = tube.map_or(Vec::new(), |tube| instructions.run(All { tree: &tree, query: &tube }));
             for (primitive, bounds) in (0..).zip(boxes.iter().flatten()) {
                 let half = (bounds.greatest - bounds.least) * 0.5;

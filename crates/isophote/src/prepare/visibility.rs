@@ -51,15 +51,19 @@ impl PreparedScene {
         let uncertain = distance * T::from_f64(ERROR_OF_DISTANCE);
         let mut nearest: Option<(T, Primitive)> = None;
         let mut doubtful_from: Option<T> = None;
-        let casting = |primitive: &Primitive| *primitive != own && self.scene.shapes[primitive.shape].casts_shadow;
-        for primitive in self.primitives().filter(casting) {
+        self.along_ray(ray, distance.rounded(), |primitive| {
+            // Beyond a certain blocker nothing matters, and neither does what is behind the light.
+            let limit = |nearest: Option<(T, Primitive)>| nearest.map_or(distance, |(at, _)| at).rounded();
+            if primitive == own || !self.scene.shapes[primitive.shape].casts_shadow {
+                return limit(nearest);
+            }
             let meeting = self.shapes[primitive.shape].geometry.meet(primitive.part, ray, Accuracy::OF_VISIBILITY);
             let is_before_light = |at: &T| at.is_less(distance + uncertain);
             doubtful_from = super::least(doubtful_from, meeting.doubtful_from.filter(is_before_light));
-            let Some(at) = meeting.hit.map(|hit| hit.distance) else { continue };
+            let Some(at) = meeting.hit.map(|hit| hit.distance) else { return limit(nearest) };
             let is_own_neighbour = primitive.shape == own.shape && at.is_less(least);
             if is_own_neighbour || !at.is_less(distance) {
-                continue;
+                return limit(nearest);
             }
             if (distance - uncertain).is_less(at) {
                 doubtful_from = super::least(doubtful_from, Some(at));
@@ -67,7 +71,8 @@ impl PreparedScene {
             if nearest.is_none_or(|(nearest, _)| at.is_less(nearest)) {
                 nearest = Some((at, primitive));
             }
-        }
+            limit(nearest)
+        });
         // Beyond a certain blocker, doubt does not matter.
         let blocks_for_sure = |from: T| nearest.is_some_and(|(at, _)| at.is_less(from));
         let is_doubtful = doubtful_from.is_some_and(|from| !blocks_for_sure(from));

@@ -3,6 +3,7 @@
 mod band;
 mod lanes;
 mod reference;
+mod tiles;
 
 use std::ops::ControlFlow;
 

@@ -344,6 +344,11 @@ impl Grid {
         }
     }
 
+    /// x of column 0 and y of row 0, and their growth from pixel to pixel.
+    pub fn rounded(&self) -> ([f64; 2], [f64; 2]) {
+        ([self.first_x.rounded(), self.first_y.rounded()], [self.column_step.rounded(), self.row_step.rounded()])
+    }
+
     /// The same grid for vectors of doubles.
     #[inline(always)]
     pub fn map<U>(&self, convert: impl Fn(f64) -> U) -> Grid<U> {

@@ -81,7 +81,8 @@ impl ShapeShading {
     }
 }
 
-fn fits_single(lights: &[PlacedLight], shininess: Option<f64>) -> bool {
+/// Whether single precision holds the lights as a shape sees them, and the lobe of a shininess.
+pub fn fits_single(lights: &[PlacedLight], shininess: Option<f64>) -> bool {
     let fits = |light: &PlacedLight| {
         let distance = light.position.length();
         distance < FARTHEST_IN_SINGLE
