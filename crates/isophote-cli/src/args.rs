@@ -8,7 +8,9 @@ use clap::{Args, Parser, Subcommand};
 use isophote::export::colormap::Colormap;
 use isophote::lanes::Precision;
 use isophote::map::{Pixel, Region, Resolution};
+use isophote::render::Filter;
 use isophote::scene::library::Starter;
+use isophote::scene::source::SamplingSource;
 use isophote::units::Choice;
 use isophote_zarr::Part;
 
@@ -65,6 +67,28 @@ pub struct SceneArgument {
     pub scene: Option<PathBuf>,
 }
 
+/// How many rays a pixel's value is made of, instead of what the scene says.
+#[derive(Args, Clone, Copy, Default)]
+pub struct SamplingArguments {
+    /// Rays for each pixel, whose mean is its value; with --tolerance the most that a pixel gets (256 by default)
+    #[arg(long, value_name = "COUNT")]
+    pub samples: Option<u64>,
+
+    /// Smooth edges: each pixel gets as many rays as keep the error of its brightness below this part of the largest
+    #[arg(long, value_name = "PART")]
+    pub tolerance: Option<f64>,
+
+    /// What a pixel is a mean over: its own area (box), or more (triangle, gaussian, mitchell)
+    #[arg(long, value_name = "NAME", value_parser = choice::<Filter>())]
+    pub filter: Option<Filter>,
+}
+
+impl SamplingArguments {
+    pub fn source(self) -> SamplingSource {
+        SamplingSource { samples: self.samples, tolerance: self.tolerance, filter: self.filter }
+    }
+}
+
 #[derive(Args, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct RenderArguments {
@@ -80,7 +104,8 @@ pub struct RenderArguments {
     #[arg(long, value_name = "FILE")]
     pub figure: Vec<PathBuf>,
 
-    /// Channel: brightness, irradiance, diffuse, specular, depth, position, normal, shape or light.NAME; may be given
+    /// Channel: brightness, irradiance, diffuse, specular, depth, position, normal, shape, samples, coverage
+    /// or light.NAME; may be given
     /// several times. The first one is summarised and pictured. By default the picture shows the brightness, and files
     /// with many channels get all
     #[arg(short, long, value_name = "NAME")]
@@ -93,6 +118,9 @@ pub struct RenderArguments {
     /// Pixels of the whole image, instead of the scene's
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = numbers::size)]
     pub size: Option<Resolution>,
+
+    #[command(flatten)]
+    pub sampling: SamplingArguments,
 
     /// Compute only this part of the image
     #[arg(long, value_name = "COLUMN,ROW,WIDTH,HEIGHT", value_parser = numbers::region)]

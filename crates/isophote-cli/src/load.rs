@@ -4,23 +4,38 @@ use std::path::Path;
 
 use anyhow::Result;
 use isophote::export::{FileMetadata, Format, read_metadata};
-use isophote::map::Resolution;
 use isophote::scene::library::Starter;
+use isophote::scene::source::SamplingSource;
 use isophote::scene::{Scene, SceneError, Syntax, error};
 
-use crate::args::SceneArgument;
+use crate::args::{RenderArguments, SceneArgument};
 use crate::failure::{self, Usage};
 
 /// Reads the scene and says what it warns of.
-pub fn scene(argument: &SceneArgument, size: Option<Resolution>, quiet: bool) -> Result<Scene> {
-    let (name, mut scene) = read(argument)?;
-    if let Some(size) = size {
-        scene = scene.with_resolution(size).map_err(|error| wrong_size(&error))?;
-    }
-    if !quiet && !scene.warnings().is_empty() {
-        failure::note(&error::report(&name, scene.warnings(), failure::use_color()));
-    }
+pub fn scene(argument: &SceneArgument, quiet: bool) -> Result<Scene> {
+    let (name, scene) = read(argument)?;
+    warn(&name, &scene, quiet);
     Ok(scene)
+}
+
+/// Reads the scene that is rendered, with what the arguments have in place of its own.
+pub fn scene_to_render(arguments: &RenderArguments) -> Result<Scene> {
+    let (name, mut scene) = read(&arguments.scene)?;
+    if let Some(size) = arguments.size {
+        scene = scene.with_resolution(size).map_err(|error| wrong("--size", &error))?;
+    }
+    let sampling = arguments.sampling.source();
+    if sampling != SamplingSource::default() {
+        scene = scene.with_sampling(sampling).map_err(|error| wrong("--samples or --tolerance", &error))?;
+    }
+    warn(&name, &scene, arguments.quiet);
+    Ok(scene)
+}
+
+fn warn(name: &str, scene: &Scene, quiet: bool) {
+    if !quiet && !scene.warnings().is_empty() {
+        failure::note(&error::report(name, scene.warnings(), failure::use_color()));
+    }
 }
 
 fn read(argument: &SceneArgument) -> Result<(String, Scene)> {
@@ -38,7 +53,8 @@ fn read(argument: &SceneArgument) -> Result<(String, Scene)> {
     } else if Format::from_path(path).is_some() || is_store(path) {
         let no_scene = |error| SceneError::unreadable(&name, format!("no scene can be taken out of it: {error}"), None);
         let metadata = metadata(path).map_err(no_scene)?;
-        Scene::from_text(&name, &metadata.scene, Syntax::Toml)?
+        let directory = path.parent().unwrap_or(Path::new(""));
+        Scene::from_text_in(directory, &name, &metadata.scene, Syntax::Toml)?
     } else {
         Scene::from_file(path)?
     };
@@ -56,10 +72,10 @@ pub fn is_store(path: &Path) -> bool {
 }
 
 /// The scene is valid: it is the argument that is wrong.
-fn wrong_size(error: &SceneError) -> Usage {
+fn wrong(options: &str, error: &SceneError) -> Usage {
     let reasons = error.problems.iter().map(|problem| match &problem.help {
         Some(help) => format!("{}; {help}", problem.message),
         None => problem.message.clone(),
     });
-    Usage(format!("--size: {}", reasons.collect::<Vec<_>>().join("; ")))
+    Usage(format!("{options}: {}", reasons.collect::<Vec<_>>().join("; ")))
 }

@@ -62,6 +62,13 @@ pub struct Screen {
 pub enum ScreenPosition {
     /// The centre of a pixel of the full image.
     PixelCenter(Pixel),
+    /// A place in a pixel of the full image.
+    InPixel {
+        /// The pixel.
+        pixel: Pixel,
+        /// Parts of its width and height, from its upper left corner.
+        place: [f64; 2],
+    },
     /// A point of the screen plane, in metres.
     Point {
         /// To the right.
@@ -117,11 +124,14 @@ impl<T: Scalar> CameraFrame<T> {
 
     fn screen_point(&self, position: ScreenPosition) -> (T, T) {
         match position {
-            ScreenPosition::PixelCenter(Pixel { column, row }) => {
+            ScreenPosition::PixelCenter(pixel) => self.screen_point(ScreenPosition::InPixel { pixel, place: [0.5; 2] }),
+            ScreenPosition::InPixel { pixel, place: [across, down] } => {
                 let Resolution { width, height } = self.resolution;
                 let [left, right] = self.screen.x;
                 let [bottom, top] = self.screen.y;
-                (between(left, right, column.into(), width), between(top, bottom, row.into(), height))
+                let column = f64::from(pixel.column) + (across - 0.5);
+                let row = f64::from(pixel.row) + (down - 0.5);
+                (between(left, right, column, width), between(top, bottom, row, height))
             }
             ScreenPosition::Point { x, y } => (T::from_f64(x), T::from_f64(y)),
         }
@@ -149,7 +159,7 @@ impl CameraFrame {
     }
 }
 
-/// The middle of cell `index` (a whole number, of a cell or beside them) when the way from `first` to `last` is cut into
+/// The middle of cell `index` (a cell, a place between the middles of two, or beside them) when the way from `first` to `last` is cut into
 /// `count` cells. The two ends are
 /// weighted, not their difference, so that a symmetric window has exactly symmetric pixels.
 pub(crate) fn between<T: Scalar>(first: f64, last: f64, index: f64, count: u32) -> T {

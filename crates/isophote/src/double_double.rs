@@ -184,6 +184,10 @@ impl Scalar for DoubleDouble {
         Self { high: value, low: 0.0 }
     }
 
+    fn from_precise(value: Self) -> Self {
+        value
+    }
+
     fn rounded(self) -> f64 {
         self.high
     }

@@ -2,6 +2,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::double_double::DoubleDouble;
+
 /// A real number: a double, a [pair of doubles](crate::double_double::DoubleDouble) of 32 digits, or a vector of lanes
 /// that compute several pixels at once.
 ///
@@ -60,6 +62,9 @@ pub trait Scalar: Real<Mask = bool> {
     /// A double, exactly.
     fn from_f64(value: f64) -> Self;
 
+    /// A number of 32 digits, to the digits of this type.
+    fn from_precise(value: DoubleDouble) -> Self;
+
     /// The nearest double.
     fn rounded(self) -> f64;
 
@@ -106,6 +111,11 @@ impl Scalar for f64 {
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         value
+    }
+
+    #[inline(always)]
+    fn from_precise(value: DoubleDouble) -> Self {
+        value.rounded()
     }
 
     #[inline(always)]
@@ -173,7 +183,6 @@ impl<T: Scalar> Default for Sum<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::double_double::DoubleDouble;
     use proptest::prelude::*;
 
     #[test]

@@ -82,18 +82,27 @@ impl<T: Scalar> Vector<T> {
     pub fn from_f64(vector: Vector) -> Self {
         vector.map(T::from_f64)
     }
+
+    /// The vector of no length.
+    #[must_use]
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Self::new(T::zero(), T::zero(), T::zero())
+    }
 }
 
-impl Vector {
+impl<T: Copy> Vector<T> {
     /// The components in order.
     #[must_use]
-    pub const fn to_array(self) -> [f64; 3] {
+    #[inline(always)]
+    pub const fn to_array(self) -> [T; 3] {
         [self.x, self.y, self.z]
     }
 }
 
-impl From<[f64; 3]> for Vector {
-    fn from([x, y, z]: [f64; 3]) -> Self {
+impl<T> From<[T; 3]> for Vector<T> {
+    #[inline(always)]
+    fn from([x, y, z]: [T; 3]) -> Self {
         Self { x, y, z }
     }
 }

@@ -19,7 +19,7 @@ use crate::{load, numbers};
 
 /// Checks a scene and prints it.
 pub fn run(arguments: &CheckArguments) -> Result<String> {
-    let scene = load::scene(&arguments.scene, None, arguments.quiet)?;
+    let scene = load::scene(&arguments.scene, arguments.quiet)?;
     if arguments.json { numbers::json(&to_json(&scene)) } else { Ok(to_text(&scene)) }
 }
 

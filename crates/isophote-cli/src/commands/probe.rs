@@ -18,7 +18,7 @@ use crate::{load, numbers};
 
 /// Reads the values at the places that were asked for, or at the scene's own probes.
 pub fn run(arguments: &ProbeArguments) -> Result<String> {
-    let scene = PreparedScene::new(&load::scene(&arguments.scene, None, arguments.quiet)?);
+    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.quiet)?);
     let requests = requests(arguments, scene.scene())?;
     let mut readings = Vec::new();
     let mut refusals = Vec::new();

@@ -26,7 +26,7 @@ pub fn run(arguments: &RenderArguments) -> Result<String> {
     if let Some(path) = store::asked_for(arguments)? {
         return store::render(arguments, path);
     }
-    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.size, arguments.quiet)?);
+    let scene = PreparedScene::new(&load::scene_to_render(arguments)?);
     let job = Job::new(arguments, scene.scene())?;
     let mut map = job.render(&scene)?;
     let summary = Summary::new(&map, &job.main, &scene);
@@ -119,7 +119,8 @@ impl<'a> Job<'a> {
     fn render(&self, scene: &PreparedScene) -> Result<Map> {
         let arguments = self.arguments;
         // The irradiance tells which pixels are lit.
-        let quantities = self.wanted.iter().cloned().chain([Quantity::Irradiance]).collect();
+        let sampled = scene.scene().sampling().is_more_than_centres().then_some(Quantity::Samples);
+        let quantities = self.wanted.iter().cloned().chain([Quantity::Irradiance]).chain(sampled).collect();
         let region = arguments.region.unwrap_or(Region::all(scene.scene().camera().resolution));
         let progress = Progress::new(region.size.pixels() as u64, arguments.quiet);
         let settings = RenderSettings { region: Some(region), quantities, observer: Some(&progress) };
@@ -193,8 +194,8 @@ pub fn channels(names: &[String], scene: &Scene) -> Result<Vec<Quantity>> {
     let known = |quantity: &Quantity| !matches!(quantity, Quantity::Light(_)) || lights.contains(quantity);
     let channel = |name: &String| {
         Quantity::from_name(name).filter(known).ok_or_else(|| {
-            let names: Vec<String> =
-                Quantity::COMMON.iter().chain(lights.iter().take(20)).map(Quantity::name).collect();
+            let known = Quantity::COMMON.iter().chain(&Quantity::OF_SAMPLING).chain(lights.iter().take(20));
+            let names: Vec<String> = known.map(Quantity::name).collect();
             Usage(format!("there is no channel `{name}`; allowed: {}", names.join(", "))).into()
         })
     };

@@ -26,7 +26,7 @@ const DEFAULT_SAMPLES: u32 = 513;
 
 /// Computes a section and prints or writes it.
 pub fn run(arguments: &SectionArguments) -> Result<String> {
-    let scene = PreparedScene::new(&load::scene(&arguments.scene, None, arguments.quiet)?);
+    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.quiet)?);
     let line = line(arguments, scene.scene());
     if arguments.samples.is_some() && arguments.line.line.is_none() {
         return Err(Usage("--samples goes with --line: a row or a column has a sample for each pixel".into()).into());

@@ -49,7 +49,7 @@ pub fn asked_for(arguments: &RenderArguments) -> Result<Option<&Path>, Usage> {
 
 /// Renders a scene into a store.
 pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
-    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.size, arguments.quiet)?);
+    let scene = PreparedScene::new(&load::scene_to_render(arguments)?);
     // From here on there may be a store, and Ctrl-C has to say how to go on with it.
     end_in_order();
     let available = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
@@ -96,7 +96,8 @@ pub fn merge(arguments: &MergeArguments) -> Result<String> {
     end_in_order();
     let store = Store::open(&arguments.store).map_err(explained)?;
     let name = arguments.store.display().to_string();
-    let scene = PreparedScene::new(&Scene::from_text(&name, &store.metadata().scene, Syntax::Toml)?);
+    let directory = arguments.store.parent().unwrap_or(Path::new(""));
+    let scene = PreparedScene::new(&Scene::from_text_in(directory, &name, &store.metadata().scene, Syntax::Toml)?);
     let check = if arguments.check { Check::Content } else { Check::Presence };
     let statistics = store.merge(check).map_err(explained)?;
     printed(&statistics, &scene, arguments.json)

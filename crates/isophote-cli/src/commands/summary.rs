@@ -20,7 +20,25 @@ pub struct Summary {
     region: Option<Region>,
     counts: Counts,
     statistics: Option<Statistics>,
+    refined: Option<Refined>,
     probes: Vec<Reading>,
+}
+
+/// How much of a map was refined.
+#[derive(Clone, Copy)]
+struct Refined {
+    /// Visible pixels with more rays than one.
+    pixels: usize,
+    /// Rays in all of them.
+    rays: f64,
+}
+
+impl Refined {
+    fn of(map: &Map) -> Option<Self> {
+        let samples = map.scalar(&Quantity::Samples)?;
+        let refined = samples.iter().filter(|samples| *samples > 1.0).count();
+        Some(Self { pixels: refined, rays: samples.iter().sum() })
+    }
 }
 
 impl Summary {
@@ -30,6 +48,7 @@ impl Summary {
             region: (map.region.size != map.full).then_some(map.region),
             counts: counts(map),
             statistics: statistics(map, main),
+            refined: Refined::of(map),
             probes: readings(scene),
         }
     }
@@ -43,6 +62,7 @@ impl Summary {
             region: None,
             counts: Counts { pixels: count(map.pixels), visible: count(map.visible), lit: Some(count(map.lit)) },
             statistics: main.and_then(|main| main.statistics),
+            refined: None,
             probes: readings(scene),
         }
     }
@@ -74,6 +94,15 @@ impl Summary {
             }
             None if visible == 0 => row("", "no surface is seen".into()),
             None => row("", "no extremes: this channel is not one quantity a pixel".into()),
+        }
+        if let Some(Refined { pixels: refined, rays }) = self.refined {
+            #[allow(clippy::cast_precision_loss, reason = "fewer than 2^53 pixels")]
+            let [share, mean] = [100.0 * refined as f64 / pixels as f64, rays / visible.max(1) as f64];
+            let [share, mean] = [share, mean].map(|number| significant(number, 4));
+            lines.push(format!(
+                "  {:<12}{refined} pixels ({share} %) by more rays than one; {mean} a visible pixel",
+                "refined"
+            ));
         }
         let mut text = lines.join("\n") + "\n";
         if !self.probes.is_empty() {
@@ -107,6 +136,7 @@ impl Summary {
             formula: description.convention().formula_number(),
             channel: self.main.name(),
             unit: unit(&self.main, description),
+            refined: self.refined.map(|refined| refined.pixels),
             pixels: self.counts.pixels,
             visible_pixels: self.counts.visible,
             lit_pixels: self.counts.lit,
@@ -145,6 +175,9 @@ pub struct SummaryJson {
     formula: &'static str,
     channel: String,
     unit: String,
+    /// Pixels with more rays than one, where the scene asks for more.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refined: Option<usize>,
     pixels: usize,
     visible_pixels: usize,
     lit_pixels: Option<usize>,

@@ -80,6 +80,7 @@ fn channel_names(map: &Map) -> Vec<Vec<String>> {
         Quantity::Normal => axes("N"),
         Quantity::Shape => vec!["shape.index".into()],
         Quantity::Irradiance | Quantity::Diffuse | Quantity::Specular | Quantity::Light(_) => vec![format!("{name}.Y")],
+        Quantity::Samples | Quantity::Coverage => vec![format!("{name}.V")],
     };
     map.channels().iter().zip(names).map(in_file).collect()
 }

@@ -87,6 +87,10 @@ pub enum Quantity {
     Normal,
     /// Index of the shape that is seen, −1 where none is.
     Shape,
+    /// Rays that went through the pixel, 0 where no surface is seen.
+    Samples,
+    /// The part of them that met a surface.
+    Coverage,
     /// Irradiance from the light with this name alone, one term of (3.1).
     Light(String),
 }
@@ -104,6 +108,9 @@ impl Quantity {
         Self::Shape,
     ];
 
+    /// How a pixel was sampled: one ray through its centre, unless the scene asks for more.
+    pub const OF_SAMPLING: [Self; 2] = [Self::Samples, Self::Coverage];
+
     /// The unit of the quantity in a scene of this kind: `"1"` for pure numbers, `""` for indices.
     #[must_use]
     pub fn unit(&self, convention: Convention, quantities: Quantities, length: LengthUnit) -> &'static str {
@@ -111,7 +118,7 @@ impl Quantity {
             Self::Brightness | Self::Diffuse | Self::Specular => convention.unit(quantities),
             Self::Irradiance | Self::Light(_) => quantities.irradiance_unit(),
             Self::Depth | Self::Position => length.name(),
-            Self::Normal => "1",
+            Self::Normal | Self::Samples | Self::Coverage => "1",
             Self::Shape => "",
         }
     }
@@ -121,7 +128,7 @@ impl Quantity {
     pub fn from_name(name: &str) -> Option<Self> {
         match name.strip_prefix("light.") {
             Some(light) => Some(Self::Light(light.into())),
-            None => Self::COMMON.into_iter().find(|quantity| quantity.name() == name),
+            None => Self::COMMON.into_iter().chain(Self::OF_SAMPLING).find(|quantity| quantity.name() == name),
         }
     }
 
@@ -137,6 +144,8 @@ impl Quantity {
             Self::Position => "position".into(),
             Self::Normal => "normal".into(),
             Self::Shape => "shape".into(),
+            Self::Samples => "samples".into(),
+            Self::Coverage => "coverage".into(),
             Self::Light(light) => format!("light.{light}"),
         }
     }

@@ -4,14 +4,14 @@ mod visibility;
 
 use std::cell::OnceCell;
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 pub use visibility::Blocking;
 
 use crate::accelerate::Accelerator;
 use crate::camera::{CameraFrame, ScreenPosition};
 use crate::double_double::DoubleDouble;
-use crate::map::Pixel;
+use crate::map::{Pixel, Resolution};
 use crate::real::Scalar;
 use crate::reflectance::{BrightnessFormula, Reflectance};
 use crate::scene::Scene;
@@ -32,8 +32,8 @@ pub struct PreparedScene {
     first_primitives: Vec<u32>,
     /// With so many primitives, or fewer, rays try each of them.
     tried_one_by_one: u32,
-    /// Built when the first ray asks for it.
-    accelerator: OnceLock<Accelerator>,
+    /// Over all primitives; with so few that each is tried, built only when a renderer asks for it.
+    accelerator: Arc<OnceLock<Accelerator>>,
     /// Written when the first map asks for it.
     source_text: OnceLock<String>,
 }
@@ -94,23 +94,39 @@ impl PreparedScene {
             *count += shape.geometry.parts();
             Some(*count)
         }));
-        Self {
+        let prepared = Self {
             first_primitives,
             tried_one_by_one: HANDFUL,
-            accelerator: OnceLock::new(),
+            accelerator: Arc::default(),
             frame: CameraFrame::new(&scene.camera),
             precise_frame: CameraFrame::new(&scene.camera),
             shapes,
             formulas: formulas.collect(),
             source_text: OnceLock::new(),
             scene: scene.clone(),
+        };
+        if prepared.primitive_count() > HANDFUL {
+            prepared.accelerator();
         }
+        prepared
     }
 
     /// The same scene without a tree: every ray tries every primitive. This is what the tree is held to.
     #[must_use]
     pub fn by_brute_force(self) -> Self {
         Self { tried_one_by_one: u32::MAX, ..self }
+    }
+
+    /// The same scene seen with another number of pixels.
+    pub(crate) fn at_resolution(&self, resolution: Resolution) -> Self {
+        let mut other = Self { source_text: OnceLock::new(), ..self.clone() };
+        other.scene.camera.resolution = resolution;
+        other.frame = CameraFrame::new(&other.scene.camera);
+        other.precise_frame = CameraFrame::new(&other.scene.camera);
+        for shape in &mut other.shapes {
+            shape.outline = OnceLock::new();
+        }
+        other
     }
 
     /// The scene it was made from.
@@ -213,6 +229,7 @@ impl PreparedScene {
         match &self.shapes[primitive.shape].geometry {
             Geometry::Sphere(sphere) => Some(sphere),
             Geometry::Spheres(cloud) => Some(&cloud.spheres[primitive.part as usize]),
+            _ => None,
         }
     }
 
@@ -314,7 +331,9 @@ impl PreparedScene {
         let to_eye = (self.frame.eye - nearest.anchor) - nearest.offset;
         let distance = to_eye.length();
         let view = to_eye * (1.0 / distance);
-        let normal = if from_inside { -nearest.outward_normal } else { nearest.outward_normal };
+        let from_behind = !geometry.is_closed() && nearest.face_normal.dot(view) < 0.0;
+        let normal = if from_inside || from_behind { -nearest.outward_normal } else { nearest.outward_normal };
+        let lift = if from_behind { nearest.lift_behind } else { nearest.lift };
         let point = SurfacePoint {
             anchor: nearest.anchor,
             offset: nearest.offset,
@@ -323,7 +342,7 @@ impl PreparedScene {
             cos_theta_o: normal.dot(view),
         };
         let primitive = Primitive { shape: located.shape, part: nearest.part };
-        Hit { primitive, distance, point, from_inside, lift: nearest.lift }
+        Hit { primitive, distance, point, from_inside, lift }
     }
 }
 

@@ -23,15 +23,7 @@ pub fn empty_map(
     let description = scene.scene();
     let full = description.camera.resolution;
     let region = settings.region.unwrap_or(Region::all(full));
-    let fits = |start: u32, size: u32, whole: u32| size > 0 && start < whole && size <= whole - start;
-    if !fits(region.corner.column, region.size.width, full.width)
-        || !fits(region.corner.row, region.size.height, full.height)
-    {
-        return Err(RenderError::Region { region, full });
-    }
-    if !region.size.fits_memory() {
-        return Err(RenderError::TooLarge { size: region.size });
-    }
+    check(region, full)?;
     let mut channels: Vec<Channel> = Vec::new();
     for quantity in &settings.quantities {
         if channels.iter().all(|channel| channel.quantity != *quantity) {
@@ -47,6 +39,20 @@ pub fn empty_map(
     };
     let mask = Mask::new(region.size, Vec::new());
     Ok(Map { full, region, window: window(description, region), provenance, mask, channels })
+}
+
+/// Whether a region is one of the image, and fits into memory.
+pub fn check(region: Region, full: Resolution) -> Result<(), RenderError> {
+    let fits = |start: u32, size: u32, whole: u32| size > 0 && start < whole && size <= whole - start;
+    if !fits(region.corner.column, region.size.width, full.width)
+        || !fits(region.corner.row, region.size.height, full.height)
+    {
+        return Err(RenderError::Region { region, full });
+    }
+    if !region.size.fits_memory() {
+        return Err(RenderError::TooLarge { size: region.size });
+    }
+    Ok(())
 }
 
 fn empty_channel(
@@ -71,7 +77,7 @@ fn empty_channel(
             .unwrap_or_else(|| Values::Vector(vec![[0.0; 3]; pixels])),
         // Written as a whole when the mask is known.
         Quantity::Shape => Values::Index(Vec::new()),
-        _ if precision == Precision::Single && *quantity != Quantity::Depth => {
+        _ if precision == Precision::Single && !is_always_double(quantity) => {
             reuse(|values| matches!(values, Values::Single(_))).unwrap_or_else(|| Values::Single(vec![0.0; pixels]))
         }
         _ => reuse(|values| matches!(values, Values::Scalar(_))).unwrap_or_else(|| Values::Scalar(vec![0.0; pixels])),
@@ -80,7 +86,13 @@ fn empty_channel(
     Ok(Channel { quantity: quantity.clone(), unit, values })
 }
 
-fn window(scene: &Scene, region: Region) -> Window {
+/// What single precision does not make smaller.
+fn is_always_double(quantity: &Quantity) -> bool {
+    matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage)
+}
+
+/// The outer edges of a region on the screen.
+pub fn window(scene: &Scene, region: Region) -> Window {
     let full = scene.camera.resolution;
     let screen = scene.camera.screen;
     let edge = |[first, last]: [f64; 2], edge: u32, count: u32| {
@@ -155,7 +167,8 @@ pub fn split<'m>(map: &'m mut Map, scene: &PreparedScene, rows: u32) -> Vec<Band
             channels: Vec::new(),
         })
         .collect();
-    for Channel { quantity, values, .. } in &mut map.channels {
+    let is_computed = |quantity: &Quantity| !matches!(quantity, Quantity::Samples | Quantity::Coverage);
+    for Channel { quantity, values, .. } in map.channels.iter_mut().filter(|channel| is_computed(&channel.quantity)) {
         let parts: Vec<BandChannel<'_>> = match values {
             Values::Scalar(values) => {
                 let scalar = ScalarChannel::of(quantity, scene.scene());
@@ -196,18 +209,26 @@ pub fn recycle(map: Map) -> Vec<Values> {
     channels.into_iter().map(|channel| clear(channel.values)).collect()
 }
 
-/// Gives a map whose bands are filled its mask, and its shape channel.
+/// Gives a map whose bands are filled its mask, and the channels that follow from it.
 pub fn finish(map: &mut Map, runs: Vec<Run>) {
     map.mask = Mask::new(map.region.size, runs);
     for channel in &mut map.channels {
-        if let Values::Index(shapes) = &mut channel.values {
-            *shapes = map.mask.shapes();
+        match (&channel.quantity, &mut channel.values) {
+            (_, Values::Index(shapes)) => *shapes = map.mask.shapes(),
+            // One ray through the centre, which met it.
+            (Quantity::Samples | Quantity::Coverage, Values::Scalar(values)) => {
+                for run in map.mask.runs() {
+                    values[run.start..run.end].fill(1.0);
+                }
+            }
+            _ => {}
         }
     }
 }
 
 impl ScalarChannel {
-    fn of(quantity: &Quantity, scene: &Scene) -> Self {
+    /// The kind of a scalar channel that renderers fill in.
+    pub fn of(quantity: &Quantity, scene: &Scene) -> Self {
         let light = |name: &String| scene.lights.iter().position(|light| light.name == *name);
         match quantity {
             Quantity::Brightness => Self::Brightness,
@@ -216,8 +237,8 @@ impl ScalarChannel {
             Quantity::Specular => Self::Specular,
             Quantity::Depth => Self::Depth,
             Quantity::Light(name) => Self::Light(light(name).expect("the map was made for this scene")),
-            Quantity::Position | Quantity::Normal | Quantity::Shape => {
-                unreachable!("`empty_channel` gives it other values")
+            Quantity::Position | Quantity::Normal | Quantity::Shape | Quantity::Samples | Quantity::Coverage => {
+                unreachable!("renderers do not fill it in")
             }
         }
     }

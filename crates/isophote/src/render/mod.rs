@@ -3,12 +3,14 @@
 mod band;
 mod lanes;
 mod reference;
+mod sampling;
 mod tiles;
 
 use std::ops::ControlFlow;
 
 pub use lanes::Lanes;
 pub use reference::Reference;
+pub use sampling::{Filter, Sampling};
 
 use crate::map::{Map, Pixel, Quantity, Region, Resolution};
 use crate::prepare::PreparedScene;

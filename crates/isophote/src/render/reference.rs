@@ -1,6 +1,6 @@
 //! The reference: one pixel after the other, in double precision.
 
-use super::{RenderError, RenderSettings, Renderer, band};
+use super::{RenderError, RenderSettings, Renderer, band, sampling};
 use crate::lanes::Precision;
 use crate::map::Map;
 use crate::prepare::PreparedScene;
@@ -15,6 +15,16 @@ impl Renderer for Reference {
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
+        if scene.scene().sampling().is_more_than_centres() {
+            sampling::render(scene, settings, None, &|scene, settings| self.centres(scene, settings))
+        } else {
+            self.centres(scene, settings)
+        }
+    }
+}
+
+impl Reference {
+    fn centres(self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
         let mut map = band::empty_map(scene, settings, self.name(), Precision::Double, Vec::new())?;
         let mut runs = Vec::new();
         let rows = map.region.size.height;

@@ -13,13 +13,14 @@ use std::path::Path as FilePath;
 pub use document::Syntax;
 pub use error::{Place, Problem, ProblemKind, SceneError};
 pub use source::SceneSource;
-use source::ShadowSource;
+use source::{SamplingSource, ShadowSource};
 pub use validate::limits;
 
 use crate::camera::Camera;
 use crate::light::Light;
 use crate::map::Resolution;
 use crate::reflectance::{Convention, Reflectance};
+use crate::render::Sampling;
 use crate::shape::{Geometry, Primitive};
 use crate::units::{LengthUnit, Quantities};
 use crate::vector::Vector;
@@ -34,6 +35,7 @@ pub struct Scene {
     pub(crate) length: LengthUnit,
     pub(crate) convention: Convention,
     pub(crate) shadows: bool,
+    pub(crate) sampling: Sampling,
     pub(crate) quantities: Quantities,
     pub(crate) camera: Camera,
     pub(crate) materials: Vec<Material>,
@@ -96,14 +98,24 @@ impl Scene {
         let name = path.display().to_string();
         let text = Self::read_text(&mut open(path, &name)?, &name)?;
         let is_json = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("json"));
-        Self::from_text(&name, &text, if is_json { Syntax::Json } else { Syntax::Toml })
+        let syntax = if is_json { Syntax::Json } else { Syntax::Toml };
+        Self::from_text_in(path.parent().unwrap_or(FilePath::new("")), &name, &text, syntax)
     }
 
-    /// Reads a scene from a text; `name` stands for it in error messages.
+    /// Reads a scene from a text; `name` stands for it in error messages. Relative paths in it start at the working
+    /// directory.
     ///
     /// # Errors
     /// Every problem of the text and of the scene in it, with its place.
     pub fn from_text(name: &str, text: &str, syntax: Syntax) -> Result<Self, SceneError> {
+        Self::from_text_in(FilePath::new(""), name, text, syntax)
+    }
+
+    /// The same, with the directory at which relative paths start.
+    ///
+    /// # Errors
+    /// As [`from_text`](Self::from_text).
+    pub fn from_text_in(directory: &FilePath, name: &str, text: &str, syntax: Syntax) -> Result<Self, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
             let help = "`isophote new lab` writes a scene to start from";
@@ -120,7 +132,8 @@ impl Scene {
             syntax_problems[0].help = Some(help.into());
         }
         problems.extend(syntax_problems);
-        let source = read::read(&document, &mut problems);
+        let mut source = read::read(&document, &mut problems);
+        source.directory = directory.into();
         let lines = error::Lines::new(text);
         let locate = |mut problem: Problem| {
             problem.locate(&lines, &document);
@@ -178,6 +191,18 @@ impl Scene {
         Self::try_from(self.source)
     }
 
+    /// The scene with what is given here in place of its own sampling.
+    ///
+    /// # Errors
+    /// Numbers out of the [`limits`].
+    pub fn with_sampling(mut self, given: SamplingSource) -> Result<Self, SceneError> {
+        let sampling = self.source.sampling.get_or_insert_default();
+        sampling.samples = given.samples.or(sampling.samples);
+        sampling.tolerance = given.tolerance.or(sampling.tolerance);
+        sampling.filter = given.filter.or(sampling.filter);
+        Self::try_from(self.source)
+    }
+
     /// A line that says what the scene is; may be empty.
     #[must_use]
     pub fn title(&self) -> &str {
@@ -194,6 +219,12 @@ impl Scene {
     #[must_use]
     pub fn convention(&self) -> Convention {
         self.convention
+    }
+
+    /// How many rays a pixel's value is made of.
+    #[must_use]
+    pub fn sampling(&self) -> Sampling {
+        self.sampling
     }
 
     /// Whether shapes stand in each other's light.

@@ -1,12 +1,17 @@
 //! From the tree to [`SceneSource`]: types and keys. Every key is named here once; what it may hold is checked in
 //! `validate`.
 
+mod files;
+mod shapes;
+
 use std::collections::{BTreeMap, HashSet};
+use std::path::PathBuf;
 
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
-    CameraSource, LightSource, MaterialSource, ProbeSource, SceneSource, ScreenSource, ShadowSource, SphereSource,
+    CameraSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource, ShadowSource,
+    SphereSource,
 };
 use crate::units::Choice;
 
@@ -23,6 +28,7 @@ pub fn read(document: &Document, problems: &mut Problems) -> SceneSource {
 
 fn read_scene(table: &mut Table<'_>) -> SceneSource {
     SceneSource {
+        directory: PathBuf::new(),
         version: table.count("version"),
         title: table.text("title"),
         length: table.choice("length"),
@@ -31,8 +37,18 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         quantities: table.choice("quantities"),
         shadows: table.boolean("shadows"),
         camera: table.table("camera", read_camera),
+        sampling: table.table("sampling", read_sampling),
         material: table.named_tables("material", read_material),
         sphere: table.tables("sphere", read_sphere),
+        ellipsoid: table.tables("ellipsoid", shapes::read_ellipsoid),
+        cuboid: table.tables("box", shapes::read_cuboid),
+        cylinder: table.tables("cylinder", shapes::read_cylinder),
+        cone: table.tables("cone", shapes::read_cone),
+        plane: table.tables("plane", shapes::read_plane),
+        rectangle: table.tables("rectangle", shapes::read_rectangle),
+        disk: table.tables("disk", shapes::read_disk),
+        mesh: table.tables("mesh", files::read_mesh),
+        spheres: table.tables("spheres", files::read_spheres),
         light: table.tables("light", read_light),
         probe: table.tables("probe", read_probe),
     }
@@ -46,6 +62,14 @@ fn read_camera(table: &mut Table<'_>) -> CameraSource {
         up: table.numbers("up"),
         screen: table.table("screen", read_screen),
         resolution: table.counts("resolution"),
+    }
+}
+
+fn read_sampling(table: &mut Table<'_>) -> SamplingSource {
+    SamplingSource {
+        samples: table.count("samples"),
+        tolerance: table.number("tolerance"),
+        filter: table.choice("filter"),
     }
 }
 

@@ -1,12 +1,21 @@
 //! A scene exactly as it is written: nothing checked, nothing filled in. The schema is generated from here.
 
-use std::collections::BTreeMap;
+mod files;
+mod shapes;
 
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+pub use files::{MeshSource, SpheresSource};
 use schemars::{JsonSchema, Schema, transform::RecursiveTransform, transform::Transform};
 use serde::Serialize;
+pub use shapes::{
+    ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, PlaneSource, RectangleSource, RotationSource,
+};
 
 use crate::camera::Handedness;
 use crate::reflectance::Convention;
+use crate::render::Filter;
 use crate::units::{LengthUnit, Quantities};
 
 /// A scene of surfaces lit by point lights, for the program isophote.
@@ -14,6 +23,9 @@ use crate::units::{LengthUnit, Quantities};
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Isophote scene")]
 pub struct SceneSource {
+    /// Where relative paths in the scene start: the directory of its file.
+    #[serde(skip)]
+    pub directory: PathBuf,
     /// Version of the scene format: 1.
     #[schemars(required, extend("const" = 1))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -47,6 +59,9 @@ pub struct SceneSource {
     #[schemars(required)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraSource>,
+    /// How many rays a pixel's value is made of; one through its centre by default.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sampling: Option<SamplingSource>,
     /// The materials by name.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     #[schemars(default, extend("default" = {}))]
@@ -55,6 +70,42 @@ pub struct SceneSource {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]
     pub sphere: Vec<SphereSource>,
+    /// The ellipsoids.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub ellipsoid: Vec<EllipsoidSource>,
+    /// The boxes.
+    #[serde(rename = "box", skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub cuboid: Vec<CuboidSource>,
+    /// The cylinders.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub cylinder: Vec<CylinderSource>,
+    /// The cones.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub cone: Vec<ConeSource>,
+    /// The planes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub plane: Vec<PlaneSource>,
+    /// The rectangles.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub rectangle: Vec<RectangleSource>,
+    /// The meshes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub mesh: Vec<MeshSource>,
+    /// Files of many spheres.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub spheres: Vec<SpheresSource>,
+    /// The disks.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub disk: Vec<DiskSource>,
     /// The lights.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]
@@ -110,6 +161,25 @@ pub struct ScreenSource {
     #[schemars(required)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y: Option<[f64; 2]>,
+}
+
+/// How many rays a pixel's value is made of.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SamplingSource {
+    /// Rays for each pixel. With a tolerance the most that a pixel gets, 256 by default.
+    #[schemars(range(min = 1, max = 4096), extend("default" = 1))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples: Option<u64>,
+    /// The error of a pixel's brightness that is allowed, as a part of the largest brightness of the image: each pixel
+    /// gets as many rays as that takes.
+    #[schemars(range(min = 0.0001, max = 1.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// What a pixel is a mean over.
+    #[schemars(extend("default" = "box"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub filter: Option<Filter>,
 }
 
 /// What a surface is made of.

@@ -1,17 +1,37 @@
 //! Shapes: what a ray can hit.
 
+mod cone;
+mod cuboid;
+mod cylinder;
+mod disk;
+mod ellipsoid;
+mod flat;
 mod locate;
+mod mesh;
 mod outline;
+mod placement;
+mod plane;
 mod ray;
+mod rectangle;
+mod span;
 mod sphere;
 mod spheres;
 
 use std::sync::Arc;
 
+pub use cone::Cone;
+pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
+pub use disk::Disk;
+pub use ellipsoid::Ellipsoid;
 pub use locate::{Located, Miss, surface_at};
+pub use mesh::{Mesh, MeshData, MeshError, MeshPlacing};
 pub(crate) use outline::{BEFORE_THE_EYE, Grid};
 pub use outline::{Ellipse, Outline, PlaceInRow, PointInRow, RowOfEllipse};
+pub use placement::{LocalRay, Placement, Rotation};
+pub use plane::Plane;
 pub use ray::{Accuracy, Intersection, Meeting, Ray, SurfacePoint, TracingError};
+pub use rectangle::Rectangle;
 pub use sphere::Sphere;
 pub use spheres::Spheres;
 
@@ -22,13 +42,30 @@ use crate::vector::Vector;
 
 /// The form of a shape and its place in space. A closed set: each variant has a file of its own.
 ///
-/// A shape has parts, which rays hit one by one: the spheres of a cloud. Every other shape is one part, number 0.
+/// A shape has parts, which rays hit one by one: the spheres of a cloud, the triangles of a mesh. Every other shape is one
+/// part, number 0. All but spheres are kept elsewhere and shared: a scene may have a hundred thousand.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Geometry {
     /// See [`Sphere`].
     Sphere(Sphere),
     /// See [`Spheres`].
     Spheres(Arc<Spheres>),
+    /// See [`Ellipsoid`].
+    Ellipsoid(Arc<Ellipsoid>),
+    /// See [`Plane`].
+    Plane(Arc<Plane>),
+    /// See [`Rectangle`].
+    Rectangle(Arc<Rectangle>),
+    /// See [`Disk`].
+    Disk(Arc<Disk>),
+    /// See [`Cuboid`].
+    Cuboid(Arc<Cuboid>),
+    /// See [`Cylinder`].
+    Cylinder(Arc<Cylinder>),
+    /// See [`Cone`].
+    Cone(Arc<Cone>),
+    /// See [`Mesh`].
+    Mesh(Arc<Mesh>),
 }
 
 /// A part of a shape: what a ray hits, and what casts a shadow.
@@ -56,6 +93,14 @@ impl Geometry {
         match self {
             Self::Sphere(_) => "sphere",
             Self::Spheres(_) => "spheres",
+            Self::Ellipsoid(_) => "ellipsoid",
+            Self::Plane(_) => "plane",
+            Self::Rectangle(_) => "rectangle",
+            Self::Disk(_) => "disk",
+            Self::Cuboid(_) => "box",
+            Self::Cylinder(_) => "cylinder",
+            Self::Cone(_) => "cone",
+            Self::Mesh(_) => "mesh",
         }
     }
 
@@ -67,6 +112,14 @@ impl Geometry {
                 vec![("center", Measure::Vector(sphere.center)), ("radius", Measure::Number(sphere.radius))]
             }
             Self::Spheres(cloud) => vec![("count", Measure::Count(cloud.spheres.len()))],
+            Self::Ellipsoid(ellipsoid) => ellipsoid.measures(),
+            Self::Plane(plane) => plane.measures(),
+            Self::Rectangle(rectangle) => rectangle.measures(),
+            Self::Disk(disk) => disk.measures(),
+            Self::Cuboid(cuboid) => cuboid.measures(),
+            Self::Cylinder(cylinder) => cylinder.measures(),
+            Self::Cone(cone) => cone.measures(),
+            Self::Mesh(mesh) => mesh.measures(),
         }
     }
 
@@ -76,13 +129,20 @@ impl Geometry {
         matches!(self, Self::Sphere(_) | Self::Spheres(_))
     }
 
+    /// Whether its parts have materials of their own.
+    #[must_use]
+    pub fn has_own_materials(&self) -> bool {
+        self.material_of(0).is_some()
+    }
+
     /// How many parts there are.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "the reader of the file counted in 32 bits")]
     pub fn parts(&self) -> u32 {
         match self {
-            Self::Sphere(_) => 1,
             Self::Spheres(cloud) => cloud.spheres.len() as u32,
+            Self::Mesh(mesh) => mesh.parts(),
+            _ => 1,
         }
     }
 
@@ -92,6 +152,14 @@ impl Geometry {
         match self {
             Self::Sphere(sphere) => sphere.meet(ray, accuracy),
             Self::Spheres(cloud) => cloud.spheres[part as usize].meet(ray, accuracy),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.meet(ray, accuracy),
+            Self::Plane(plane) => plane.meet(ray, accuracy),
+            Self::Rectangle(rectangle) => rectangle.meet(ray, accuracy),
+            Self::Disk(disk) => disk.meet(ray, accuracy),
+            Self::Cuboid(cuboid) => cuboid.meet(ray, accuracy),
+            Self::Cylinder(cylinder) => cylinder.meet(ray, accuracy),
+            Self::Cone(cone) => cone.meet(ray, accuracy),
+            Self::Mesh(mesh) => mesh.meet(part, ray, accuracy),
         }
     }
 
@@ -101,6 +169,14 @@ impl Geometry {
         match self {
             Self::Sphere(sphere) => Some(sphere.bounds()),
             Self::Spheres(cloud) => Some(cloud.spheres[part as usize].bounds()),
+            Self::Ellipsoid(ellipsoid) => Some(ellipsoid.bounds()),
+            Self::Plane(_) => None,
+            Self::Rectangle(rectangle) => Some(rectangle.bounds()),
+            Self::Disk(disk) => Some(disk.bounds()),
+            Self::Cuboid(cuboid) => Some(cuboid.bounds()),
+            Self::Cylinder(cylinder) => Some(cylinder.bounds()),
+            Self::Cone(cone) => Some(cone.bounds()),
+            Self::Mesh(mesh) => Some(mesh.part_bounds(part)),
         }
     }
 
@@ -108,9 +184,15 @@ impl Geometry {
     #[must_use]
     pub fn part_encloses(&self, part: u32, point: Vector) -> bool {
         match self {
-            Self::Sphere(sphere) => sphere.signed_distance(point) < 0.0,
             Self::Spheres(cloud) => cloud.spheres[part as usize].signed_distance(point) < 0.0,
+            _ => self.is_closed() && self.signed_distance(point) < 0.0,
         }
+    }
+
+    /// Whether its parts have an inside. Of what has none, the eye sees the side that is turned to it.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        !matches!(self, Self::Plane(_) | Self::Rectangle(_) | Self::Disk(_) | Self::Mesh(_))
     }
 
     /// In metres: what is nearer to a point of a part is no blocker of its light if it is another part of the shape.
@@ -118,7 +200,8 @@ impl Geometry {
     #[must_use]
     pub fn least_shadow_distance(&self, _part: u32) -> f64 {
         match self {
-            Self::Sphere(_) | Self::Spheres(_) => 0.0,
+            Self::Mesh(mesh) => 1e-12 * mesh.size(),
+            _ => 0.0,
         }
     }
 
@@ -127,7 +210,8 @@ impl Geometry {
     pub fn material_of(&self, part: u32) -> Option<usize> {
         match self {
             Self::Spheres(cloud) => cloud.materials.get(part as usize).map(|material| *material as usize),
-            Self::Sphere(_) => None,
+            Self::Mesh(mesh) => mesh.material_of(part),
+            _ => None,
         }
     }
 
@@ -138,7 +222,7 @@ impl Geometry {
             Self::Sphere(sphere) if sphere.signed_distance(frame.eye.map(DoubleDouble::rounded)) > 0.0 => {
                 Ellipse::of_sphere(sphere, frame)
             }
-            Self::Sphere(_) | Self::Spheres(_) => Outline::Unknown,
+            _ => Outline::Unknown,
         }
     }
 
@@ -149,6 +233,14 @@ impl Geometry {
         match self {
             Self::Sphere(sphere) => sphere.signed_distance(point),
             Self::Spheres(cloud) => cloud.signed_distance(point),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.signed_distance(point),
+            Self::Plane(plane) => plane.distance(point),
+            Self::Rectangle(rectangle) => rectangle.distance(point),
+            Self::Disk(disk) => disk.distance(point),
+            Self::Cuboid(cuboid) => cuboid.signed_distance(point),
+            Self::Cylinder(cylinder) => cylinder.signed_distance(point),
+            Self::Cone(cone) => cone.signed_distance(point),
+            Self::Mesh(mesh) => mesh.distance(point),
         }
     }
 
@@ -158,6 +250,14 @@ impl Geometry {
         match self {
             Self::Sphere(sphere) => sphere.nearest(point),
             Self::Spheres(cloud) => cloud.nearest(point),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.nearest(point),
+            Self::Plane(plane) => plane.nearest(point),
+            Self::Rectangle(rectangle) => rectangle.nearest(point),
+            Self::Disk(disk) => disk.nearest(point),
+            Self::Cuboid(cuboid) => cuboid.nearest(point),
+            Self::Cylinder(cylinder) => cylinder.nearest(point),
+            Self::Cone(cone) => cone.nearest(point),
+            Self::Mesh(mesh) => mesh.nearest(point),
         }
     }
 
@@ -166,16 +266,25 @@ impl Geometry {
     pub fn in_direction(&self, direction: Vector) -> Option<NearestPoint> {
         match self {
             Self::Sphere(sphere) => Some(sphere.in_direction(direction)),
-            Self::Spheres(_) => None,
+            _ => None,
         }
     }
 
-    /// Its size in metres: R of a sphere; of a cloud, of the sphere whose surface is nearest to a point.
+    /// Its size in metres: R of a sphere, and about half of what is longest in other shapes; of a cloud, of the sphere
+    /// whose surface is nearest to a point; of a plane, how far that point is away.
     #[must_use]
     pub fn size_near(&self, point: Vector) -> f64 {
         match self {
             Self::Sphere(sphere) => sphere.radius,
             Self::Spheres(cloud) => cloud.spheres[cloud.nearest_part(point) as usize].radius,
+            Self::Ellipsoid(ellipsoid) => ellipsoid.size(),
+            Self::Plane(plane) => plane.size_near(point),
+            Self::Rectangle(rectangle) => rectangle.size(),
+            Self::Disk(disk) => disk.size(),
+            Self::Cuboid(cuboid) => cuboid.size(),
+            Self::Cylinder(cylinder) => cylinder.size(),
+            Self::Cone(cone) => cone.size(),
+            Self::Mesh(mesh) => mesh.size(),
         }
     }
 
@@ -188,6 +297,15 @@ impl Geometry {
                 let remoteness = |sphere: &Sphere| (sphere.center - point).length() / sphere.radius;
                 cloud.spheres.iter().map(remoteness).fold(0.0, f64::max)
             }
+            Self::Ellipsoid(ellipsoid) => ellipsoid.remoteness(point),
+            Self::Rectangle(rectangle) => rectangle.remoteness(point),
+            Self::Disk(disk) => disk.remoteness(point),
+            Self::Cuboid(cuboid) => cuboid.remoteness(point),
+            Self::Cylinder(cylinder) => cylinder.remoteness(point),
+            Self::Cone(cone) => cone.remoteness(point),
+            Self::Mesh(mesh) => mesh.remoteness(point),
+            // It has no end, and so comes near everything.
+            Self::Plane(_) => 0.0,
         }
     }
 
@@ -210,7 +328,22 @@ pub enum Measure {
     Count(usize),
 }
 
+/// What a ray loses to rounding across its direction, as a part of how far away it starts and how large the shape is.
+const PLACE_ERROR: f64 = 8.0 * f64::EPSILON;
+
 impl Bounds {
+    /// The box that reaches so far from its middle.
+    #[must_use]
+    pub fn around(middle: Vector, half: Vector) -> Self {
+        Self { least: middle - half, greatest: middle + half }
+    }
+
+    /// The box around a disk with this unit normal.
+    #[must_use]
+    pub fn of_disk(center: Vector, normal: Vector, radius: f64) -> Self {
+        Self::around(center, normal.map(|cosine| (1.0 - cosine * cosine).max(0.0).sqrt()) * radius)
+    }
+
     /// The box around two boxes.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
@@ -232,16 +365,21 @@ pub struct NearestPoint {
     pub anchor: Vector,
     /// See [`SurfacePoint::offset`].
     pub offset: Vector,
-    /// The unit normal that points out of the shape.
+    /// The unit normal for shading that points out of the shape; of one that encloses nothing, to one of its sides.
     pub outward_normal: Vector,
-    /// See [`Intersection::lift`].
+    /// The unit normal of the surface itself, on the same side: another one on meshes with smooth normals only.
+    pub face_normal: Vector,
+    /// See [`Intersection::lift`], seen from the side of `face_normal`.
     pub lift: Vector,
+    /// The same, seen from the other side.
+    pub lift_behind: Vector,
 }
 
 impl NearestPoint {
     /// A point of a shape that is one part, with the same normal for shading and for shadows.
     #[must_use]
     pub fn new(anchor: Vector, offset: Vector, outward_normal: Vector) -> Self {
-        Self { part: 0, anchor, offset, outward_normal, lift: Vector::default() }
+        let (lift, lift_behind) = (Vector::default(), Vector::default());
+        Self { part: 0, anchor, offset, outward_normal, face_normal: outward_normal, lift, lift_behind }
     }
 }

@@ -84,11 +84,14 @@ pub struct Accuracy {
     /// How much shading magnifies an error of the normal: see [`for_shading`](Self::for_shading). Zero where only hit
     /// or miss matters.
     magnification: f64,
+    /// How much it magnifies an error of the place, in sizes of the shape: 3 for 1/r² and cosθ_i of a light that is as
+    /// far away as the shape is large, and what a highlight does.
+    of_place: f64,
 }
 
 impl Accuracy {
     /// Hit or miss is all that matters, as for shadows.
-    pub const OF_VISIBILITY: Self = Self { magnification: 0.0 };
+    pub const OF_VISIBILITY: Self = Self { magnification: 0.0, of_place: 0.0 };
 
     /// A hit that is shaded with a lobe of this shininess, if any.
     ///
@@ -102,7 +105,17 @@ impl Accuracy {
             let faintest = (libm::pow(10.0, 12.0 / n) - 1.0).sqrt();
             4.0 * n * faintest.min(1.0 / tolerance::DOUBLE.above_cosine)
         });
-        Self { magnification: terminator.max(highlight) }
+        Self { magnification: terminator.max(highlight), of_place: highlight.max(4.0) }
+    }
+
+    /// Whether a hit is traced again with 32 digits for these errors of its place (in sizes of the shape) and of its
+    /// normal: for shapes whose normal does not follow from the place, or not closely.
+    #[must_use]
+    #[inline(always)]
+    pub fn is_exceeded_by(self, place: f64, normal: f64) -> bool {
+        let allowed = 0.5 * tolerance::DOUBLE.of_peak;
+        // Written so that NaN exceeds.
+        self.magnification > 0.0 && !(place * self.of_place <= allowed && normal * self.magnification <= allowed)
     }
 
     /// For which clearances cos²θ_o a ray is traced again with 32 digits: around zero, where hit and miss are told

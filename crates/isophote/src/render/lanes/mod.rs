@@ -17,6 +17,7 @@ use rayon::prelude::*;
 use self::kernel::BandJob;
 use self::visible::Candidate;
 use super::band::{self, Band};
+use super::sampling;
 use super::tiles::{self, TilesJob};
 use super::{RenderError, RenderSettings, Renderer};
 use crate::lanes::{Instructions, Precision};
@@ -67,7 +68,27 @@ impl Lanes {
         scene: &PreparedScene,
         settings: &RenderSettings<'_>,
     ) -> Result<Map, RenderError> {
+        if scene.scene().sampling().is_more_than_centres() {
+            let pool = if self.threads == 1 { None } else { Some(self.pool()?) };
+            let centres =
+                |scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(Vec::new(), scene, settings);
+            sampling::render(scene, settings, pool, &centres)
+        } else {
+            self.centres(memory, scene, settings)
+        }
+    }
+
+    fn centres(
+        &self,
+        memory: Vec<Values>,
+        scene: &PreparedScene,
+        settings: &RenderSettings<'_>,
+    ) -> Result<Map, RenderError> {
         let mut map = band::empty_map(scene, settings, self.name(), self.precision, memory)?;
+        if tiles::suit(scene) {
+            // Here, where all threads are free: those of the renderer would wait for each other.
+            scene.accelerator();
+        }
         let height = map.region.size.height;
         let order = lights::by_place(scene.scene().lights());
         let threads = self.threads;

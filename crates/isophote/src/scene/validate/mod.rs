@@ -1,11 +1,14 @@
 //! From what is written to what is valid: every check of a scene, once.
 
 mod camera;
+mod files;
 mod numbers;
 mod places;
+mod shapes;
 mod things;
 
 use std::collections::HashSet;
+use std::path::PathBuf;
 
 use super::Scene;
 use super::document::Path;
@@ -14,6 +17,7 @@ use super::read::{Problems, short};
 use super::source::SceneSource;
 use crate::camera::Camera;
 use crate::reflectance::Convention;
+use crate::render::Sampling;
 use crate::units::{LengthUnit, Quantities};
 
 /// What a scene may hold. The bounds on numbers keep every formula far from overflow.
@@ -24,7 +28,7 @@ pub mod limits {
     pub const SIDE: u32 = 1_000_000;
     /// Lights in a scene.
     pub const LIGHTS: usize = 100_000;
-    /// Shapes in a scene.
+    /// Shapes in a scene, of all kinds together.
     pub const SHAPES: usize = 100_000;
     /// Probes in a scene.
     pub const PROBES: usize = 100_000;
@@ -36,6 +40,10 @@ pub mod limits {
     pub const INTENSITY: f64 = 1e30;
     /// How many sizes of a shape the eye may be away before a warning says that the promised digits are not kept.
     pub const REMOTENESS: f64 = 1e9;
+    /// Rays for a pixel.
+    pub const SAMPLES: u32 = 4096;
+    /// The allowed error of a pixel, as a part of the largest brightness.
+    pub const TOLERANCE: std::ops::RangeInclusive<f64> = 1e-4..=1.0;
     /// The largest shininess.
     pub const SHININESS: f64 = 1e5;
 }
@@ -45,11 +53,14 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     let mut validator = Validator {
         length: source.length.unwrap_or(LengthUnit::Metre),
         convention: source.convention.unwrap_or(Convention::Radiance),
+        directory: source.directory.clone(),
+        materials: source.material.keys().cloned().collect(),
         problems,
         warnings: Problems::default(),
     };
     validator.head(&source);
     let camera = validator.camera(&source);
+    let sampling = validator.sampling(&source);
     let materials = validator.materials(&source);
     let shapes = validator.shapes(&source);
     let lights = validator.lights(&source);
@@ -58,12 +69,13 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
     validator.probes_against_shapes(&probes, &shapes);
     validator.words_of_advice(&source, camera.as_ref());
-    let Validator { length, convention, problems, warnings } = validator;
+    let Validator { length, convention, problems, warnings, .. } = validator;
     match camera {
         Some(camera) if problems.is_empty() => Ok(Scene {
             title: source.title.clone().unwrap_or_default(),
             length,
             convention,
+            sampling,
             shadows: source.shadows.unwrap_or(false),
             quantities: source.quantities.unwrap_or(Quantities::Radiometric),
             camera,
@@ -84,6 +96,10 @@ type Checked<T> = Vec<Option<T>>;
 struct Validator {
     length: LengthUnit,
     convention: Convention,
+    /// Where relative paths start.
+    directory: PathBuf,
+    /// The names of the materials, in their order.
+    materials: Vec<String>,
     problems: Problems,
     warnings: Problems,
 }
@@ -102,15 +118,39 @@ impl Validator {
         }
     }
 
+    /// A default in place of what is wrong, which has been noted by then.
+    fn sampling(&mut self, source: &SceneSource) -> Sampling {
+        let Some(written) = &source.sampling else { return Sampling::default() };
+        let path = Path::root().key("sampling");
+        if let Some(tolerance) = written.tolerance.filter(|tolerance| !limits::TOLERANCE.contains(tolerance)) {
+            let help = format!("allowed: {} to {}", limits::TOLERANCE.start(), limits::TOLERANCE.end());
+            self.wrong(&path.key("tolerance"), format!("`sampling.tolerance` is {tolerance}"), &help);
+        }
+        let default = if written.tolerance.is_some() { Sampling::MOST } else { 1 };
+        let samples = written.samples.map_or(Some(default), |samples| u32::try_from(samples).ok());
+        let samples = samples.filter(|samples| (1..=limits::SAMPLES).contains(samples));
+        if let (None, Some(samples)) = (samples, written.samples) {
+            let help = format!("allowed: 1 to {}", limits::SAMPLES);
+            self.wrong(&path.key("samples"), format!("`sampling.samples` is {samples}"), &help);
+        }
+        Sampling {
+            samples: samples.unwrap_or(default),
+            tolerance: written.tolerance,
+            filter: written.filter.unwrap_or_default(),
+        }
+    }
+
     fn words_of_advice(&mut self, source: &SceneSource, camera: Option<&Camera>) {
         let root = Path::root();
-        if source.sphere.is_empty() {
-            self.warn(&root.key("sphere"), "the scene has no shapes".into(), "write a table [[sphere]]");
+        let count = shapes::count(source);
+        if count == 0 {
+            let help = "write a table [[sphere]], [[box]] or of another shape";
+            self.warn(&root.key("sphere"), "the scene has no shapes".into(), help);
         }
         if source.light.is_empty() {
             self.warn(&root.key("light"), "the scene has no lights: all is black".into(), "write a table [[light]]");
         }
-        if source.sphere.len() > 1 && !source.light.is_empty() && source.shadows.is_none() {
+        if count > 1 && !source.light.is_empty() && source.shadows.is_none() {
             let message = "the shapes cast no shadows on each other: each is lit as if it were alone";
             self.warn(
                 &root.key("shadows"),
@@ -118,9 +158,9 @@ impl Validator {
                 "write `shadows = true`, or `shadows = false` if that is meant",
             );
         }
-        let used: HashSet<&String> = source.sphere.iter().filter_map(|sphere| sphere.material.as_ref()).collect();
+        let used: HashSet<&str> = shapes::materials_in_use(source).collect();
         for name in source.material.keys() {
-            if !used.contains(name) {
+            if !used.contains(name.as_str()) {
                 let message = format!("no shape is made of the material \"{}\"", short(name));
                 self.warn(&root.key("material").key(name), message, "leave it out, or use it");
             }

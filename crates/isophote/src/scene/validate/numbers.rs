@@ -33,15 +33,37 @@ impl Validator {
             self.problems.missing(path, key, format!("write `{key} = …`, a length above 0"));
             return None;
         };
+        self.size(&path.key(key), size)
+    }
+
+    /// Three sizes, all of whose mistakes are reported.
+    pub(super) fn required_sizes(&mut self, path: &Path, key: &str, sizes: Option<[f64; 3]>) -> Option<Vector> {
+        let Some([x, y, z]) = sizes else {
+            self.problems.missing(path, key, format!("write `{key} = [x, y, z]`, lengths above 0"));
+            return None;
+        };
         let path = path.key(key);
+        let [x, y, z] = [(0, x), (1, y), (2, z)].map(|(index, size)| self.size(&path.index(index), size));
+        Some(Vector::new(x?, y?, z?))
+    }
+
+    fn size(&mut self, path: &Path, size: f64) -> Option<f64> {
         let metres = self.length.to_metres(size);
         if (limits::SMALLEST..=limits::COORDINATE).contains(&metres) {
             return Some(metres);
         }
         let [smallest, largest] = [limits::SMALLEST, limits::COORDINATE].map(|bound| self.length.from_metres(bound));
         let help = format!("allowed: above 0 ({smallest:e} to {largest:e} {})", self.unit());
-        self.wrong(&path, format!("`{path}` is {size}"), &help);
+        self.wrong(path, format!("`{path}` is {size}"), &help);
         None
+    }
+
+    pub(super) fn required_direction(&mut self, path: &Path, key: &str, written: Option<[f64; 3]>) -> Option<Vector> {
+        let Some(direction) = written else {
+            self.problems.missing(path, key, format!("write `{key} = [x, y, z]`, a direction of any length but zero"));
+            return None;
+        };
+        self.direction(&path.key(key), direction)
     }
 
     pub(super) fn direction(&mut self, path: &Path, direction: [f64; 3]) -> Option<Vector> {

@@ -1,4 +1,4 @@
-//! Materials, shapes, lights and probes, each for itself.
+//! Materials, lights and probes, each for itself.
 
 use std::collections::HashMap;
 
@@ -7,9 +7,8 @@ use crate::light::{Emission, Light};
 use crate::reflectance::{Convention, Reflectance};
 use crate::scene::document::Path;
 use crate::scene::read::{closest, short, suggestion};
-use crate::scene::source::{EmissionName, LightSource, MaterialSource, ProbeSource, SceneSource, SphereSource};
-use crate::scene::{Material, Probe, Shape};
-use crate::shape::{Geometry, Sphere};
+use crate::scene::source::{EmissionName, LightSource, MaterialSource, ProbeSource, SceneSource};
+use crate::scene::{Material, Probe};
 use crate::vector::Vector;
 
 impl Validator {
@@ -43,26 +42,13 @@ impl Validator {
         Some(Material { name: name.into(), reflectance })
     }
 
-    pub(super) fn shapes(&mut self, source: &SceneSource) -> Checked<Shape> {
-        if !self.few_enough("sphere", source.sphere.len(), limits::SHAPES) {
-            return Vec::new();
-        }
-        let mut names = Names::new("sphere");
-        let known: Vec<&str> = source.material.keys().map(String::as_str).collect();
-        let check = |(index, sphere): (usize, &SphereSource)| {
-            let path = Path::root().key("sphere").index(index);
-            let name = names.check(self, &path, index, sphere.name.as_deref());
-            let center = self.required_point(&path, "center", sphere.center);
-            let radius = self.required_size(&path, "radius", sphere.radius);
-            let material = self.material_of(&path, sphere.material.as_deref(), &known);
-            let geometry = Geometry::Sphere(Sphere { center: center?, radius: radius? });
-            Some(Shape::new(name?, material.ok()?, geometry, sphere.shadow))
-        };
-        source.sphere.iter().enumerate().map(check).collect()
-    }
-
     /// The index of a material by its name; none where the convention needs none.
-    fn material_of(&mut self, path: &Path, name: Option<&str>, known: &[&str]) -> Result<Option<usize>, Reported> {
+    pub(super) fn material_of(
+        &mut self,
+        path: &Path,
+        name: Option<&str>,
+        known: &[&str],
+    ) -> Result<Option<usize>, Reported> {
         let Some(name) = name else {
             if self.convention.uses_material() {
                 let help = format!("write the name of a material{}", listed(known));
@@ -91,7 +77,7 @@ impl Validator {
         let mut names = Names::new("light");
         let check = |(index, light): (usize, &LightSource)| {
             let path = Path::root().key("light").index(index);
-            let name = names.check(self, &path, index, light.name.as_deref());
+            let name = names.check(self, &path, light.name.as_deref());
             let position = self.required_point(&path, "position", light.position);
             let emission = self.emission(&path, light, position);
             let intensity = self.intensity(&path, light, emission);
@@ -145,7 +131,7 @@ impl Validator {
         let mut names = Names::new("probe");
         let check = |(index, probe): (usize, &ProbeSource)| {
             let path = Path::root().key("probe").index(index);
-            let name = names.check(self, &path, index, probe.name.as_deref());
+            let name = names.check(self, &path, probe.name.as_deref());
             let at = self.required_point(&path, "at", probe.at);
             Some(Probe { name: name?, at: at?, published: probe.published })
         };
@@ -154,30 +140,30 @@ impl Validator {
 }
 
 /// What is wrong has been noted already.
-struct Reported;
+pub(super) struct Reported;
 
 /// Names of one kind of thing, which must differ.
-struct Names {
+pub(super) struct Names {
     kind: &'static str,
-    seen: HashMap<String, usize>,
+    seen: HashMap<String, Path>,
 }
 
 impl Names {
-    fn new(kind: &'static str) -> Self {
+    pub(super) fn new(kind: &'static str) -> Self {
         Self { kind, seen: HashMap::new() }
     }
 
-    /// The name of a thing, or the default one.
-    fn check(&mut self, validator: &mut Validator, path: &Path, index: usize, name: Option<&str>) -> Option<String> {
-        let name = name.map_or_else(|| format!("{}[{index}]", self.kind), str::to_owned);
-        let path = path.key("name");
+    /// The name of the thing at a path, or the default one, which is that path.
+    pub(super) fn check(&mut self, validator: &mut Validator, thing: &Path, name: Option<&str>) -> Option<String> {
+        let name = name.map_or_else(|| thing.to_string(), str::to_owned);
+        let path = thing.key("name");
         if name.is_empty() || name.chars().any(char::is_control) {
             validator.wrong(&path, format!("the name \"{}\" is not usable", short(&name)), "allowed: any line of text");
             return None;
         }
-        if let Some(first) = self.seen.insert(name.clone(), index) {
+        if let Some(first) = self.seen.insert(name.clone(), thing.clone()) {
             let message = format!("there are two {}s named \"{}\"", self.kind, short(&name));
-            validator.wrong(&path, message, &format!("the other is {}[{first}]; names must differ", self.kind));
+            validator.wrong(&path, message, &format!("the other is {first}; names must differ"));
             return None;
         }
         Some(name)

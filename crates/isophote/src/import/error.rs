@@ -1,0 +1,229 @@
+//! What can be wrong with a file of meshes or points, and where.
+
+use std::{fmt, io, path::PathBuf};
+
+/// Why a file could not be imported.
+#[derive(Debug, thiserror::Error)]
+pub enum ImportError {
+    /// The file cannot be opened or read.
+    #[error("cannot read ‘{}’: {reason}", file.display())]
+    Unreadable {
+        /// The file asked for.
+        file: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
+    /// The path is that of a directory.
+    #[error("‘{}’ is a directory; a file is needed", file.display())]
+    Directory {
+        /// The path asked for.
+        file: PathBuf,
+    },
+    /// The suffix of its name is that of no format which could be read here.
+    #[error("‘{}’: its suffix names no format that can be read here; allowed are {allowed}", file.display())]
+    Suffix {
+        /// The file asked for.
+        file: PathBuf,
+        /// The suffixes that are allowed.
+        allowed: &'static str,
+    },
+    /// Something in the file is wrong.
+    #[error("‘{}’, {fault}", file.display())]
+    Content {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong, and where.
+        fault: Fault,
+    },
+}
+
+/// Something wrong in the contents of a file.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{place}: {problem}")]
+pub struct Fault {
+    /// Where in the file.
+    pub place: Place,
+    /// What is wrong there.
+    pub problem: Problem,
+}
+
+/// A place in a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// The file as a whole.
+    Whole,
+    /// The header of a binary file.
+    Header,
+    /// A line, counted from 1.
+    Line(u64),
+    /// A vertex, a face, a triangle or a sphere of a binary file, counted from 0.
+    Element {
+        /// What it is.
+        kind: &'static str,
+        /// Its number.
+        number: u64,
+    },
+    /// A part of a glTF document.
+    Json(String),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Whole => write!(out, "the file"),
+            Self::Header => write!(out, "header"),
+            Self::Line(number) => write!(out, "line {number}"),
+            Self::Element { kind, number } => write!(out, "{kind} {number}"),
+            Self::Json(path) => write!(out, "{path}"),
+        }
+    }
+}
+
+/// What is wrong at a place.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Problem {
+    /// No contents at all.
+    #[error("it is empty; {expected} is needed")]
+    Empty {
+        /// The format that the name announces.
+        expected: &'static str,
+    },
+    /// Contents of another format than the name says.
+    #[error("it is no {expected} file: it looks like {looks_like}")]
+    Foreign {
+        /// The format that the name announces.
+        expected: &'static str,
+        /// What the contents look like.
+        looks_like: &'static str,
+    },
+    /// A number that is infinite or none.
+    #[error("{field} is {value}; it must be finite")]
+    NotFinite {
+        /// The coordinate, radius or component.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A radius that no sphere has.
+    #[error("radius is {value}; it must be greater than 0")]
+    Radius {
+        /// Its value.
+        value: f64,
+    },
+    /// Text where a number must stand.
+    #[error("{field} is ‘{text}’; {allowed} is needed")]
+    NotANumber {
+        /// The field.
+        field: String,
+        /// What stands there, at most its beginning.
+        text: String,
+        /// The kind of number.
+        allowed: &'static str,
+    },
+    /// An index beyond the elements that there are.
+    #[error("{field} is {index}; {}", allowed_indices(*first, *count, *backwards))]
+    Index {
+        /// What is counted.
+        field: &'static str,
+        /// The index as written.
+        index: i64,
+        /// The index of the first element: 1 in OBJ, 0 elsewhere.
+        first: u64,
+        /// How many elements there are.
+        count: u64,
+        /// To how many of them negative indices may refer.
+        backwards: u64,
+    },
+    /// A normal of length zero.
+    #[error("normal {number} of a triangle's corner is (0, 0, 0); a normal needs a direction")]
+    NoDirection {
+        /// Its number, counted as the format counts.
+        number: u64,
+    },
+    /// A line, a row or a face has too few or too many parts.
+    #[error("{what} has {found}; {allowed}")]
+    Parts {
+        /// What has them.
+        what: String,
+        /// How many there are.
+        found: u64,
+        /// How many are allowed.
+        allowed: String,
+    },
+    /// The file ends before what it announces.
+    #[error("{what} need {needed} bytes, but {left} are left in the file")]
+    Truncated {
+        /// What was announced, with its number.
+        what: String,
+        /// The bytes that it takes.
+        needed: u128,
+        /// The bytes that are there.
+        left: u64,
+    },
+    /// The file goes on after what it announces.
+    #[error("{left} bytes follow after {what}; nothing may follow")]
+    Leftover {
+        /// What was announced, with its number.
+        what: String,
+        /// The bytes that nobody announced.
+        left: u64,
+    },
+    /// Something that the format demands, or that we need, is not there.
+    #[error("{what} is missing; {needed}")]
+    Missing {
+        /// What is missing.
+        what: String,
+        /// What is needed, and why.
+        needed: &'static str,
+    },
+    /// Something else stands where the format demands one of a few things.
+    #[error("{what} is ‘{found}’; allowed: {allowed}")]
+    Unexpected {
+        /// What it is about.
+        what: String,
+        /// What stands there, at most its beginning.
+        found: String,
+        /// What may stand there.
+        allowed: String,
+    },
+    /// A part of the format that cannot be read here.
+    #[error("{what} cannot be read here; {instead}")]
+    Unsupported {
+        /// The feature.
+        what: String,
+        /// What to do instead.
+        instead: &'static str,
+    },
+    /// More than can be counted.
+    #[error("there are more than {most} {what}")]
+    TooMany {
+        /// What is counted.
+        what: &'static str,
+        /// How many are allowed.
+        most: u64,
+    },
+    /// No triangle with an area.
+    #[error("it has no triangles with an area ({degenerate} without)")]
+    NoTriangles {
+        /// How many triangles there are without area.
+        degenerate: u64,
+    },
+    /// No sphere.
+    #[error("it has no spheres")]
+    NoSpheres,
+}
+
+impl Problem {
+    /// The problem of a certain place.
+    pub(super) fn at(self, place: Place) -> Fault {
+        Fault { place, problem: self }
+    }
+}
+
+fn allowed_indices(first: u64, count: u64, backwards: u64) -> String {
+    let forwards = match (count, first + count) {
+        (0, _) => return "there are none".into(),
+        (_, end) => format!("allowed are {first} to {}", end - 1),
+    };
+    if backwards == 0 { forwards } else { format!("{forwards}, or -{backwards} to -1 counted backwards") }
+}

@@ -1,0 +1,57 @@
+//! Names of materials, given to triangles or spheres.
+
+use std::collections::HashMap;
+
+use super::Problem;
+
+/// Which material each triangle or sphere has. Only names: what they mean is not in the files that are read here.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MaterialSlots {
+    /// The names in the order of their first use; `None` is the slot of all elements for which the file names none.
+    pub names: Vec<Option<String>>,
+    /// The slot of each element: an index into `names`.
+    pub slots: Vec<u16>,
+}
+
+/// Collects slots while a file is read.
+#[derive(Debug, Default)]
+pub(super) struct SlotBook {
+    names: Vec<Option<String>>,
+    known: HashMap<Option<String>, u16>,
+    slots: Vec<u16>,
+    last: u16,
+}
+
+impl SlotBook {
+    /// The slot of this name, a new one where it is met for the first time.
+    pub fn slot(&mut self, name: Option<&str>) -> Result<u16, Problem> {
+        // Neighbours mostly have the same material: then nothing is hashed and nothing allocated.
+        if self.names.get(usize::from(self.last)).is_some_and(|last| last.as_deref() == name) {
+            return Ok(self.last);
+        }
+        let name = name.map(str::to_owned);
+        let slot = if let Some(slot) = self.known.get(&name) {
+            *slot
+        } else {
+            let slot = u16::try_from(self.names.len())
+                .map_err(|_| Problem::TooMany { what: "materials", most: u64::from(u16::MAX) + 1 })?;
+            self.names.push(name.clone());
+            self.known.insert(name, slot);
+            slot
+        };
+        self.last = slot;
+        Ok(slot)
+    }
+
+    /// The next element has this slot.
+    pub fn push(&mut self, slot: u16) {
+        self.slots.push(slot);
+    }
+
+    /// Nothing if no element has a named material.
+    pub fn finish(self) -> Option<MaterialSlots> {
+        let Self { names, slots, .. } = self;
+        let is_named = names.iter().any(Option::is_some) && !slots.is_empty();
+        is_named.then_some(MaterialSlots { names, slots })
+    }
+}

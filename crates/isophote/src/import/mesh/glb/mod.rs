@@ -1,0 +1,170 @@
+//! glTF 2.0 in one binary file: the triangles of a scene's nodes with the nodes' transforms applied, in glTF's axes (y up).
+//!
+//! The document is read by structures of our own that hold what bears on the shape: numbers stay doubles, and every
+//! reference is checked where it is followed. Materials are names; unnamed ones are called `material N`.
+
+mod accessor;
+mod document;
+mod transform;
+
+use document::{Document, Node, Primitive};
+use transform::Transform;
+
+use self::accessor::Buffers;
+use super::{MeshBuilder, TriangleMesh};
+use crate::import::{Fault, Place, Problem};
+
+/// The mesh of a glTF binary file.
+pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
+    let (json, binary) = chunks(bytes).map_err(|problem| problem.at(Place::Header))?;
+    let document = Document::parse(json)?;
+    document.check_supported()?;
+    let buffers = Buffers { document: &document, binary };
+    let mut reader = Reader { document: &document, buffers, builder: MeshBuilder::default(), corners: 0 };
+    for (index, transform) in document.placed_nodes()? {
+        reader.node(index, &transform)?;
+    }
+    reader.builder.finish()
+}
+
+/// The JSON and the binary chunk; others mean nothing.
+fn chunks(bytes: &[u8]) -> Result<(&[u8], &[u8]), Problem> {
+    let word = |at: usize| bytes.get(at..at + 4).map(|word| u32::from_le_bytes(word.try_into().expect("four bytes")));
+    let left = bytes.len() as u64;
+    let truncated = |what: &str, needed: u128| Problem::Truncated { what: what.into(), needed, left };
+    let (Some(version), Some(length)) = (word(4), word(8)) else { return Err(truncated("magic, version, length", 12)) };
+    if version != 2 {
+        let (what, allowed) = ("the version of glTF".into(), "2".into());
+        return Err(Problem::Unexpected { what, found: version.to_string(), allowed });
+    }
+    if u64::from(length) < left {
+        return Err(Problem::Leftover { what: format!("{length} announced bytes"), left: left - u64::from(length) });
+    }
+    let (mut json, mut binary) = (None, None);
+    let mut at = 12;
+    while at < bytes.len() {
+        let (Some(length), Some(kind)) = (word(at), word(at + 4)) else {
+            return Err(truncated("length and kind of a chunk", at as u128 + 8));
+        };
+        let end = at as u128 + 8 + u128::from(length);
+        let chunk = usize::try_from(end).ok().and_then(|end| bytes.get(at + 8..end));
+        let chunk = chunk.ok_or_else(|| truncated("the file with its chunk", end))?;
+        match kind {
+            JSON if json.is_none() => json = Some(chunk),
+            BINARY if binary.is_none() => binary = Some(chunk),
+            _ => {}
+        }
+        at += 8 + chunk.len();
+    }
+    if u64::from(length) > left {
+        return Err(truncated("the announced contents", length.into()));
+    }
+    let json = json.ok_or(Problem::Missing { what: "the JSON chunk".into(), needed: "it describes the scene" })?;
+    Ok((json, binary.unwrap_or_default()))
+}
+
+const JSON: u32 = u32::from_le_bytes(*b"JSON");
+const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
+
+/// Vertices and corners with all their repetitions: a node takes a few bytes of the file to repeat a whole mesh.
+const MOST_CORNERS: u64 = 300_000_000;
+
+struct Reader<'a> {
+    document: &'a Document,
+    buffers: Buffers<'a>,
+    builder: MeshBuilder,
+    corners: u64,
+}
+
+impl Reader<'_> {
+    fn node(&mut self, index: usize, transform: &Transform) -> Result<(), Fault> {
+        let Node { mesh: Some(mesh), .. } = &self.document.nodes[index] else { return Ok(()) };
+        let place = format!("nodes[{index}]");
+        transform.check().map_err(|problem| problem.at(Place::Json(place.clone())))?;
+        let primitives = &follow(&self.document.meshes, *mesh, &place, "mesh")?.primitives;
+        for (number, primitive) in primitives.iter().enumerate() {
+            self.primitive(primitive, transform, &format!("meshes[{mesh}].primitives[{number}]"))?;
+        }
+        Ok(())
+    }
+
+    fn primitive(&mut self, primitive: &Primitive, transform: &Transform, place: &str) -> Result<(), Fault> {
+        let at = |problem: Problem| problem.at(Place::Json(place.into()));
+        let Some(mode) = Mode::of(primitive.mode).map_err(at)? else { return Ok(()) };
+        let Some(position) = primitive.attributes.position else {
+            return Err(at(Problem::Missing { what: "POSITION".into(), needed: "a surface needs vertices" }));
+        };
+        let positions = self.buffers.vectors(position)?;
+        let normals = primitive.attributes.normal.map(|normal| self.buffers.vectors(normal)).transpose()?;
+        if let Some(normals) = normals.as_ref().filter(|normals| normals.len() != positions.len()) {
+            let allowed = format!("POSITION has {}", positions.len());
+            return Err(at(Problem::Parts { what: "NORMAL".into(), found: normals.len() as u64, allowed }));
+        }
+        let indices = match primitive.indices {
+            Some(indices) => self.buffers.indices(indices, positions.len())?,
+            None => (0..positions.len()).collect(),
+        };
+        self.corners += (positions.len() + indices.len()) as u64;
+        if self.corners > MOST_CORNERS {
+            return Err(at(Problem::TooMany { what: "corners, with all repetitions", most: MOST_CORNERS }));
+        }
+        let positions = transform.points(&positions).map_err(at)?;
+        let normals = normals.map(|normals| transform.normals(&normals));
+        let name = primitive.material.map(|index| self.document.material_name(index, place)).transpose()?;
+        let material = self.builder.materials.slot(name.as_deref()).map_err(at)?;
+        for mut triangle in mode.triangles(&indices).map_err(at)? {
+            if transform.is_mirror {
+                triangle.swap(1, 2);
+            }
+            let normals = normals.as_ref().map(|normals| triangle.map(|index| (normals[index], index as u64)));
+            self.builder.triangle(triangle.map(|index| positions[index]), normals, material).map_err(at)?;
+        }
+        Ok(())
+    }
+}
+
+/// How indices make triangles.
+#[derive(Debug, Clone, Copy)]
+enum Mode {
+    List,
+    Strip,
+    Fan,
+}
+
+impl Mode {
+    /// None for points and lines, which have no surface.
+    fn of(number: u64) -> Result<Option<Self>, Problem> {
+        match number {
+            0..=3 => Ok(None),
+            4 => Ok(Some(Self::List)),
+            5 => Ok(Some(Self::Strip)),
+            6 => Ok(Some(Self::Fan)),
+            _ => Err(Problem::Unexpected { what: "mode".into(), found: number.to_string(), allowed: "0 to 6".into() }),
+        }
+    }
+
+    fn triangles(self, indices: &[usize]) -> Result<Box<dyn Iterator<Item = [usize; 3]> + '_>, Problem> {
+        let wrong = |allowed: &str| {
+            let what = "the list of corners".into();
+            Err(Problem::Parts { what, found: indices.len() as u64, allowed: allowed.into() })
+        };
+        match self {
+            Self::List if indices.len() % 3 != 0 => wrong("a multiple of 3 is needed"),
+            Self::Strip | Self::Fan if indices.len() < 3 => wrong("at least 3 are needed"),
+            Self::List => Ok(Box::new(indices.as_chunks::<3>().0.iter().copied())),
+            Self::Strip => Ok(Box::new(indices.windows(3).enumerate().map(|(number, corners)| match number % 2 {
+                0 => [corners[0], corners[1], corners[2]],
+                _ => [corners[0], corners[2], corners[1]],
+            }))),
+            Self::Fan => Ok(Box::new(indices[1..].windows(2).map(|pair| [indices[0], pair[0], pair[1]]))),
+        }
+    }
+}
+
+/// The element that a reference names.
+fn follow<'a, T>(elements: &'a [T], index: usize, place: &str, field: &'static str) -> Result<&'a T, Fault> {
+    elements.get(index).ok_or_else(|| {
+        let (index, count) = (i64::try_from(index).unwrap_or(i64::MAX), elements.len() as u64);
+        Problem::Index { field, index, first: 0, count, backwards: 0 }.at(Place::Json(place.into()))
+    })
+}

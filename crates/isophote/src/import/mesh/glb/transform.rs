@@ -1,0 +1,128 @@
+//! Where a node of glTF puts its mesh.
+
+use super::document::Node;
+use crate::import::{Problem, text::finite};
+
+/// x ↦ Ax + t.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Transform {
+    rows: [[f64; 3]; 3],
+    translation: [f64; 3],
+    /// Whether it turns left into right: corners then run the other way round.
+    pub is_mirror: bool,
+}
+
+impl Transform {
+    pub const IDENTITY: Self =
+        Self { rows: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3], is_mirror: false };
+
+    /// A node's own: a matrix, or first scale, then rotation, then translation.
+    pub fn of(node: &Node) -> Result<Self, Problem> {
+        if let Some(m) = node.matrix {
+            if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
+                let found = format!("{}, {}, {}, {}", m[3], m[7], m[11], m[15]);
+                let (what, allowed) = ("the last row of the matrix".into(), "0, 0, 0, 1".into());
+                return Err(Problem::Unexpected { what, found, allowed });
+            }
+            let rows = [0, 1, 2].map(|i| [m[i], m[i + 4], m[i + 8]]);
+            return Ok(Self::new(rows, [m[12], m[13], m[14]]));
+        }
+        let scale = node.scale.unwrap_or([1.0; 3]);
+        let mut rows = rotation(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]))?;
+        for row in &mut rows {
+            *row = [row[0] * scale[0], row[1] * scale[1], row[2] * scale[2]];
+        }
+        Ok(Self::new(rows, node.translation.unwrap_or_default()))
+    }
+
+    /// First `inner`, then this.
+    pub fn after(&self, inner: &Self) -> Self {
+        let columns = [0, 1, 2].map(|j| inner.rows.map(|row| row[j]));
+        let rows = self.rows.map(|row| columns.map(|column| dot(row, column)));
+        Self::new(rows, self.point(inner.translation))
+    }
+
+    /// That it leaves a triangle its area.
+    pub fn check(&self) -> Result<(), Problem> {
+        let determinant = determinant(self.rows);
+        if determinant != 0.0 && determinant.is_finite() {
+            return Ok(());
+        }
+        let (what, allowed) = ("the determinant of its transform".into(), "a finite number other than 0".into());
+        Err(Problem::Unexpected { what, found: determinant.to_string(), allowed })
+    }
+
+    pub fn points(&self, points: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, Problem> {
+        let place = |point: &[f64; 3]| {
+            let [x, y, z] = self.point(*point);
+            Ok([finite(x, "x")?, finite(y, "y")?, finite(z, "z")?])
+        };
+        points.iter().map(place).collect()
+    }
+
+    /// By the inverse transpose of A, up to a positive factor: normals stay normal to the surface under any scale, and on
+    /// its side.
+    pub fn normals(&self, normals: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let [a, b, c] = self.rows;
+        // Of size about 1, or products of four small scales would vanish.
+        let largest = self.rows.as_flattened().iter().fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
+        let sign = if self.is_mirror { -1.0 } else { 1.0 };
+        let [a, b, c] = [a, b, c].map(|row| row.map(|entry| entry / largest));
+        let cofactors = [cross(b, c), cross(c, a), cross(a, b)].map(|row| row.map(|entry| entry * sign));
+        normals.iter().map(|normal| cofactors.map(|row| dot(row, *normal))).collect()
+    }
+
+    fn new(rows: [[f64; 3]; 3], translation: [f64; 3]) -> Self {
+        Self { rows, translation, is_mirror: determinant(rows) < 0.0 }
+    }
+
+    fn point(&self, point: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|i| dot(self.rows[i], point) + self.translation[i])
+    }
+}
+
+/// By the quaternion (x, y, z, w), brought to length 1: files have it in single precision.
+fn rotation(quaternion: [f64; 4]) -> Result<[[f64; 3]; 3], Problem> {
+    let length = quaternion.iter().map(|part| part * part).sum::<f64>().sqrt();
+    if !((length - 1.0).abs() < 1e-3) {
+        let (what, allowed) = ("the length of the rotation".into(), "1".into());
+        return Err(Problem::Unexpected { what, found: length.to_string(), allowed });
+    }
+    let [x, y, z, w] = quaternion.map(|part| part / length);
+    Ok([
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
+        [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
+        [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
+    ])
+}
+
+fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {
+    dot(a, cross(b, c))
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> [f64; 3] {
+    [b * f - c * e, c * d - a * f, a * e - b * d]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Transform;
+
+    #[test]
+    fn normals_stay_normal_to_tangents_under_a_skew_mirror() {
+        let rows = [[2.0, 0.5, 0.0], [0.0, -0.1, 0.3], [1.0, 0.0, 4.0]];
+        let transform = Transform::new(rows, [5.0, 6.0, 7.0]);
+        assert!(transform.is_mirror);
+        let image = transform.points(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]).unwrap();
+        let edge = |i: usize| [0, 1, 2].map(|k| image[i][k] - image[0][k]);
+        let [normal] = transform.normals(&[[0.0, 0.0, 1.0]])[..] else { panic!("one normal") };
+        assert!(super::dot(normal, edge(1)).abs() < 1e-15);
+        assert!(super::dot(normal, edge(2)).abs() < 1e-15);
+        // The third axis was on the normal's side, and still is.
+        assert!(super::dot(normal, edge(3)) > 0.0);
+    }
+}

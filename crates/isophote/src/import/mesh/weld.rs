@@ -1,0 +1,86 @@
+//! One index for all vectors that are equal.
+
+/// An open hash table from vectors to their indices in the order of their first use.
+#[derive(Debug, Default)]
+pub(super) struct Welder {
+    vectors: Vec<[f64; 3]>,
+    /// Indices into `vectors`; its length is a power of two, at most half of it is used.
+    table: Vec<u32>,
+}
+
+impl Welder {
+    /// The index of this vector, a new one where it is met for the first time; none when there are too many to be
+    /// numbered. Zeros of both signs are equal.
+    pub fn index(&mut self, vector: [f64; 3]) -> Option<u32> {
+        let vector = vector.map(|component| component + 0.0);
+        if self.table.len() < 2 * (self.vectors.len() + 1) {
+            self.grow();
+        }
+        let slot = self.slot(vector);
+        if self.table[slot] == FREE {
+            let index = u32::try_from(self.vectors.len()).ok().filter(|index| *index != FREE)?;
+            self.table[slot] = index;
+            self.vectors.push(vector);
+        }
+        Some(self.table[slot])
+    }
+
+    /// The vector of this index.
+    pub fn vector(&self, index: u32) -> [f64; 3] {
+        self.vectors[index as usize]
+    }
+
+    /// The vectors, no two equal.
+    pub fn finish(mut self) -> Vec<[f64; 3]> {
+        self.vectors.shrink_to_fit();
+        self.vectors
+    }
+
+    /// Where the vector is in the table, or where it belongs.
+    fn slot(&self, vector: [f64; 3]) -> usize {
+        let mask = self.table.len() - 1;
+        let mut slot = hash(vector) & mask;
+        while self.table[slot] != FREE && self.vectors[self.table[slot] as usize] != vector {
+            slot = (slot + 1) & mask;
+        }
+        slot
+    }
+
+    fn grow(&mut self) {
+        self.table = vec![FREE; (4 * self.vectors.len()).next_power_of_two().max(64)];
+        for index in 0..self.vectors.len() {
+            let slot = self.slot(self.vectors[index]);
+            self.table[slot] = u32::try_from(index).expect("it had an index before");
+        }
+    }
+}
+
+const FREE: u32 = u32::MAX;
+
+/// Coordinates of meshes differ in their upper bits alone (short decimals, single precision): products fold these into
+/// all others.
+fn hash(vector: [f64; 3]) -> usize {
+    let fold = |hash: u64, component: f64| {
+        let product = u128::from(hash ^ component.to_bits()) * 0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835_u128;
+        (product ^ (product >> 64)) as u64
+    };
+    vector.into_iter().fold(0x243f_6a88_85a3_08d3, fold) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Welder;
+
+    #[test]
+    fn equal_vectors_share_an_index_and_others_do_not() {
+        let mut welder = Welder::default();
+        let grid = |i: u32| [f64::from(i % 10), f64::from(i / 10 % 10) * 0.1, f64::from(i / 100) - 5.0];
+        for _ in 0..2 {
+            for i in 0..1000 {
+                assert_eq!(welder.index(grid(i)), Some(i));
+            }
+        }
+        assert_eq!(welder.index([0.0, -0.0, -5.0]), Some(0));
+        assert_eq!(welder.finish().len(), 1000);
+    }
+}

@@ -1,0 +1,210 @@
+//! What a PLY file announces.
+
+use memchr::memchr;
+
+use crate::import::{
+    Fault, Place, Problem,
+    text::{integer, shown, words},
+};
+
+/// The elements in the order of the file, and how their values are written.
+#[derive(Debug, PartialEq)]
+pub(in crate::import) struct Header {
+    pub encoding: Encoding,
+    pub elements: Vec<Element>,
+    /// How many lines it takes.
+    pub lines: u64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::import) enum Encoding {
+    Ascii,
+    Little,
+    Big,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::import) struct Element {
+    pub name: String,
+    pub count: u64,
+    pub properties: Vec<Property>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::import) struct Property {
+    pub name: String,
+    /// The kind of its values.
+    pub kind: Kind,
+    /// The kind of a list's length.
+    pub length: Option<Kind>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::import) enum Kind {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Header {
+    /// The header and the rest of the file.
+    pub fn split(bytes: &[u8]) -> Result<(Self, &[u8]), Fault> {
+        let mut encoding = None;
+        let mut elements: Vec<Element> = Vec::new();
+        let mut rest = bytes;
+        for number in 1.. {
+            let at = |problem: Problem| problem.at(Place::Line(number));
+            let Some(end) = memchr(b'\n', rest) else { break };
+            let (line, after) = (rest[..end].trim_ascii(), &rest[end + 1..]);
+            rest = after;
+            let parts: Vec<&[u8]> = words(line).collect();
+            match parts.as_slice() {
+                [b"ply"] if number == 1 => {}
+                [b"comment" | b"obj_info", ..] | [] => {}
+                [b"format", name, b"1.0"] => encoding = Some(Encoding::named(name).map_err(at)?),
+                [b"element", name, count] => {
+                    let element = Element::new(name, count).map_err(at)?;
+                    if elements.iter().any(|other| other.name == element.name) {
+                        return Err(at(twice("an element", &element.name)));
+                    }
+                    elements.push(element);
+                }
+                [b"property", parts @ ..] => {
+                    let element = elements.last_mut().ok_or_else(|| at(unexpected(line)))?;
+                    let property = Property::new(parts).map_err(at)?;
+                    if element.property(&[&property.name]).is_some() {
+                        return Err(at(twice("a property", &property.name)));
+                    }
+                    element.properties.push(property);
+                }
+                [b"end_header"] => {
+                    let encoding = encoding.ok_or_else(|| at(no_format()))?;
+                    return Ok((Self { encoding, elements, lines: number }, rest));
+                }
+                _ => return Err(at(unexpected(line))),
+            }
+        }
+        Err(Problem::Missing { what: "the line ‘end_header’".into(), needed: "it ends the header" }.at(Place::Header))
+    }
+
+    /// The element of this name, which must be there.
+    pub fn element(&self, name: &str, needed: &'static str) -> Result<&Element, Problem> {
+        let element = self.elements.iter().find(|element| element.name == name);
+        element.ok_or_else(|| Problem::Missing { what: format!("element {name}"), needed })
+    }
+}
+
+impl Encoding {
+    fn named(name: &[u8]) -> Result<Self, Problem> {
+        match name {
+            b"ascii" => Ok(Self::Ascii),
+            b"binary_little_endian" => Ok(Self::Little),
+            b"binary_big_endian" => Ok(Self::Big),
+            _ => {
+                let allowed = "ascii, binary_little_endian and binary_big_endian".into();
+                Err(Problem::Unexpected { what: "the format".into(), found: shown(name), allowed })
+            }
+        }
+    }
+}
+
+impl Element {
+    fn new(name: &[u8], count: &[u8]) -> Result<Self, Problem> {
+        let field = "the number of elements";
+        let count = u64::try_from(integer(count, field)?).map_err(|_| Problem::NotANumber {
+            field: field.into(),
+            text: shown(count),
+            allowed: "0 or more",
+        })?;
+        Ok(Self { name: shown(name), count, properties: Vec::new() })
+    }
+
+    /// Where the property of one of these names is.
+    pub fn property(&self, names: &[&str]) -> Option<usize> {
+        self.properties.iter().position(|property| names.contains(&property.name.as_str()))
+    }
+
+    /// Where these single values are.
+    pub fn values<const N: usize>(&self, names: [&'static str; N]) -> Result<[usize; N], Problem> {
+        let mut places = [0; N];
+        for (place, name) in places.iter_mut().zip(names) {
+            let found = self.property(&[name]).filter(|index| self.properties[*index].length.is_none());
+            *place = found.ok_or_else(|| Problem::Missing {
+                what: format!("property {name} of element {}", self.name),
+                needed: "it must be a single number",
+            })?;
+        }
+        Ok(places)
+    }
+}
+
+impl Property {
+    fn new(parts: &[&[u8]]) -> Result<Self, Problem> {
+        let (length, kind, name) = match parts {
+            [b"list", length, kind, name] => (Some(Kind::named(length)?), kind, name),
+            [kind, name] => (None, kind, name),
+            _ => return Err(unexpected(&parts.join(&b' '))),
+        };
+        if matches!(length, Some(Kind::F32 | Kind::F64)) {
+            let what = "the kind of a list's length".into();
+            return Err(Problem::Unexpected { what, found: "float".into(), allowed: "whole numbers".into() });
+        }
+        Ok(Self { name: shown(name), kind: Kind::named(kind)?, length })
+    }
+}
+
+impl Kind {
+    fn named(name: &[u8]) -> Result<Self, Problem> {
+        match name {
+            b"char" | b"int8" => Ok(Self::I8),
+            b"uchar" | b"uint8" => Ok(Self::U8),
+            b"short" | b"int16" => Ok(Self::I16),
+            b"ushort" | b"uint16" => Ok(Self::U16),
+            b"int" | b"int32" => Ok(Self::I32),
+            b"uint" | b"uint32" => Ok(Self::U32),
+            b"float" | b"float32" => Ok(Self::F32),
+            b"double" | b"float64" => Ok(Self::F64),
+            _ => Err(Problem::Unexpected {
+                what: "the kind of a property".into(),
+                found: shown(name),
+                allowed: "char, uchar, short, ushort, int, uint, float, double (or int8 to float64)".into(),
+            }),
+        }
+    }
+
+    /// In bytes.
+    pub fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
+
+    pub fn is_integer(self) -> bool {
+        !matches!(self, Self::F32 | Self::F64)
+    }
+}
+
+fn unexpected(line: &[u8]) -> Problem {
+    Problem::Unexpected {
+        what: "a line of the header".into(),
+        found: shown(line),
+        allowed: "format, comment, obj_info, element, property (of an element), end_header".into(),
+    }
+}
+
+fn twice(what: &str, name: &str) -> Problem {
+    let what = format!("{what} that is there twice");
+    Problem::Unexpected { what, found: name.into(), allowed: "each name once".into() }
+}
+
+fn no_format() -> Problem {
+    Problem::Missing { what: "the line ‘format … 1.0’".into(), needed: "it says how numbers are written" }
+}

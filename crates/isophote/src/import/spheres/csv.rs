@@ -1,0 +1,110 @@
+//! Comma-separated values: a line of column names (`x`, `y`, `z`, `radius` and, if wanted, `material`, in any order), then a
+//! line for each sphere. Empty lines and lines that begin with `#` mean nothing; names may stand in double quotes.
+
+use super::{SphereList, SpheresBuilder};
+use crate::import::{
+    Fault, Place, Problem,
+    text::{lines, number, shown},
+};
+
+/// The spheres of a CSV file.
+pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
+    let mut rows = lines(bytes).filter(|(_, line)| !matches!(line.trim_ascii(), [] | [b'#', ..]));
+    let Some((number, header)) = rows.next() else { return Err(Problem::NoSpheres.at(Place::Whole)) };
+    let columns = columns(header).map_err(|problem| problem.at(Place::Line(number)))?;
+    let has_material = columns.contains(&Column::Material);
+    let mut builder = SpheresBuilder::default();
+    for (number, line) in rows {
+        let at = |problem: Problem| problem.at(Place::Line(number));
+        let row = row(line, &columns).map_err(at)?;
+        builder.sphere(row.numbers).map_err(at)?;
+        if has_material {
+            let name = row.material.map(unquoted).transpose().map_err(at)?.flatten();
+            let slot = builder.materials.slot(name.as_deref()).map_err(at)?;
+            builder.materials.push(slot);
+        }
+    }
+    builder.finish()
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Column {
+    /// Index into x, y, z, radius.
+    Number(usize),
+    Material,
+}
+
+const NUMBERS: [&str; 4] = ["x", "y", "z", "radius"];
+const ALLOWED: &str = "x, y, z, radius and, if wanted, material, separated by commas";
+
+fn columns(header: &[u8]) -> Result<Vec<Column>, Problem> {
+    let mut columns = Vec::new();
+    for field in fields(header) {
+        let name = unquoted(field)?.unwrap_or_default();
+        let number = NUMBERS.iter().position(|known| *known == name).map(Column::Number);
+        let unexpected = |what: &str| Problem::Unexpected {
+            what: what.into(),
+            found: shown(name.as_bytes()),
+            allowed: ALLOWED.into(),
+        };
+        let column =
+            number.or((name == "material").then_some(Column::Material)).ok_or_else(|| unexpected("a column"))?;
+        if columns.contains(&column) {
+            return Err(unexpected("a column that is there twice"));
+        }
+        columns.push(column);
+    }
+    for (index, name) in NUMBERS.iter().enumerate() {
+        if !columns.contains(&Column::Number(index)) {
+            return Err(Problem::Missing { what: format!("column {name}"), needed: "needed are x, y, z and radius" });
+        }
+    }
+    Ok(columns)
+}
+
+struct Row<'a> {
+    numbers: [f64; 4],
+    material: Option<&'a [u8]>,
+}
+
+fn row<'a>(line: &'a [u8], columns: &[Column]) -> Result<Row<'a>, Problem> {
+    let mut row = Row { numbers: [0.0; 4], material: None };
+    let mut fields = fields(line);
+    let mut found = 0;
+    for (column, field) in columns.iter().zip(&mut fields) {
+        match column {
+            Column::Number(index) => row.numbers[*index] = number(field.trim_ascii(), NUMBERS[*index])?,
+            Column::Material => row.material = Some(field),
+        }
+        found += 1;
+    }
+    found += fields.count();
+    if found == columns.len() {
+        return Ok(row);
+    }
+    let allowed = format!("the first line has {}", columns.len());
+    Err(Problem::Parts { what: "the row, by its fields,".into(), found: found as u64, allowed })
+}
+
+/// The parts of a line between its commas; those within double quotes separate nothing.
+fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let mut is_quoted = false;
+    line.split(move |byte| {
+        is_quoted ^= *byte == b'"';
+        *byte == b',' && !is_quoted
+    })
+}
+
+/// A name without spaces around it and without its quotes; none if it is empty.
+fn unquoted(field: &[u8]) -> Result<Option<String>, Problem> {
+    let wrong =
+        |allowed: &str| Problem::Unexpected { what: "a name".into(), found: shown(field), allowed: allowed.into() };
+    let text = std::str::from_utf8(field).map_err(|_| wrong("text in UTF-8"))?.trim();
+    if !text.contains('"') {
+        return Ok(Some(text.to_owned()).filter(|name| !name.is_empty()));
+    }
+    let inner = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+    let inner = inner.filter(|inner| !inner.replace("\"\"", "").contains('"'));
+    let inner = inner.ok_or_else(|| wrong("quotes around the whole name, doubled within"))?;
+    Ok(Some(inner.replace("\"\"", "\"")).filter(|name| !name.is_empty()))
+}

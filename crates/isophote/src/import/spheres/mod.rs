@@ -1,0 +1,55 @@
+//! Lists of spheres, one file per format.
+
+pub(super) mod csv;
+pub(super) mod npy;
+
+use super::{Fault, MaterialSlots, Place, Problem, materials::SlotBook, text::finite};
+
+/// Spheres in the order of their file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SphereList {
+    /// Centres in the file's unit of length, all finite.
+    pub centers: Vec<[f64; 3]>,
+    /// Radii in the same unit, all finite and greater than 0.
+    pub radii: Vec<f64>,
+    /// Materials by name, where the file has any.
+    pub materials: Option<MaterialSlots>,
+}
+
+/// Takes spheres as a file has them.
+#[derive(Debug, Default)]
+pub(super) struct SpheresBuilder {
+    centers: Vec<[f64; 3]>,
+    radii: Vec<f64>,
+    pub materials: SlotBook,
+}
+
+impl SpheresBuilder {
+    /// With room for so many.
+    pub fn with_capacity(count: usize) -> Self {
+        let (centers, radii) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        Self { centers, radii, materials: SlotBook::default() }
+    }
+
+    /// One sphere.
+    pub fn sphere(&mut self, [x, y, z, radius]: [f64; 4]) -> Result<(), Problem> {
+        let center = [finite(x, "x")?, finite(y, "y")?, finite(z, "z")?];
+        let radius = finite(radius, "radius")?;
+        if radius <= 0.0 {
+            return Err(Problem::Radius { value: radius });
+        }
+        self.centers.push(center);
+        self.radii.push(radius);
+        Ok(())
+    }
+
+    /// The list of all spheres so far.
+    pub fn finish(mut self) -> Result<SphereList, Fault> {
+        if self.centers.is_empty() {
+            return Err(Problem::NoSpheres.at(Place::Whole));
+        }
+        self.centers.shrink_to_fit();
+        self.radii.shrink_to_fit();
+        Ok(SphereList { centers: self.centers, radii: self.radii, materials: self.materials.finish() })
+    }
+}

@@ -1,0 +1,196 @@
+//! Pixels as means over their area instead of values at their centres.
+
+mod filter;
+mod pattern;
+mod refine;
+
+use rayon::ThreadPool;
+use rayon::prelude::*;
+
+pub use filter::Filter;
+
+use self::refine::{Averages, Refinement, Wanted};
+use super::band::{self, advance};
+use super::{RenderError, RenderSettings};
+use crate::analysis::statistics::totals;
+use crate::map::{Channel, Map, Mask, Pixel, Quantity, Region, Resolution, Values};
+use crate::prepare::PreparedScene;
+
+/// How many rays a pixel's value is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Rays for each pixel; with a tolerance, the most that a pixel gets.
+    pub samples: u32,
+    /// The error of a pixel's brightness that is allowed, as a part of the largest brightness of the image: pixels
+    /// get as many samples as that takes.
+    pub tolerance: Option<f64>,
+    /// What a pixel is a mean over.
+    pub filter: Filter,
+}
+
+impl Default for Sampling {
+    /// One ray through the centre.
+    fn default() -> Self {
+        Self { samples: 1, tolerance: None, filter: Filter::Box }
+    }
+}
+
+impl Sampling {
+    /// The most samples that a pixel gets when only a tolerance is given.
+    pub const MOST: u32 = 256;
+
+    /// Whether a pixel is more than the value at its centre.
+    #[must_use]
+    pub fn is_more_than_centres(self) -> bool {
+        self != Self::default()
+    }
+
+    /// As outputs say it.
+    fn describe(self) -> String {
+        let filter = crate::units::Choice::name(self.filter);
+        match self.tolerance {
+            Some(tolerance) => format!("up to {} samples, tolerance {tolerance}, {filter} filter", self.samples),
+            None => format!("{} samples, {filter} filter", self.samples),
+        }
+    }
+}
+
+/// The first samples of a pixel that is uncertain: enough to see how much its values differ.
+const FIRST_SAMPLES: u32 = 16;
+
+/// So many uncertain pixels are shared by several threads.
+const WORTH_THREADS: usize = 100;
+
+/// What renders the centres of pixels.
+pub type Centres<'c> = dyn Fn(&PreparedScene, &RenderSettings<'_>) -> Result<Map, RenderError> + 'c;
+
+/// Renders the centres of the pixels and refines those whose value is uncertain.
+///
+/// The same pixels come out whatever the region and the threads: what a pixel gets depends on its neighbours and on
+/// the scene as a whole, never on what else is computed.
+pub fn render(
+    scene: &PreparedScene,
+    settings: &RenderSettings<'_>,
+    pool: Option<&ThreadPool>,
+    centres: &Centres<'_>,
+) -> Result<Map, RenderError> {
+    let sampling = scene.scene().sampling();
+    let reach = sampling.filter.reach();
+    let full = scene.scene().camera().resolution;
+    let region = settings.region.unwrap_or(Region::all(full));
+    band::check(region, full)?;
+    let mut quantities = settings.quantities.clone();
+    quantities.push(Quantity::Brightness);
+    let wide = RenderSettings { region: Some(grown(region, reach + 1, full)), quantities, ..settings.clone() };
+    let mut map = centres(scene, &wide)?;
+    let tolerance = match sampling.tolerance {
+        Some(tolerance) => Some(tolerance * peak(scene, centres)?),
+        None => None,
+    };
+    let averages = Averages::of(&map, scene);
+    let wanted = Wanted { averages: &averages, sampling, tolerance };
+    let pixels = uncertain_pixels(&map, grown(region, reach, full), tolerance);
+    let refine = |&index: &usize| {
+        advance(settings.observer, 0)?;
+        Ok(Refinement::new(scene, &wanted, map.pixel(index), index))
+    };
+    let refined = match pool {
+        Some(pool) if pixels.len() > WORTH_THREADS => {
+            pool.install(|| pixels.par_iter().map(refine).collect::<Result<Vec<_>, RenderError>>())?
+        }
+        _ => pixels.iter().map(refine).collect::<Result<Vec<_>, RenderError>>()?,
+    };
+    refine::apply(&mut map, &averages, sampling.filter, &refined)?;
+    let mut map = cropped(map, region, scene);
+    map.retain(|quantity| settings.quantities.contains(quantity));
+    map.provenance.renderer = format!("{}, {}", map.provenance.renderer, sampling.describe());
+    Ok(map)
+}
+
+/// A region and so many pixels around it, as far as the image goes.
+fn grown(region: Region, by: u32, full: Resolution) -> Region {
+    let Region { corner, size } = region;
+    let first = |start: u32| start.saturating_sub(by);
+    let last = |start: u32, size: u32, whole: u32| (start + size).saturating_add(by).min(whole);
+    let corner_of_grown = Pixel { column: first(corner.column), row: first(corner.row) };
+    let width = last(corner.column, size.width, full.width) - corner_of_grown.column;
+    let height = last(corner.row, size.height, full.height) - corner_of_grown.row;
+    Region { corner: corner_of_grown, size: Resolution { width, height } }
+}
+
+/// The longer side of the small image that tells how bright a scene is.
+const GLANCE: u32 = 96;
+
+/// About the largest brightness of the whole image, whatever the region: that of a small image of it.
+fn peak(scene: &PreparedScene, centres: &Centres<'_>) -> Result<f64, RenderError> {
+    let full = scene.scene().camera().resolution;
+    let longer = f64::from(full.width.max(full.height));
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the side it had")]
+    let side = |side: u32| ((f64::from(side) * f64::from(GLANCE) / longer).ceil() as u32).clamp(1, side);
+    let small = scene.at_resolution(Resolution { width: side(full.width), height: side(full.height) });
+    let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
+    let map = centres(&small, &settings)?;
+    Ok(totals(&map, &Quantity::Brightness).map_or(0.0, |totals| totals.max.value))
+}
+
+/// The pixels of a region (by their index in the map) that need more than the value at their centre: all of them
+/// without a tolerance; else those where the brightness bends by more than the tolerance on one of the four lines
+/// through the pixel and two of its neighbours. A slope alone needs nothing: its mean is the value at the centre.
+fn uncertain_pixels(map: &Map, region: Region, tolerance: Option<f64>) -> Vec<usize> {
+    let Region { corner, size } = map.region;
+    let width = size.width as usize;
+    let columns = (region.corner.column - corner.column) as usize;
+    let columns = columns..columns + region.size.width as usize;
+    let rows = (region.corner.row - corner.row) as usize;
+    let rows = rows..rows + region.size.height as usize;
+    let all = rows.flat_map(|row| columns.clone().map(move |column| (row, column)));
+    let brightness = map.scalar(&Quantity::Brightness).expect("it was asked for");
+    let Some(tolerance) = tolerance else { return all.map(|(row, column)| row * width + column).collect() };
+    let height = size.height as usize;
+    let at = |row: usize, column: usize| brightness.at(row * width + column);
+    let bends = |(row, column): (usize, usize)| {
+        let here = at(row, column);
+        let lines = [(0, 1), (1, 0), (1, 1), (1, -1)];
+        lines.into_iter().any(|(down, across): (isize, isize)| {
+            let neighbour = |sign: isize| {
+                let row = row.checked_add_signed(sign * down).filter(|row| *row < height)?;
+                let column = column.checked_add_signed(sign * across).filter(|column| *column < width)?;
+                Some(at(row, column))
+            };
+            let bend = match (neighbour(1), neighbour(-1)) {
+                (Some(after), Some(before)) => before + after - 2.0 * here,
+                (Some(only), None) | (None, Some(only)) => only - here,
+                (None, None) => 0.0,
+            };
+            bend.abs() > tolerance
+        })
+    };
+    all.filter(|place| bends(*place)).map(|(row, column)| row * width + column).collect()
+}
+
+/// A part of a map.
+fn cropped(map: Map, region: Region, scene: &PreparedScene) -> Map {
+    if map.region == region {
+        return map;
+    }
+    let outer = map.region;
+    let left = (region.corner.column - outer.corner.column) as usize;
+    let top = (region.corner.row - outer.corner.row) as usize;
+    let (width, outer_width) = (region.size.width as usize, outer.size.width as usize);
+    let rows = || (top..top + region.size.height as usize).map(|row| row * outer_width + left);
+    fn part<T: Copy>(values: &[T], rows: impl Iterator<Item = usize>, width: usize) -> Vec<T> {
+        rows.flat_map(|start| values[start..start + width].iter().copied()).collect()
+    }
+    let channels = map.channels.into_iter().map(|Channel { quantity, unit, values }| {
+        let values = match values {
+            Values::Scalar(values) => Values::Scalar(part(&values, rows(), width)),
+            Values::Single(values) => Values::Single(part(&values, rows(), width)),
+            Values::Vector(values) => Values::Vector(part(&values, rows(), width)),
+            Values::Index(values) => Values::Index(part(&values, rows(), width)),
+        };
+        Channel { quantity, unit, values }
+    });
+    let mask = Mask::of_shapes(region.size, &part(&map.mask.shapes(), rows(), width));
+    let window = band::window(scene.scene(), region);
+    Map { full: map.full, region, window, provenance: map.provenance, mask, channels: channels.collect() }
+}

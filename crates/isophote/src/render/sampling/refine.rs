@@ -1,0 +1,287 @@
+//! Many rays through one pixel, and what they make of a map.
+
+use super::{FIRST_SAMPLES, Filter, Sampling, pattern};
+use crate::camera::ScreenPosition;
+use crate::map::{Map, Mask, Pixel, Quantity, Scalars, Values};
+use crate::prepare::{Hit, PreparedScene};
+use crate::render::RenderError;
+use crate::render::band::ScalarChannel;
+
+/// The channels of a map that are means. The others hold what is seen at the centre.
+pub struct Averages {
+    /// Index among the map's channels, and what it is.
+    channels: Vec<(usize, ScalarChannel)>,
+}
+
+/// What is asked of a pixel.
+pub struct Wanted<'w> {
+    pub averages: &'w Averages,
+    pub sampling: Sampling,
+    /// The allowed error of the brightness; nothing if the number of samples is given.
+    pub tolerance: Option<f64>,
+}
+
+/// What the rays through a pixel saw.
+pub struct Refinement {
+    /// Index in the map.
+    index: usize,
+    samples: u32,
+    /// The part of them that saw a surface.
+    coverage: f64,
+    /// What the first one saw that saw anything.
+    hit: Option<Hit>,
+    /// For each pixel that the filter reaches, row by row from the upper left: the mean of weight × value of each
+    /// averaged channel, and last the mean weight.
+    sums: Vec<f64>,
+}
+
+impl Averages {
+    /// The averaged channels of a map.
+    pub fn of(map: &Map, scene: &PreparedScene) -> Self {
+        let is_mean = |quantity: &Quantity| match quantity {
+            Quantity::Brightness | Quantity::Irradiance | Quantity::Diffuse | Quantity::Specular => true,
+            Quantity::Light(_) => true,
+            Quantity::Depth | Quantity::Position | Quantity::Normal | Quantity::Shape => false,
+            Quantity::Samples | Quantity::Coverage => false,
+        };
+        let channels = map.channels.iter().enumerate().filter(|(_, channel)| is_mean(&channel.quantity));
+        let channels = channels.map(|(index, channel)| (index, ScalarChannel::of(&channel.quantity, scene.scene())));
+        Self { channels: channels.collect() }
+    }
+
+    /// The values of a hit, and its brightness.
+    fn values(&self, scene: &PreparedScene, hit: &Hit, position: ScreenPosition, values: &mut [f64]) -> f64 {
+        let shading = scene.shade(hit, Some(position), |light, term| {
+            for (value, (_, channel)) in values.iter_mut().zip(&self.channels) {
+                if *channel == ScalarChannel::Light(light) {
+                    *value = term.irradiance;
+                }
+            }
+        });
+        for (value, (_, channel)) in values.iter_mut().zip(&self.channels) {
+            match channel {
+                ScalarChannel::Brightness => *value = shading.brightness(),
+                ScalarChannel::Irradiance => *value = shading.irradiance,
+                ScalarChannel::Diffuse => *value = shading.diffuse,
+                ScalarChannel::Specular => *value = shading.specular,
+                ScalarChannel::Light(_) => {}
+                ScalarChannel::Depth => unreachable!("it is no mean"),
+            }
+        }
+        shading.brightness()
+    }
+}
+
+impl Refinement {
+    /// Sends as many rays through a pixel as are wanted, or as its contrast takes.
+    pub fn new(scene: &PreparedScene, wanted: &Wanted<'_>, pixel: Pixel, index: usize) -> Self {
+        let most = wanted.sampling.samples;
+        let Some(tolerance) = wanted.tolerance else { return Self::of_samples(scene, wanted, pixel, index, most).0 };
+        let mut samples = FIRST_SAMPLES.min(most);
+        loop {
+            let (refinement, contrast) = Self::of_samples(scene, wanted, pixel, index, samples);
+            let enough = pattern::enough(contrast, tolerance, most);
+            if enough <= samples {
+                return refinement;
+            }
+            samples = enough;
+        }
+    }
+
+    /// With so many samples; and how much their brightness differs.
+    fn of_samples(scene: &PreparedScene, wanted: &Wanted<'_>, pixel: Pixel, index: usize, samples: u32) -> (Self, f64) {
+        let averages = wanted.averages;
+        let offsets = offsets(wanted.sampling.filter);
+        let channels = averages.channels.len();
+        let mut sums = vec![0.0; offsets.len() * (channels + 1)];
+        let mut values = vec![0.0; channels];
+        let [mut least, mut greatest] = [f64::INFINITY, f64::NEG_INFINITY];
+        let (mut covered, mut first_hit) = (0_u32, None);
+        for place in pattern::places(samples) {
+            let position = ScreenPosition::InPixel { pixel, place };
+            let hit = scene.trace(position);
+            values.fill(0.0);
+            let brightness = hit.map_or(0.0, |hit| averages.values(scene, &hit, position, &mut values));
+            covered += u32::from(hit.is_some());
+            first_hit = first_hit.or(hit);
+            least = least.min(brightness);
+            greatest = greatest.max(brightness);
+            let [across, down] = place.map(|part| part - 0.5);
+            for (sums, [columns, rows]) in sums.chunks_exact_mut(channels + 1).zip(&offsets) {
+                let weight = wanted.sampling.filter.weight(across - columns, down - rows);
+                for (sum, value) in sums.iter_mut().zip(&values) {
+                    *sum += weight * value;
+                }
+                sums[channels] += weight;
+            }
+        }
+        let share = 1.0 / f64::from(samples);
+        sums.iter_mut().for_each(|sum| *sum *= share);
+        let coverage = f64::from(covered) * share;
+        (Self { index, samples, coverage, hit: first_hit, sums }, greatest - least)
+    }
+}
+
+/// The pixels that the filter reaches from one pixel: columns and rows away from it.
+fn offsets(filter: Filter) -> Vec<[f64; 2]> {
+    let reach = i32::try_from(filter.reach()).unwrap_or(0);
+    let rows = (-reach..=reach).flat_map(|row| (-reach..=reach).map(move |column| [column, row]));
+    rows.map(|offset| offset.map(f64::from)).collect()
+}
+
+/// Puts refined pixels into a map.
+pub fn apply(map: &mut Map, averages: &Averages, filter: Filter, refined: &[Refinement]) -> Result<(), RenderError> {
+    let mut shapes = map.mask.shapes();
+    for refinement in refined {
+        if shapes[refinement.index] < 0
+            && let Some(hit) = &refinement.hit
+        {
+            shapes[refinement.index] = i32::try_from(hit.primitive.shape).unwrap_or(i32::MAX);
+            put_geometry(map, refinement.index, hit);
+        }
+        put_exactly(map, &Quantity::Samples, refinement.index, refinement.samples.into());
+        put_exactly(map, &Quantity::Coverage, refinement.index, refinement.coverage);
+    }
+    let values = if filter.reach() == 0 {
+        let mean = |refinement: &Refinement| (refinement.index, normalized(&refinement.sums));
+        refined.iter().map(mean).collect()
+    } else {
+        gathered(map, averages, filter, refined, &mut shapes)
+    };
+    for (index, values) in values {
+        for (value, (channel, _)) in values.into_iter().zip(&averages.channels) {
+            put(map, *channel, index, value)?;
+        }
+    }
+    map.mask = Mask::of_shapes(map.region.size, &shapes);
+    // Where no surface is, there was none to sample.
+    for quantity in [Quantity::Samples, Quantity::Coverage] {
+        for index in (0..shapes.len()).filter(|index| shapes[*index] < 0) {
+            put_exactly(map, &quantity, index, 0.0);
+        }
+    }
+    for channel in &mut map.channels {
+        if let Values::Index(values) = &mut channel.values {
+            values.clone_from(&shapes);
+        }
+    }
+    Ok(())
+}
+
+/// Weighted sums of values, over the sum of the weights, which comes last.
+fn normalized(sums: &[f64]) -> Vec<f64> {
+    let (weight, sums) = sums.split_last().expect("there is always a weight");
+    sums.iter().map(|sum| sum / weight).collect()
+}
+
+/// The values of every pixel through a filter that reaches beyond it. A pixel that was not refined is as bright as its
+/// centre all over.
+fn gathered(
+    map: &mut Map,
+    averages: &Averages,
+    filter: Filter,
+    refined: &[Refinement],
+    shapes: &mut [i32],
+) -> Vec<(usize, Vec<f64>)> {
+    let channels = averages.channels.len();
+    let even: Vec<f64> = offsets(filter)
+        .iter()
+        .map(|[columns, rows]| {
+            let places = pattern::places(64);
+            let weight = |[x, y]: &[f64; 2]| filter.weight(x - 0.5 - columns, y - 0.5 - rows);
+            places.iter().map(weight).sum::<f64>() / 64.0
+        })
+        .collect();
+    let mut refinement_of = vec![None; shapes.len()];
+    for refinement in refined {
+        refinement_of[refinement.index] = Some(refinement);
+    }
+    let (width, height) = (map.region.size.width as usize, map.region.size.height as usize);
+    let reach = filter.reach() as usize;
+    let side = 2 * reach + 1;
+    let seen = shapes.to_vec();
+    let mut pixels = Vec::with_capacity(shapes.len());
+    for index in 0..shapes.len() {
+        let (row, column) = (index / width, index % width);
+        let mut sums = vec![0.0; channels + 1];
+        let mut source = None;
+        for from_row in row.saturating_sub(reach)..(row + reach + 1).min(height) {
+            for from_column in column.saturating_sub(reach)..(column + reach + 1).min(width) {
+                let from = from_row * width + from_column;
+                let offset = (row + reach - from_row) * side + (column + reach - from_column);
+                if seen[from] >= 0 {
+                    source = source.or(Some(from));
+                }
+                if let Some(refinement) = refinement_of[from] {
+                    let part = &refinement.sums[offset * (channels + 1)..][..=channels];
+                    sums.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
+                } else {
+                    for (sum, (channel, _)) in sums.iter_mut().zip(&averages.channels) {
+                        let values = Scalars::of(&map.channels[*channel].values).expect("means are scalars");
+                        *sum += even[offset] * values.at(from);
+                    }
+                    sums[channels] += even[offset];
+                }
+            }
+        }
+        let Some(source) = source else { continue };
+        if seen[index] < 0 {
+            shapes[index] = seen[source];
+            copy_geometry(map, source, index);
+        }
+        pixels.push((index, normalized(&sums)));
+    }
+    pixels
+}
+
+/// Writes a value into a scalar channel.
+fn put(map: &mut Map, channel: usize, index: usize, value: f64) -> Result<(), RenderError> {
+    let pixel = map.pixel(index);
+    match &mut map.channels[channel].values {
+        Values::Scalar(values) => values[index] = value,
+        Values::Single(values) => {
+            #[expect(clippy::cast_possible_truncation, reason = "what does not fit is refused")]
+            let single = value as f32;
+            if !single.is_finite() {
+                return Err(RenderError::Overflow { pixel, value });
+            }
+            values[index] = single;
+        }
+        Values::Vector(_) | Values::Index(_) => unreachable!("means are scalars"),
+    }
+    Ok(())
+}
+
+/// Writes a number that is small enough for any channel, if the map has that channel.
+fn put_exactly(map: &mut Map, quantity: &Quantity, index: usize, value: f64) {
+    let channel = map.channels.iter_mut().find(|channel| channel.quantity == *quantity);
+    if let Some(Values::Scalar(values)) = channel.map(|channel| &mut channel.values) {
+        values[index] = value;
+    }
+}
+
+/// Writes where a hit is.
+fn put_geometry(map: &mut Map, index: usize, hit: &Hit) {
+    let length = map.window.length;
+    for channel in &mut map.channels {
+        match (&channel.quantity, &mut channel.values) {
+            (Quantity::Depth, Values::Scalar(values)) => values[index] = length.from_metres(hit.distance),
+            (Quantity::Normal, Values::Vector(values)) => values[index] = hit.point.normal.to_array(),
+            (Quantity::Position, Values::Vector(values)) => {
+                values[index] = hit.point.position().to_array().map(|coordinate| length.from_metres(coordinate));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Where the surface is that a filter reaches.
+fn copy_geometry(map: &mut Map, from: usize, to: usize) {
+    for channel in &mut map.channels {
+        match (&channel.quantity, &mut channel.values) {
+            (Quantity::Depth, Values::Scalar(values)) => values[to] = values[from],
+            (Quantity::Normal | Quantity::Position, Values::Vector(values)) => values[to] = values[from],
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! Shapes, each for itself.
+
+use std::sync::Arc;
+
+use super::numbers::vector_text;
+use super::things::Names;
+use super::{Checked, Validator, limits};
+use crate::scene::Shape;
+use crate::scene::document::Path;
+use crate::scene::source::{
+    ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, PlaneSource, RectangleSource,
+    RotationSource, SceneSource, ShadowSource, SphereSource,
+};
+use crate::shape::{Cone, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Plane, Rectangle, Rotation, Sphere};
+use crate::vector::Vector;
+
+/// The tables of shapes, in the order of a scene's shapes: first by kind, then as in the file.
+pub(super) const KINDS: [&str; 10] =
+    ["sphere", "ellipsoid", "box", "cylinder", "cone", "plane", "rectangle", "disk", "mesh", "spheres"];
+
+/// A shape as it is written, of any kind.
+pub(super) trait Written {
+    /// Its name, its material's, and what it has to do with shadows.
+    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource);
+
+    /// Its form and place.
+    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry>;
+}
+
+/// All shapes that are written, with their paths.
+fn written(source: &SceneSource) -> impl Iterator<Item = (Path, &dyn Written)> {
+    fn of_kind<'s, S: Written + 's>(kind: &str, shapes: &'s [S]) -> impl Iterator<Item = (Path, &'s dyn Written)> {
+        let table = Path::root().key(kind);
+        shapes.iter().enumerate().map(move |(index, shape)| (table.index(index), shape as &dyn Written))
+    }
+    let [sphere, ellipsoid, cuboid, cylinder, cone, plane, rectangle, disk, mesh, spheres] = KINDS;
+    of_kind(sphere, &source.sphere)
+        .chain(of_kind(ellipsoid, &source.ellipsoid))
+        .chain(of_kind(cuboid, &source.cuboid))
+        .chain(of_kind(cylinder, &source.cylinder))
+        .chain(of_kind(cone, &source.cone))
+        .chain(of_kind(plane, &source.plane))
+        .chain(of_kind(rectangle, &source.rectangle))
+        .chain(of_kind(disk, &source.disk))
+        .chain(of_kind(mesh, &source.mesh))
+        .chain(of_kind(spheres, &source.spheres))
+}
+
+/// The names of the materials that shapes are made of, one for each shape that names one.
+pub(super) fn materials_in_use(source: &SceneSource) -> impl Iterator<Item = &str> {
+    written(source).filter_map(|(_, shape)| shape.head().1)
+}
+
+/// How many shapes are written.
+pub(super) fn count(source: &SceneSource) -> usize {
+    written(source).count()
+}
+
+impl Validator {
+    pub(super) fn shapes(&mut self, source: &SceneSource) -> Checked<Shape> {
+        if let Some((path, _)) = written(source).nth(limits::SHAPES) {
+            let message = format!("the scene has {} shapes", count(source));
+            self.wrong(&path, message, &format!("allowed: at most {}", limits::SHAPES));
+            return Vec::new();
+        }
+        let mut names = Names::new("shape");
+        let known: Vec<&str> = source.material.keys().map(String::as_str).collect();
+        let check = |(path, shape): (Path, &dyn Written)| {
+            let (name, material, shadow) = shape.head();
+            let name = names.check(self, &path, name);
+            let geometry = shape.geometry(self, &path);
+            // Parts with materials of their own need no other.
+            let has_own = geometry.as_ref().is_none_or(|geometry| geometry.has_own_materials());
+            let material =
+                if has_own && material.is_none() { Ok(None) } else { self.material_of(&path, material, &known) };
+            Some(Shape::new(name?, material.ok()?, geometry?, shadow))
+        };
+        written(source).map(check).collect()
+    }
+
+    pub(super) fn rotation(&mut self, path: &Path, rotation: Option<RotationSource>) -> Option<Rotation> {
+        let path = path.key("rotation");
+        let Some(RotationSource { axis, degrees }) = rotation else {
+            // It may have been written and not understood.
+            return (!self.problems.has(&path)).then_some(Rotation::NONE);
+        };
+        let axis = self.required_direction(&path, "axis", axis);
+        if degrees.is_none() {
+            self.problems.missing(&path, "degrees", "write `degrees = …`: how far it is turned about the axis");
+        }
+        Some(Rotation::about(axis?, degrees?))
+    }
+
+    /// The two ends of something that has a length between them.
+    fn ends(&mut self, path: &Path, keys: [&str; 2], points: [Option<[f64; 3]>; 2]) -> Option<[Vector; 2]> {
+        let first = self.required_point(path, keys[0], points[0]);
+        let second = self.required_point(path, keys[1], points[1]);
+        let (first, second) = (first?, second?);
+        if (second - first).length() < limits::SMALLEST {
+            let message = format!("`{path}.{}` is where `{path}.{}` is", keys[1], keys[0]);
+            self.wrong(&path.key(keys[1]), message, "allowed: any other point");
+            return None;
+        }
+        Some([first, second])
+    }
+
+    /// A direction at right angles to a shape, and one in it.
+    fn facing(&mut self, path: &Path, rectangle: &RectangleSource) -> Option<[Vector; 2]> {
+        let normal = self.required_direction(path, "normal", rectangle.normal);
+        let up = self.direction(&path.key("up"), rectangle.up.unwrap_or([0.0, 1.0, 0.0]));
+        let (normal, up) = (normal?, up?);
+        if normal.normalized().cross(up.normalized()).length() < 1e-6 {
+            let key = if rectangle.up.is_some() { "up" } else { "normal" };
+            let message = format!("`{path}.up` is parallel to the normal {}", vector_text(normal.to_array()));
+            self.wrong(&path.key(key), message, "write for `up` any other direction: the height runs along it");
+            return None;
+        }
+        Some([normal, up])
+    }
+}
+
+impl Written for SphereSource {
+    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
+        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    }
+
+    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        let center = validator.required_point(path, "center", self.center);
+        let radius = validator.required_size(path, "radius", self.radius);
+        Some(Geometry::Sphere(Sphere { center: center?, radius: radius? }))
+    }
+}
+
+impl Written for EllipsoidSource {
+    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
+        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    }
+
+    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        let center = validator.required_point(path, "center", self.center);
+        let radii = validator.required_sizes(path, "radii", self.radii);
+        let rotation = validator.rotation(path, self.rotation);
+        Some(Geometry::Ellipsoid(Arc::new(Ellipsoid::new(center?, radii?, rotation?))))
+    }
+}
+
+impl Written for CuboidSource {
+    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
+        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    }
+
+    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        let center = validator.required_point(path, "center", self.center);
+        let size = validator.required_sizes(path, "size", self.size);
+        let rotation = validator.rotation(path, self.rotation);
+        Some(Geometry::Cuboid(Arc::new(Cuboid::new(center?, size?, rotation?))))
+    }
+}
+
+impl Written for CylinderSource {
+    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
+        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    }
+
+    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        let ends = validator.ends(path, ["from", "to"], [self.from, self.to]);
+        let radius = validator.required_size(path, "radius", self.radius);
+        let [from, to] = ends?;
+        Some(Geometry::Cylinder(Arc::new(Cylinder::new(from, to, radius?))))
+    }
+}
+
+impl Written for ConeSource {
+    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
+        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    }
+
+    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        let ends = validator.ends(path, ["base", "apex"], [self.base, self.apex]);
+        let radius = validator.required_size(path, "radius", self.radius);
+        let apex_radius = match self.apex_radius {
+            None | Some(0.0) => Some(0.0),
+            written => validator.required_size(path, "apex_radius", written),
+        };
+        let [base, apex] = ends?;
+        Some(Geometry::Cone(Arc::new(Cone::new(base, apex, [radius?, apex_radius?]))))
+    }
+}
+
+impl Written for PlaneSource {
+    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
+        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    }
+
+    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        let point = validator.required_point(path, "point", self.point);
+        let normal = validator.required_direction(path, "normal", self.normal);
+        Some(Geometry::Plane(Arc::new(Plane::new(point?, normal?))))
+    }
+}
+
+impl Written for RectangleSource {
+    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
+        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    }
+
+    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        let center = validator.required_point(path, "center", self.center);
+        let facing = validator.facing(path, self);
+        let width = validator.required_size(path, "width", self.width);
+        let height = validator.required_size(path, "height", self.height);
+        let [normal, up] = facing?;
+        Some(Geometry::Rectangle(Arc::new(Rectangle::new(center?, [width?, height?], normal, up))))
+    }
+}
+
+impl Written for DiskSource {
+    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
+        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    }
+
+    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        let center = validator.required_point(path, "center", self.center);
+        let normal = validator.required_direction(path, "normal", self.normal);
+        let radius = validator.required_size(path, "radius", self.radius);
+        Some(Geometry::Disk(Arc::new(Disk::new(center?, normal?, radius?))))
+    }
+}

@@ -1,0 +1,283 @@
+//! The cone, pointed or cut off, with its flat ends (2.4).
+
+use super::placement::{LocalRay, Placement};
+use super::span::{Crossing, NEVER, Span, pass};
+use super::{
+    Accuracy, Bounds, Intersection, Measure, Meeting, NearestPoint, PLACE_ERROR, Ray, SurfacePoint, TracingError,
+};
+use crate::double_double::DoubleDouble;
+use crate::real::Scalar;
+use crate::vector::Vector;
+
+/// x² + y² ≤ R(z)², 0 ≤ z ≤ h in its own axes, with R(z) = R₀ + kz, k = (R₁ − R₀)/h.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cone {
+    placement: Placement,
+    /// The end of the axis at z = h, in metres.
+    apex: Vector,
+    /// h, in metres.
+    height: DoubleDouble,
+    /// R₀ at the base and R₁ at the apex, in metres, not negative and not both zero.
+    radii: [f64; 2],
+}
+
+/// The faces: the base, the end at the apex, and what is between.
+const BASE: usize = 0;
+const END: usize = 1;
+const SIDE: usize = 2;
+
+/// The side along a ray: where F = x² + y² − R² is negative, which is between the roots of F = aτ² + 2bτ + c.
+struct Side<T> {
+    span: Span<T>,
+    /// √(b² − ac).
+    root: T,
+    /// By how much b² − ac misses being 0 for a ray that touches, and how much of that is lost to rounding.
+    discriminant: f64,
+    error: f64,
+}
+
+impl Cone {
+    /// A cone from the middle of its base to its apex, two points that differ, with the radii at both (in metres, not
+    /// negative, not both zero).
+    #[must_use]
+    pub fn new(base: Vector, apex: Vector, radii: [f64; 2]) -> Self {
+        let axis = Vector::<DoubleDouble>::from_f64(apex) - Vector::from_f64(base);
+        Self { placement: Placement::along(base, axis), apex, height: axis.length(), radii }
+    }
+
+    /// The part of the ray within the side, the part between the flat ends, and what is common to both (2.4).
+    ///
+    /// b² − ac is computed as ‖R D⊥ − k D_z P⊥‖² − (P⊥ × D⊥)², a difference of two squares that factors: with P near
+    /// the axis it keeps its digits at the silhouette. cosθ_o is its root over R √(1 + k²), exactly.
+    #[inline(always)]
+    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
+        let local = self.placement.local_ray(ray);
+        let size = self.size();
+        let error = PLACE_ERROR * (local.reach + size);
+        if local.passes_by(size + error) {
+            return Meeting::MISS;
+        }
+        let height = T::from_precise(self.height);
+        let ends = Span::between(local.nearest.z, local.direction.z, [T::zero(), height], error, [BASE, END]);
+        let Some(side) = self.side(&local, error) else { return Meeting::MISS };
+        let passage = pass([side.span, ends], local.along);
+        let mut doubtful_from = passage.doubtful_from;
+        if side.discriminant.abs() < side.error && passage.crossing.is_none_or(|crossing| crossing.face == SIDE) {
+            doubtful_from = Some((local.along.rounded() - size).max(0.0));
+        }
+        let doubtful_from = doubtful_from.map(T::from_f64);
+        let Some(crossing) = passage.crossing else { return Meeting { hit: None, doubtful_from } };
+        let place = local.at(crossing.at);
+        let distance = local.along + crossing.at;
+        let turned = T::from_f64(if passage.from_inside { -1.0 } else { 1.0 });
+        let (place, normal, cos_theta_o, is_inexact) = if crossing.face == SIDE {
+            let slope = self.slope::<T>();
+            let radius = slope.times_plus(place.z, T::from_f64(self.radii[0]));
+            let from_axis = place.x.times_plus(place.x, place.y * place.y).sqrt();
+            let (x, y) = (place.x / from_axis, place.y / from_axis);
+            let steepness = slope.times_plus(slope, T::from_f64(1.0)).sqrt();
+            let cos_theta_o = side.root / (radius * steepness);
+            let is_inexact = self.is_inexact(&side, cos_theta_o.rounded(), radius.rounded(), error, accuracy);
+            let normal = Vector::new(x, y, -slope) * (turned / steepness);
+            (Vector::new(x * radius, y * radius, place.z), normal, cos_theta_o, is_inexact)
+        } else {
+            let z = if crossing.face == BASE { T::zero() } else { height };
+            let slope = local.direction.z;
+            let towards_eye = T::from_f64(if T::zero().is_less(slope) { -1.0 } else { 1.0 });
+            let cosine = -(slope * towards_eye);
+            let is_inexact = accuracy.is_exceeded_by(error / (size * cosine.rounded()), 0.0);
+            (Vector::new(place.x, place.y, z), Vector::new(T::zero(), T::zero(), towards_eye), cosine, is_inexact)
+        };
+        let point = SurfacePoint {
+            anchor: self.placement.origin,
+            offset: self.placement.to_scene(place),
+            normal: self.placement.to_scene(normal),
+            view: -ray.direction,
+            cos_theta_o,
+        };
+        let doubtful_from = doubtful_from.or(is_inexact.then_some(distance));
+        let hit = Intersection { distance, point, from_inside: passage.from_inside, lift: Vector::zero() };
+        Meeting { hit: Some(hit), doubtful_from }
+    }
+
+    /// The part of a ray within the side; nothing if it passes for sure.
+    #[inline(always)]
+    fn side<T: Scalar>(&self, local: &LocalRay<T>, error: f64) -> Option<Side<T>> {
+        let (place, direction) = (local.nearest, local.direction);
+        let slope = self.slope::<T>();
+        let radius = slope.times_plus(place.z, T::from_f64(self.radii[0]));
+        let narrowing = slope * direction.z;
+        let across = direction.x.times_plus(direction.x, direction.y * direction.y).sqrt();
+        let from_axis = place.x.times_plus(place.x, place.y * place.y).sqrt();
+        let first = Vector::new(
+            direction.x * radius - place.x * narrowing,
+            direction.y * radius - place.y * narrowing,
+            T::zero(),
+        );
+        let first = first.length();
+        let second = place.x * direction.y - place.y * direction.x;
+        let discriminant = (first - second) * (first + second);
+        let growth = 1.0 + slope.rounded().abs();
+        let lost = 4.0 * (first.rounded() + second.rounded().abs()) * error * growth;
+        let quadratic = (across - narrowing) * (across + narrowing);
+        let constant = (from_axis - radius) * (from_axis + radius);
+        let is_steep = quadratic.rounded() < 0.0;
+        if discriminant.rounded() <= -lost && !is_steep {
+            return None;
+        }
+        let root = discriminant.max(T::zero()).sqrt();
+        let half_linear = (place.x * direction.x + place.y * direction.y) - narrowing * radius;
+        let crossing = |at: T| {
+            let far = at.rounded().abs();
+            let widest = self.radii[0].max(self.radii[1]) + far * growth;
+            let error = 2.0 * widest * growth * (error + f64::EPSILON * far) / root.rounded();
+            Crossing { at, error: error.min(2.0 * NEVER), face: SIDE }
+        };
+        let span = side_span(quadratic, half_linear, constant, root, narrowing, crossing);
+        Some(Side { span, root, discriminant: discriminant.rounded(), error: lost })
+    }
+
+    /// Whether a hit of the side is traced again with 32 digits.
+    #[inline(always)]
+    fn is_inexact<T: Scalar>(&self, side: &Side<T>, cosine: f64, radius: f64, error: f64, accuracy: Accuracy) -> bool {
+        let slope = self.slope::<f64>();
+        let steepness = 1.0 + slope * slope;
+        let tracing = TracingError {
+            clearance: side.error / (radius * radius * steepness),
+            normal: error * (1.0 + slope.abs()) / (radius * steepness),
+        };
+        cosine * cosine < accuracy.doubtful_clearance(&tracing).end
+    }
+
+    /// k.
+    #[inline(always)]
+    fn slope<T: Scalar>(&self) -> T {
+        (T::from_f64(self.radii[1]) - T::from_f64(self.radii[0])) / T::from_precise(self.height)
+    }
+
+    /// The distance from the surface, negative inside.
+    #[must_use]
+    pub fn signed_distance(&self, point: Vector) -> f64 {
+        let place = self.placement.place_of(point);
+        let from_axis = place.x.hypot(place.y);
+        let (nearest, _) = self.nearest_in_section(from_axis, place.z);
+        let distance = (from_axis - nearest[0]).hypot(place.z - nearest[1]);
+        let height = self.height.rounded();
+        let radius = self.slope::<f64>().mul_add(place.z, self.radii[0]);
+        let is_inside = place.z > 0.0 && place.z < height && from_axis < radius;
+        if is_inside { -distance } else { distance }
+    }
+
+    /// The surface point nearest to a point.
+    #[must_use]
+    pub fn nearest(&self, point: Vector) -> NearestPoint {
+        let place = self.placement.place_of(point);
+        let from_axis = place.x.hypot(place.y);
+        let [x, y] = if from_axis > 0.0 { [place.x / from_axis, place.y / from_axis] } else { [1.0, 0.0] };
+        let (nearest, normal) = self.nearest_in_section(from_axis, place.z);
+        let turned = |[across, along]: [f64; 2]| self.placement.to_scene(Vector::new(x * across, y * across, along));
+        NearestPoint::new(self.placement.origin, turned(nearest), turned(normal))
+    }
+
+    /// The nearest point of the outline of half a section through the axis, as (distance from the axis, z), and the
+    /// normal there.
+    fn nearest_in_section(&self, from_axis: f64, z: f64) -> ([f64; 2], [f64; 2]) {
+        let [base, end] = self.radii;
+        let height = self.height.rounded();
+        let (run, rise) = (end - base, height);
+        let length = run.hypot(rise);
+        let along = (((from_axis - base) * run + z * rise) / (length * length)).clamp(0.0, 1.0);
+        let candidates = [
+            ([base + run * along, rise * along], [rise / length, -run / length]),
+            ([from_axis.min(base), 0.0], [0.0, -1.0]),
+            ([from_axis.min(end), height], [0.0, 1.0]),
+        ];
+        let distance = |[x, y]: [f64; 2]| (from_axis - x).hypot(z - y);
+        let [first, second, third] = candidates;
+        let nearer =
+            |a: ([f64; 2], [f64; 2]), b: ([f64; 2], [f64; 2])| if distance(b.0) < distance(a.0) { b } else { a };
+        nearer(nearer(first, second), third)
+    }
+
+    /// The box around it with sides along the scene's axes.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        let axis = self.placement.axis(2);
+        let [base, end] = self.ends();
+        Bounds::of_disk(base, axis, self.radii[0]).union(Bounds::of_disk(end, axis, self.radii[1]))
+    }
+
+    /// The middles of the base and of the other end, in metres.
+    #[must_use]
+    pub fn ends(&self) -> [Vector; 2] {
+        [self.placement.origin, self.apex]
+    }
+
+    /// The radii at the base and at the other end, in metres.
+    #[must_use]
+    pub fn radii(&self) -> [f64; 2] {
+        self.radii
+    }
+
+    /// The radius of the ball about the middle of the base that holds it, in metres.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.radii[0].max(self.height.rounded().hypot(self.radii[1]))
+    }
+
+    /// How far away a point is, in the larger radius or in heights, whichever is less.
+    #[must_use]
+    pub fn remoteness(&self, point: Vector) -> f64 {
+        let widest = self.radii[0].max(self.radii[1]);
+        (point - self.placement.origin).length() / self.height.rounded().min(widest)
+    }
+
+    /// What describes it.
+    #[must_use]
+    pub fn measures(&self) -> Vec<(&'static str, Measure)> {
+        let ([base, apex], [radius, apex_radius]) = (self.ends(), self.radii);
+        vec![
+            ("base", Measure::Vector(base)),
+            ("apex", Measure::Vector(apex)),
+            ("radius", Measure::Number(radius)),
+            ("apex radius", Measure::Number(apex_radius)),
+        ]
+    }
+}
+
+/// Where F < 0, on the side of the apex where R > 0; beyond the apex, the flat end cuts it off.
+#[inline(always)]
+fn side_span<T: Scalar>(
+    quadratic: T,
+    half_linear: T,
+    constant: T,
+    root: T,
+    narrowing: T,
+    crossing: impl Fn(T) -> Crossing<T>,
+) -> Span<T> {
+    let never = |side: f64| Crossing { at: T::from_f64(NEVER * side), error: 0.0, face: SIDE };
+    let is_negative = half_linear.rounded() < 0.0;
+    // The root that is a sum of two numbers of one sign, and the other from the product of both.
+    let sum = if is_negative { root - half_linear } else { -(root + half_linear) };
+    if sum.rounded() == 0.0 {
+        // Along the axis of a cylinder, or through the apex.
+        return Span::always(constant.rounded() < 0.0, 0.0, SIDE);
+    }
+    let near = constant / sum;
+    if quadratic.rounded() == 0.0 {
+        return if is_negative {
+            Span { enter: crossing(near), leave: never(1.0) }
+        } else {
+            Span { enter: never(-1.0), leave: crossing(near) }
+        };
+    }
+    let far = sum / quadratic;
+    let (first, last) = if near.is_less(far) { (near, far) } else { (far, near) };
+    if quadratic.rounded() > 0.0 {
+        Span { enter: crossing(first), leave: crossing(last) }
+    } else if narrowing.rounded() > 0.0 {
+        Span { enter: crossing(last), leave: never(1.0) }
+    } else {
+        Span { enter: never(-1.0), leave: crossing(first) }
+    }
+}

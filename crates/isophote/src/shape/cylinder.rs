@@ -1,0 +1,67 @@
+//! The cylinder with both its ends (2.4).
+
+use super::{Accuracy, Bounds, Cone, Measure, Meeting, NearestPoint, Ray};
+use crate::real::Scalar;
+use crate::vector::Vector;
+
+/// The points within a radius of the straight way between two points, its flat ends included: a [`Cone`] that does not
+/// narrow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cylinder {
+    body: Cone,
+}
+
+impl Cylinder {
+    /// A cylinder between two points that differ, with a radius in metres, positive.
+    #[must_use]
+    pub fn new(from: Vector, to: Vector, radius: f64) -> Self {
+        Self { body: Cone::new(from, to, [radius, radius]) }
+    }
+
+    /// See [`Cone::meet`].
+    #[inline(always)]
+    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
+        self.body.meet(ray, accuracy)
+    }
+
+    /// See [`Cone::signed_distance`].
+    #[must_use]
+    pub fn signed_distance(&self, point: Vector) -> f64 {
+        self.body.signed_distance(point)
+    }
+
+    /// See [`Cone::nearest`].
+    #[must_use]
+    pub fn nearest(&self, point: Vector) -> NearestPoint {
+        self.body.nearest(point)
+    }
+
+    /// The box around it with sides along the scene's axes.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        self.body.bounds()
+    }
+
+    /// See [`Cone::size`].
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.body.size()
+    }
+
+    /// See [`Cone::remoteness`].
+    #[must_use]
+    pub fn remoteness(&self, point: Vector) -> f64 {
+        self.body.remoteness(point)
+    }
+
+    /// What describes it.
+    #[must_use]
+    pub fn measures(&self) -> Vec<(&'static str, Measure)> {
+        let [from, to] = self.body.ends();
+        vec![
+            ("from", Measure::Vector(from)),
+            ("to", Measure::Vector(to)),
+            ("radius", Measure::Number(self.body.radii()[0])),
+        ]
+    }
+}

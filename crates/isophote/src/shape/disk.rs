@@ -1,0 +1,79 @@
+//! The disk (2.4).
+
+use super::placement::Placement;
+use super::{Accuracy, Bounds, Measure, Meeting, NearestPoint, Ray, flat};
+use crate::real::Scalar;
+use crate::vector::Vector;
+
+/// x² + y² ≤ R², z = 0 in its own axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disk {
+    placement: Placement,
+    /// R, in metres, positive.
+    radius: f64,
+}
+
+impl Disk {
+    /// A disk of a radius (in metres, positive) about a centre, at right angles to a direction (of any length but zero).
+    #[must_use]
+    pub fn new(center: Vector, normal: Vector, radius: f64) -> Self {
+        Self { placement: Placement::along(center, Vector::from_f64(normal)), radius }
+    }
+
+    /// See [`flat`].
+    #[inline(always)]
+    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
+        let beyond = |x: T, y: T| x.times_plus(x, y * y).sqrt() - T::from_f64(self.radius);
+        flat::meet(&self.placement, Some(self.radius), ray, accuracy, beyond)
+    }
+
+    /// The distance from it, never negative.
+    #[must_use]
+    pub fn distance(&self, point: Vector) -> f64 {
+        let place = self.placement.place_of(point);
+        (place - self.nearest_place(place)).length()
+    }
+
+    /// The point of it nearest to a point, with N on that side.
+    #[must_use]
+    pub fn nearest(&self, point: Vector) -> NearestPoint {
+        let place = self.placement.place_of(point);
+        let offset = self.placement.to_scene(self.nearest_place(place));
+        let side = 1.0_f64.copysign(place.z);
+        NearestPoint::new(self.placement.origin, offset, self.placement.axis(2) * side)
+    }
+
+    fn nearest_place(&self, place: Vector) -> Vector {
+        let distance = place.x.hypot(place.y);
+        let scale = if distance > self.radius { self.radius / distance } else { 1.0 };
+        Vector::new(place.x * scale, place.y * scale, 0.0)
+    }
+
+    /// The box around it with sides along the scene's axes.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of_disk(self.placement.origin, self.placement.axis(2), self.radius)
+    }
+
+    /// R, in metres.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.radius
+    }
+
+    /// How far away a point is, in radii.
+    #[must_use]
+    pub fn remoteness(&self, point: Vector) -> f64 {
+        (point - self.placement.origin).length() / self.radius
+    }
+
+    /// What describes it.
+    #[must_use]
+    pub fn measures(&self) -> Vec<(&'static str, Measure)> {
+        vec![
+            ("center", Measure::Vector(self.placement.origin)),
+            ("normal", Measure::Vector(self.placement.axis(2))),
+            ("radius", Measure::Number(self.radius)),
+        ]
+    }
+}

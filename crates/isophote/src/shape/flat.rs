@@ -1,0 +1,57 @@
+//! What flat shapes share: the plane z = 0 of their own axes (2.4).
+
+use super::placement::Placement;
+use super::{Accuracy, Intersection, Meeting, PLACE_ERROR, Ray, SurfacePoint};
+use crate::real::Scalar;
+use crate::vector::Vector;
+
+/// How a ray meets a flat shape.
+///
+/// `size` is its extent in metres, none if it has no end. `beyond` tells how far a place (x, y) is outside the border,
+/// in metres, negative inside.
+#[inline(always)]
+pub fn meet<T: Scalar>(
+    placement: &Placement,
+    size: Option<f64>,
+    ray: &Ray<T>,
+    accuracy: Accuracy,
+    beyond: impl Fn(T, T) -> T,
+) -> Meeting<T> {
+    let local = placement.local_ray(ray);
+    let error = PLACE_ERROR * (local.reach + size.unwrap_or(0.0));
+    if size.is_some_and(|size| local.passes_by(size + error)) {
+        return Meeting::MISS;
+    }
+    let slope = local.direction.z;
+    // A plane seen edge-on has no area.
+    if slope.rounded() == 0.0 {
+        return Meeting::MISS;
+    }
+    let at = -(local.nearest.z / slope);
+    let distance = local.along + at;
+    let error = (error + f64::EPSILON * at.rounded().abs()) / slope.rounded().abs();
+    let (x, y) = (local.direction.x.times_plus(at, local.nearest.x), local.direction.y.times_plus(at, local.nearest.y));
+    let beyond = beyond(x, y);
+    if beyond.rounded() > error || distance.rounded() < -error {
+        return Meeting::MISS;
+    }
+    let is_uncertain = beyond.rounded() > -error || distance.rounded() < error;
+    let size = size.unwrap_or(distance.rounded());
+    let is_doubtful = is_uncertain || accuracy.is_exceeded_by(error / size, 0.0);
+    let doubtful_from = is_doubtful.then(|| (distance - T::from_f64(error)).max(T::zero()));
+    if T::zero().is_less(beyond) || !T::zero().is_less(distance) {
+        return Meeting { hit: None, doubtful_from };
+    }
+    let towards_eye = T::from_f64(if T::zero().is_less(slope) { -1.0 } else { 1.0 });
+    let [first, second, third] = placement.axes();
+    let point = SurfacePoint {
+        anchor: placement.origin,
+        // Built in the plane: its part along N is zero.
+        offset: first * x + second * y,
+        normal: third * towards_eye,
+        view: -ray.direction,
+        cos_theta_o: -(slope * towards_eye),
+    };
+    let hit = Intersection { distance, point, from_inside: false, lift: Vector::zero() };
+    Meeting { hit: Some(hit), doubtful_from }
+}

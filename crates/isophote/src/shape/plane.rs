@@ -1,0 +1,54 @@
+//! The plane, without end (2.4).
+
+use super::placement::Placement;
+use super::{Accuracy, Measure, Meeting, NearestPoint, Ray, flat};
+use crate::real::Scalar;
+use crate::vector::Vector;
+
+/// (P − Q)·N = 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plane {
+    placement: Placement,
+}
+
+impl Plane {
+    /// The plane through a point, at right angles to a direction (of any length but zero).
+    #[must_use]
+    pub fn new(point: Vector, normal: Vector) -> Self {
+        Self { placement: Placement::along(point, Vector::from_f64(normal)) }
+    }
+
+    /// See [`flat`].
+    #[inline(always)]
+    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
+        flat::meet(&self.placement, None, ray, accuracy, |_, _| -T::from_f64(f64::INFINITY))
+    }
+
+    /// The distance from it, never negative.
+    #[must_use]
+    pub fn distance(&self, point: Vector) -> f64 {
+        self.placement.place_of(point).z.abs()
+    }
+
+    /// The point of it nearest to a point, with N on that side.
+    #[must_use]
+    pub fn nearest(&self, point: Vector) -> NearestPoint {
+        let place = self.placement.place_of(point);
+        let offset = self.placement.to_scene(Vector::new(place.x, place.y, 0.0));
+        let side = 1.0_f64.copysign(place.z);
+        NearestPoint::new(self.placement.origin, offset, self.placement.axis(2) * side)
+    }
+
+    /// What stands for its size at a point, in metres: how far that is from Q, and a millionth of how far Q is from the
+    /// origin, so that coordinates that are rounded to 15 digits count as on the plane.
+    #[must_use]
+    pub fn size_near(&self, point: Vector) -> f64 {
+        (point - self.placement.origin).length() + 1e-6 * self.placement.origin.length()
+    }
+
+    /// What describes it.
+    #[must_use]
+    pub fn measures(&self) -> Vec<(&'static str, Measure)> {
+        vec![("point", Measure::Vector(self.placement.origin)), ("normal", Measure::Vector(self.placement.axis(2)))]
+    }
+}

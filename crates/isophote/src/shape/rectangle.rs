@@ -1,0 +1,87 @@
+//! The rectangle (2.4).
+
+use super::placement::Placement;
+use super::{Accuracy, Bounds, Measure, Meeting, NearestPoint, Ray, flat};
+use crate::real::Scalar;
+use crate::vector::Vector;
+
+/// |x| ≤ w/2, |y| ≤ h/2, z = 0 in its own axes, of which z is its normal and y leads along its height.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rectangle {
+    placement: Placement,
+    /// w/2, in metres, positive.
+    half_width: f64,
+    /// h/2, in metres, positive.
+    half_height: f64,
+}
+
+impl Rectangle {
+    /// A rectangle of this width and height (in metres, positive) about a centre. Its height runs along `up` as far as
+    /// its normal lets it; they are not parallel.
+    #[must_use]
+    pub fn new(center: Vector, [width, height]: [f64; 2], normal: Vector, up: Vector) -> Self {
+        let placement = Placement::facing(center, normal, up);
+        Self { placement, half_width: 0.5 * width, half_height: 0.5 * height }
+    }
+
+    /// See [`flat`].
+    #[inline(always)]
+    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
+        let absolute = |value: T| value.max(-value);
+        let beyond =
+            |x: T, y: T| (absolute(x) - T::from_f64(self.half_width)).max(absolute(y) - T::from_f64(self.half_height));
+        flat::meet(&self.placement, Some(self.size()), ray, accuracy, beyond)
+    }
+
+    /// The distance from it, never negative.
+    #[must_use]
+    pub fn distance(&self, point: Vector) -> f64 {
+        let place = self.placement.place_of(point);
+        (place - self.nearest_place(place)).length()
+    }
+
+    /// The point of it nearest to a point, with N on that side.
+    #[must_use]
+    pub fn nearest(&self, point: Vector) -> NearestPoint {
+        let place = self.placement.place_of(point);
+        let offset = self.placement.to_scene(self.nearest_place(place));
+        let side = 1.0_f64.copysign(place.z);
+        NearestPoint::new(self.placement.origin, offset, self.placement.axis(2) * side)
+    }
+
+    fn nearest_place(&self, place: Vector) -> Vector {
+        let [x, y] = [(place.x, self.half_width), (place.y, self.half_height)].map(|(at, half)| at.clamp(-half, half));
+        Vector::new(x, y, 0.0)
+    }
+
+    /// The box around it with sides along the scene's axes.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        let half = self.placement.half_sides(Vector::new(self.half_width, self.half_height, 0.0));
+        Bounds::around(self.placement.origin, half)
+    }
+
+    /// Half its diagonal, in metres.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.half_width.hypot(self.half_height)
+    }
+
+    /// How far away a point is, in halves of the shorter side.
+    #[must_use]
+    pub fn remoteness(&self, point: Vector) -> f64 {
+        (point - self.placement.origin).length() / self.half_width.min(self.half_height)
+    }
+
+    /// What describes it.
+    #[must_use]
+    pub fn measures(&self) -> Vec<(&'static str, Measure)> {
+        vec![
+            ("center", Measure::Vector(self.placement.origin)),
+            ("width", Measure::Number(2.0 * self.half_width)),
+            ("height", Measure::Number(2.0 * self.half_height)),
+            ("normal", Measure::Vector(self.placement.axis(2))),
+            ("up", Measure::Vector(self.placement.axis(1))),
+        ]
+    }
+}
