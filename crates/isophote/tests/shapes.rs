@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use isophote::double_double::DoubleDouble;
+use isophote::import::CornerNormals;
 use isophote::real::{Real, Scalar};
 use isophote::shape::{
-    Accuracy, Cone, CornerNormals, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Intersection, Mesh, MeshData,
-    MeshError, MeshPlacing, Plane, Ray, Rectangle, Rotation, Sphere, SurfacePoint,
+    Accuracy, Cone, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Intersection, Mesh, MeshData, MeshError, MeshPlacing,
+    Plane, Ray, Rectangle, Rotation, Sphere, SurfacePoint,
 };
 use isophote::vector::Vector;
 
@@ -136,11 +137,11 @@ fn first<T: Scalar>(geometry: &Geometry, ray: &Ray<T>, accuracy: Accuracy) -> (O
 
 /// As a scene finds it: what is in doubt is traced again.
 fn hit(geometry: &Geometry, start: Vector, direction: Vector) -> Option<Intersection> {
-    let (found, is_doubtful) = first::<f64>(geometry, &ray(start, direction), Accuracy::for_shading(None));
+    let (found, is_doubtful) = first::<f64>(geometry, &ray(start, direction), Accuracy::for_shading(None, 0.0));
     if !is_doubtful {
         return found.map(|(_, hit)| hit);
     }
-    let (exact, _) = first::<DoubleDouble>(geometry, &ray(start, direction), Accuracy::for_shading(None));
+    let (exact, _) = first::<DoubleDouble>(geometry, &ray(start, direction), Accuracy::for_shading(None, 0.0));
     exact.map(|(_, hit)| {
         let SurfacePoint { anchor, offset, normal, view, cos_theta_o } = hit.point;
         let (offset, normal, view) = (rounded(offset), rounded(normal), rounded(view));
@@ -184,7 +185,7 @@ fn where_double_precision_is_not_in_doubt_it_agrees_with_32_digits() {
             let (seen, is_doubtful) = first::<f64>(&geometry, &ray(eye, direction), Accuracy::OF_VISIBILITY);
             let what = || format!("{kind}, {round}: {geometry:?} {eye:?} {direction:?}");
             assert!(is_doubtful || seen.is_some() == exact.is_some(), "{}", what());
-            let (found, is_doubtful) = first::<f64>(&geometry, &ray(eye, direction), Accuracy::for_shading(None));
+            let (found, is_doubtful) = first::<f64>(&geometry, &ray(eye, direction), Accuracy::for_shading(None, 0.0));
             if is_doubtful {
                 doubtful += 1;
                 continue;
@@ -317,7 +318,7 @@ fn a_turned_shape_is_the_unturned_one_in_turned_axes() {
         let eye = random.direction() * 3.0;
         let direction = random.direction() * 0.3 - eye;
         for (straight, slanted) in pairs[0].iter().zip(&pairs[1]) {
-            let (first, is_doubtful) = first::<f64>(straight, &ray(eye, direction), Accuracy::for_shading(None));
+            let (first, is_doubtful) = first::<f64>(straight, &ray(eye, direction), Accuracy::for_shading(None, 0.0));
             let second = hit(slanted, turned(eye), turned(direction));
             assert!(is_doubtful || first.is_some() == second.is_some());
             if let (Some((_, first)), Some(second), false) = (first, second, is_doubtful) {
