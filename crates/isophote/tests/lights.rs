@@ -95,7 +95,7 @@ fn ambient_light_alone_gives_the_same_irradiance_everywhere() {
     for convention in [Convention::Irradiance, Convention::Lambert, Convention::Lab, Convention::Radiance] {
         let mut source = scene_file("two-lights.toml");
         source.light.clear();
-        source.ambient = Some(AmbientSource { radiance: Some(7.0) });
+        source.ambient = Some(AmbientSource { radiance: Some(7.0), ..AmbientSource::default() });
         source.convention = Some(convention);
         let scene = prepared(source);
         let renderers: [&dyn Renderer; 3] =

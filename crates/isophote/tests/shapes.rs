@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use isophote::double_double::DoubleDouble;
 use isophote::import::CornerNormals;
-use isophote::real::{Real, Scalar};
+use isophote::real::Scalar;
 use isophote::shape::{
     Accuracy, Cone, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Intersection, Mesh, MeshData, MeshError, MeshPlacing,
     Plane, Ray, Rectangle, Rotation, Sphere, SurfacePoint,

@@ -148,7 +148,20 @@ impl ProbeReading {
         let (radiance, irradiance) = (digits(ambient.radiance), digits(self.shading.ambient));
         line(text, format_args!(""));
         line(text, format_args!("Ambient light"));
-        line(text, format_args!("  E   = π L_a = π × {radiance} = {irradiance} {unit}   (3.9)"));
+        if ambient.obstruction.is_none() {
+            line(text, format_args!("  E   = π L_a = π × {radiance} = {irradiance} {unit}   (3.9)"));
+        } else {
+            let whole = ambient.unobstructed_irradiance();
+            let share = digits(if whole > 0.0 { self.shading.ambient / whole } else { 0.0 });
+            let error = digits(scene.ambient_irradiance(&self.hit).standard_error);
+            line(text, format_args!("  p   = {share} of the hemisphere, by cosθ, is free"));
+            line(
+                text,
+                format_args!(
+                    "  E   = π L_a p = π × {radiance} × {share} = {irradiance} {unit}, standard error {error}   (3.9)"
+                ),
+            );
+        }
         self.explain_diffuse(text, scene, self.shading.ambient);
     }
 

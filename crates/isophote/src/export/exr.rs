@@ -79,7 +79,12 @@ fn channel_names(map: &Map) -> Vec<Vec<String>> {
         Quantity::Position => axes("P"),
         Quantity::Normal => axes("N"),
         Quantity::Shape => vec!["shape.index".into()],
-        Quantity::Irradiance | Quantity::Ambient | Quantity::Diffuse | Quantity::Specular | Quantity::Light(_) => {
+        Quantity::Irradiance
+        | Quantity::Ambient
+        | Quantity::AmbientError
+        | Quantity::Diffuse
+        | Quantity::Specular
+        | Quantity::Light(_) => {
             vec![format!("{name}.Y")]
         }
         Quantity::Samples | Quantity::Coverage => vec![format!("{name}.V")],

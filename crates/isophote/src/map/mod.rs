@@ -93,6 +93,8 @@ pub enum Quantity {
     Samples,
     /// The part of them that met a surface.
     Coverage,
+    /// The standard error of [`Ambient`](Self::Ambient) where what obstructs it is sampled.
+    AmbientError,
     /// Irradiance from the light with this name alone, one term of (3.1).
     Light(String),
 }
@@ -111,15 +113,15 @@ impl Quantity {
         Self::Shape,
     ];
 
-    /// How a pixel was sampled: one ray through its centre, unless the scene asks for more.
-    pub const OF_SAMPLING: [Self; 2] = [Self::Samples, Self::Coverage];
+    /// What tells how the others were sampled.
+    pub const OF_SAMPLING: [Self; 3] = [Self::Samples, Self::Coverage, Self::AmbientError];
 
     /// The unit of the quantity in a scene of this kind: `"1"` for pure numbers, `""` for indices.
     #[must_use]
     pub fn unit(&self, convention: Convention, quantities: Quantities, length: LengthUnit) -> &'static str {
         match self {
             Self::Brightness | Self::Diffuse | Self::Specular => convention.unit(quantities),
-            Self::Irradiance | Self::Ambient | Self::Light(_) => quantities.irradiance_unit(),
+            Self::Irradiance | Self::Ambient | Self::AmbientError | Self::Light(_) => quantities.irradiance_unit(),
             Self::Depth | Self::Position => length.name(),
             Self::Normal | Self::Samples | Self::Coverage => "1",
             Self::Shape => "",
@@ -150,6 +152,7 @@ impl Quantity {
             Self::Shape => "shape".into(),
             Self::Samples => "samples".into(),
             Self::Coverage => "coverage".into(),
+            Self::AmbientError => "ambient-error".into(),
             Self::Light(light) => format!("light.{light}"),
         }
     }

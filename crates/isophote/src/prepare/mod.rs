@@ -1,11 +1,13 @@
 //! A scene laid out for tracing and shading. It chooses no renderer.
 
+mod obstruction;
 mod visibility;
 
 use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::OnceLock;
 
+pub use obstruction::AmbientIrradiance;
 pub use visibility::Blocking;
 
 use crate::camera::{CameraFrame, ScreenPosition};
@@ -177,7 +179,12 @@ impl PreparedScene {
 
     /// Whether a shape may stand in another one's light.
     pub(crate) fn casts_shadows_between_shapes(&self) -> bool {
-        self.scene.shadows && self.primitives().nth(1).is_some()
+        let is_ambient_obstructed = self.scene.ambient.is_some_and(|ambient| ambient.obstruction.is_some());
+        (self.scene.shadows || is_ambient_obstructed) && self.has_shapes_beside_one()
+    }
+
+    fn has_shapes_beside_one(&self) -> bool {
+        self.primitives().nth(1).is_some()
     }
 
     /// All that can be hit.
@@ -227,7 +234,7 @@ impl PreparedScene {
             };
             if blocker.is_some() { 0.0 } else { 1.0 }
         };
-        let ambient = self.ambient_irradiance();
+        let ambient = self.ambient_irradiance(hit).irradiance;
         shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), ambient, visibility, each)
     }
 
@@ -241,15 +248,9 @@ impl PreparedScene {
             let is_blocked = self.blocking(hit, light).blocker.is_some();
             DoubleDouble::from_f64(if is_blocked { 0.0 } else { 1.0 })
         };
-        let ambient = DoubleDouble::from_f64(self.ambient_irradiance());
+        // The directions are sampled, which a double is good enough for.
+        let ambient = DoubleDouble::from_f64(self.ambient_irradiance(&hit.rounded()).irradiance);
         shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), ambient, visibility, each)
-    }
-
-    /// E_a (3.9): the irradiance of any surface point by the ambient light. What the scene takes of it is not subtracted
-    /// yet; this is its place.
-    #[must_use]
-    pub fn ambient_irradiance(&self) -> f64 {
-        self.scene.ambient.map_or(0.0, |ambient| ambient.unobstructed_irradiance())
     }
 
     fn prepared_formula(&self, primitive: Primitive) -> &PreparedFormula {

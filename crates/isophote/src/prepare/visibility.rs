@@ -48,7 +48,7 @@ impl PreparedScene {
     }
 
     /// What stands between the start of a ray and a light at this distance, or at none: a parallel light is beyond all.
-    fn nearest_blocker<T: Scalar>(&self, own: Primitive, ray: &Ray<T>, distance: Option<T>) -> Blocking {
+    pub(super) fn nearest_blocker<T: Scalar>(&self, own: Primitive, ray: &Ray<T>, distance: Option<T>) -> Blocking {
         let least = T::from_f64(self.shapes[own.shape].geometry.least_shadow_distance(own.part));
         // What is nearer to the light than this may as well be behind it.
         let bounds = |distance: T| {

@@ -145,6 +145,8 @@ pub enum ScalarChannel {
     Irradiance,
     /// E_a.
     Ambient,
+    /// The standard error of the ambient light.
+    AmbientError,
     /// The diffuse part of B.
     Diffuse,
     /// The specular part of B.
@@ -236,6 +238,7 @@ impl ScalarChannel {
             Quantity::Brightness => Self::Brightness,
             Quantity::Irradiance => Self::Irradiance,
             Quantity::Ambient => Self::Ambient,
+            Quantity::AmbientError => Self::AmbientError,
             Quantity::Diffuse => Self::Diffuse,
             Quantity::Specular => Self::Specular,
             Quantity::Depth => Self::Depth,
@@ -322,6 +325,7 @@ impl Band<'_> {
             ScalarChannel::Brightness => shading.brightness(),
             ScalarChannel::Irradiance => shading.irradiance,
             ScalarChannel::Ambient => shading.ambient,
+            ScalarChannel::AmbientError => scene.ambient_irradiance(hit).standard_error,
             ScalarChannel::Diffuse => shading.diffuse,
             ScalarChannel::Specular => shading.specular,
             ScalarChannel::Depth => length.from_metres(hit.distance),

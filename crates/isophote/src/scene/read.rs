@@ -118,7 +118,11 @@ fn read_light(table: &mut Table<'_>) -> LightSource {
 }
 
 fn read_ambient(table: &mut Table<'_>) -> AmbientSource {
-    AmbientSource { radiance: table.number("radiance") }
+    AmbientSource {
+        radiance: table.number("radiance"),
+        obstructed: table.boolean("obstructed"),
+        samples: table.count("samples"),
+    }
 }
 
 fn read_probe(table: &mut Table<'_>) -> ProbeSource {

@@ -300,6 +300,14 @@ pub struct AmbientSource {
     #[schemars(required, range(min = 0.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radiance: Option<f64>,
+    /// Whether shapes keep it from each other.
+    #[schemars(extend("default" = false))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub obstructed: Option<bool>,
+    /// In how many directions each point looks for shapes that are in the way.
+    #[schemars(range(min = 1, max = 4096), extend("default" = 64))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples: Option<u64>,
 }
 
 /// The emission patterns by name.

@@ -151,7 +151,8 @@ pub fn worlds() -> impl Strategy<Value = SceneSource> {
             irradiance: Some(irradiance),
             ..LightSource::default()
         }));
-        source.ambient = radiance.map(|radiance| AmbientSource { radiance: Some(radiance) });
+        source.ambient =
+            radiance.map(|radiance| AmbientSource { radiance: Some(radiance), ..AmbientSource::default() });
         source
     })
 }

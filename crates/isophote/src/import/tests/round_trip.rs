@@ -83,10 +83,8 @@ proptest! {
         let rows: Vec<[f64; 4]> = spheres.iter().map(|([x, y, z], radius)| [*x, *y, *z, *radius]).collect();
         let count = rows.len();
         let numbers: Vec<u8> = rows.as_flattened().iter().flat_map(|number| number.to_le_bytes()).collect();
-        let mut csv = String::from("x,y,z,radius\n");
-        for [x, y, z, radius] in &rows {
-            csv.push_str(&format!("{x},{y:e},{z},{radius}\n"));
-        }
+        let lines: Vec<String> = rows.iter().map(|[x, y, z, radius]| format!("{x},{y:e},{z},{radius}")).collect();
+        let csv = format!("x,y,z,radius\n{}", lines.join("\n"));
         let dictionary = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({count}, 4), }}\n");
         let length = u16::try_from(dictionary.len()).unwrap().to_le_bytes();
         let npy = [b"\x93NUMPY\x01\0", &length[..], dictionary.as_bytes(), &numbers].concat();

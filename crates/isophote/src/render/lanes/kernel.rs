@@ -306,6 +306,7 @@ impl StretchWork<'_, '_> {
                 ScalarChannel::Brightness => sums.diffuse(formula) + sums.specular(formula),
                 ScalarChannel::Irradiance => sums.irradiance,
                 ScalarChannel::Ambient => V::splat(kind, lights.ambient),
+                ScalarChannel::AmbientError => V::splat(kind, V::Element::default()),
                 ScalarChannel::Diffuse => sums.diffuse(formula),
                 ScalarChannel::Specular => sums.specular(formula),
                 ScalarChannel::Light(_) => match asked_for.next() {

@@ -1,7 +1,7 @@
 //! The lights of a scene as the points of one shape see them.
 
 use crate::lanes::{Element, Precision};
-use crate::light::{Emission, Light, PlacedLight, Rays};
+use crate::light::{Ambient, Emission, Light, PlacedLight, Rays};
 use crate::prepare::PreparedScene;
 use crate::render::lanes::power::Power;
 use crate::shape::{Primitive, Sphere};
@@ -83,7 +83,8 @@ impl ShapeShading {
         let lights: Vec<PlacedLight> = order.iter().map(place).filter(|light| light.intensity > 0.0).collect();
         let asked_for: Vec<PlacedLight> = wanted.iter().map(place).collect();
         let shininess = scene.formula(primitive).sharpness();
-        let ambient = scene.ambient_irradiance();
+        // One convex shape, or none of several, obstructs it: only such scenes are rendered here.
+        let ambient = description.ambient().map_or(0.0, Ambient::unobstructed_irradiance);
         if precision == Precision::Single && fits_single(&lights, ambient, shininess) {
             Self::Single(ShapeLights::new(&lights, &asked_for, ambient, shininess))
         } else {

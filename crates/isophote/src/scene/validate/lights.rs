@@ -39,7 +39,17 @@ impl Validator {
             self.problems.missing(&path, "radiance", "write `radiance = …`, in W/(m²·sr) or cd/m²");
             return None;
         };
-        Some(Ambient { radiance: self.strength(&path.key("radiance"), radiance)? })
+        let radiance = self.strength(&path.key("radiance"), radiance);
+        let samples = match ambient.samples {
+            Some(samples) => self.samples(&path, samples),
+            None => Some(Ambient::SAMPLES),
+        };
+        let is_obstructed = ambient.obstructed.unwrap_or(false);
+        if !is_obstructed && ambient.samples.is_some() {
+            let message = "`ambient.samples` means nothing where ambient light is not obstructed";
+            self.wrong(&path.key("samples"), message.into(), "leave it out, or write `obstructed = true`");
+        }
+        Some(Ambient { radiance: radiance?, obstruction: samples.filter(|_| is_obstructed) })
     }
 
     fn point_light(&mut self, path: &Path, light: &LightSource, emission: EmissionName) -> Option<PointLight> {
