@@ -51,11 +51,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         let Case { spheres, radius, lights, threads, precision } = case;
         let is_single = u8::from(precision == Precision::Single);
         let numbers = [spheres.to_string(), radius.to_string(), lights.to_string(), threads.to_string()];
-        let status = Command::new(std::env::current_exe()?)
-            .arg("--case")
-            .args(numbers)
-            .arg(is_single.to_string())
-            .status()?;
+        let status =
+            Command::new(std::env::current_exe()?).arg("--case").args(numbers).arg(is_single.to_string()).status()?;
         if !status.success() {
             return Err(format!("{spheres} spheres: {status}").into());
         }
@@ -134,8 +131,7 @@ fn write_spheres(path: &Path, case: &Case) -> Result<(), Box<dyn Error>> {
     file.write_all(header.as_bytes())?;
     let mut random = Random(1);
     for _ in 0..case.spheres {
-        let numbers =
-            [random.between(-2.0, 2.0), random.between(-1.5, 1.5), random.between(4.0, 7.0), case.radius];
+        let numbers = [random.between(-2.0, 2.0), random.between(-1.5, 1.5), random.between(4.0, 7.0), case.radius];
         for number in numbers {
             file.write_all(&number.to_le_bytes())?;
         }

@@ -7,11 +7,11 @@ use isophote::lanes::{Instructions, Precision};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Scalars};
 use isophote::prepare::PreparedScene;
 use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
-use isophote::scene::source::{
-    ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, PlaneSource, RectangleSource, RotationSource,
-    SceneSource, SphereSource,
-};
 use isophote::scene::Scene;
+use isophote::scene::source::{
+    ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, PlaneSource, RectangleSource,
+    RotationSource, SceneSource, SphereSource,
+};
 use isophote::tolerance::{DOUBLE, SINGLE};
 use proptest::prelude::*;
 
@@ -23,19 +23,21 @@ fn prepared(source: SceneSource) -> PreparedScene {
 /// shadows or without.
 fn clouds(most: usize) -> impl Strategy<Value = SceneSource> {
     let sphere = (prop::array::uniform3(-1.2..1.2_f64), -2.5..0.0_f64, 0_usize..2);
-    (random::scenes(), prop::collection::vec(sphere, 65..most), any::<bool>()).prop_map(|(mut source, spheres, shadows)| {
-        source.sphere = spheres
-            .into_iter()
-            .map(|(center, size, material)| SphereSource {
-                center: Some(center),
-                radius: Some(0.6 * 10.0_f64.powf(size)),
-                material: Some(format!("m{material}")),
-                ..SphereSource::default()
-            })
-            .collect();
-        source.shadows = Some(shadows);
-        source
-    })
+    (random::scenes(), prop::collection::vec(sphere, 65..most), any::<bool>()).prop_map(
+        |(mut source, spheres, shadows)| {
+            source.sphere = spheres
+                .into_iter()
+                .map(|(center, size, material)| SphereSource {
+                    center: Some(center),
+                    radius: Some(0.6 * 10.0_f64.powf(size)),
+                    material: Some(format!("m{material}")),
+                    ..SphereSource::default()
+                })
+                .collect();
+            source.shadows = Some(shadows);
+            source
+        },
+    )
 }
 
 /// Few spheres with shadows, as tiles see them.
@@ -170,8 +172,7 @@ fn with_every_shape(source: SceneSource, places: &[([f64; 3], [f64; 3])], sizes:
         material: material.clone(),
         ..RectangleSource::default()
     };
-    let disk =
-        DiskSource { center: place(6), normal: direction(6), radius: first, material, ..DiskSource::default() };
+    let disk = DiskSource { center: place(6), normal: direction(6), radius: first, material, ..DiskSource::default() };
     SceneSource {
         ellipsoid: vec![ellipsoid],
         cuboid: vec![cuboid],
@@ -195,13 +196,11 @@ fn spheres_beside_the_eye_are_seen_as_by_rays() {
     );
     for index in 0..100 {
         let (turn, z) = (f64::from(index) * 2.4, f64::from(index) * 0.03 - 0.5);
-        text += &format!(
-            "[[sphere]]\ncenter = [{}, {}, {z}]\nradius = 0.4\nmaterial = \"clay\"\n",
-            turn.cos(),
-            turn.sin()
-        );
+        text +=
+            &format!("[[sphere]]\ncenter = [{}, {}, {z}]\nradius = 0.4\nmaterial = \"clay\"\n", turn.cos(), turn.sin());
     }
-    let scene = Scene::from_text("wall", &text, isophote::scene::Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+    let scene =
+        Scene::from_text("wall", &text, isophote::scene::Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
     let scene = PreparedScene::new(&scene).by_brute_force();
     let deviation = conforms(&Lanes::new(Precision::Double, None), &scene, &DOUBLE);
     assert!(deviation.unwrap_or_else(|error| panic!("{error}")).visible > 500);

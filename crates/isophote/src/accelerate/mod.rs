@@ -7,9 +7,9 @@
 mod build;
 mod node;
 mod query;
-mod walk;
 #[cfg(test)]
 mod tests;
+mod walk;
 
 pub(crate) use query::{Beam, Tube};
 pub(crate) use walk::Walk;

@@ -23,8 +23,7 @@ const PRIMITIVE: u32 = 1 << 31;
 
 impl Node {
     /// A node without boxes.
-    pub const EMPTY: Self =
-        Self { sides: [[[0.0; WIDTH]; 3]; 2], children: [Child(0); WIDTH], used: 0 };
+    pub const EMPTY: Self = Self { sides: [[[0.0; WIDTH]; 3]; 2], children: [Child(0); WIDTH], used: 0 };
 
     /// Puts a box into the next place.
     pub fn push(&mut self, least: [f32; 3], greatest: [f32; 3], child: Child) {

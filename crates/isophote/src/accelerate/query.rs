@@ -83,7 +83,8 @@ impl Tube {
         let steepest = 1e-9;
         let (direction, start) = (direction.to_array(), start.to_array());
         let steep = direction.map(|d: f64| if d.abs() < steepest { steepest.copysign(d) } else { d });
-        let moved = |side: f64| [0, 1, 2].map(|axis| (start[axis] + side * widening[axis].copysign(steep[axis])) as f32);
+        let moved =
+            |side: f64| [0, 1, 2].map(|axis| (start[axis] + side * widening[axis].copysign(steep[axis])) as f32);
         Some(Self {
             starts: [moved(1.0), moved(-1.0)],
             inverse: steep.map(|d| (1.0 / d) as f32),

@@ -29,12 +29,17 @@ impl Walk {
         query: &impl Query,
         limit: f32,
     ) -> Option<u32> {
-        self.next_by(tree, limit, #[inline(always)] |node| {
-            let (near, met) = query.meet::<V>(kind, node);
-            let mut depths = [0.0; 16];
-            near.store(&mut depths);
-            (depths, met)
-        })
+        self.next_by(
+            tree,
+            limit,
+            #[inline(always)]
+            |node| {
+                let (near, met) = query.meet::<V>(kind, node);
+                let mut depths = [0.0; 16];
+                near.store(&mut depths);
+                (depths, met)
+            },
+        )
     }
 
     /// The same with these instructions.
@@ -49,12 +54,7 @@ impl Walk {
     }
 
     #[inline(always)]
-    fn next_by(
-        &mut self,
-        tree: &Accelerator,
-        limit: f32,
-        meet: impl Fn(&Node) -> ([f32; 16], u32),
-    ) -> Option<u32> {
+    fn next_by(&mut self, tree: &Accelerator, limit: f32, meet: impl Fn(&Node) -> ([f32; 16], u32)) -> Option<u32> {
         while let Some((near, child)) = self.open.pop() {
             // Written so that a limit of NaN ends nothing.
             if near > limit {

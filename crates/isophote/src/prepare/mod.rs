@@ -373,7 +373,8 @@ impl<'s, T: Scalar> Search<'s, T> {
             }
             // Of surfaces in the same place the first in the scene is seen.
             let is_nearer = |(by, other): (T, Primitive)| {
-                T::zero().is_less(by) || !by.is_less(T::zero()) && (primitive.shape, primitive.part) < (other.shape, other.part)
+                T::zero().is_less(by)
+                    || !by.is_less(T::zero()) && (primitive.shape, primitive.part) < (other.shape, other.part)
             };
             if ahead_by.is_none_or(is_nearer) {
                 let crate::shape::Intersection { distance, point, from_inside, lift } = hit;

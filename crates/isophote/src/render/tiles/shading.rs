@@ -330,7 +330,8 @@ impl<'a> Shader<'a> {
         for channel in &mut band.channels {
             match channel {
                 BandChannel::Double(ScalarChannel::Depth, out) => {
-                    (0..*count).for_each(|place| out[index[place]] = length.from_metres(distance[place] * sphere.radius));
+                    (0..*count)
+                        .for_each(|place| out[index[place]] = length.from_metres(distance[place] * sphere.radius));
                 }
                 BandChannel::Normal(out) => {
                     (0..*count).for_each(|place| out[index[place]] = normal(place).to_array());
