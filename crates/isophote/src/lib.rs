@@ -6,6 +6,7 @@ pub mod camera;
 pub mod conformance;
 pub mod double_double;
 pub mod export;
+mod hammersley;
 pub mod import;
 pub mod lanes;
 pub mod light;

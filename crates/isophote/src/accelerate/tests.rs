@@ -9,18 +9,20 @@ fn vector(range: f64) -> impl Strategy<Value = Vector> {
 
 /// Boxes about a place, many of them without a volume.
 fn boxes(least: usize) -> impl Strategy<Value = Vec<Option<Bounds>>> {
-    let one = (vector(1.0), [0.0..0.3_f64, 0.0..0.3_f64, 0.0..0.3_f64], 0..6_u32).prop_map(|(least, size, flat)| {
-        let mut size = size;
-        for (axis, length) in size.iter_mut().enumerate() {
-            if flat >> axis & 1 == 1 {
-                *length = 0.0;
+    let one = || {
+        (vector(1.0), [0.0..0.3_f64, 0.0..0.3_f64, 0.0..0.3_f64], 0..6_u32).prop_map(|(least, size, flat)| {
+            let mut size = size;
+            for (axis, length) in size.iter_mut().enumerate() {
+                if flat >> axis & 1 == 1 {
+                    *length = 0.0;
+                }
             }
-        }
-        Some(Bounds { least, greatest: least + Vector::from(size) })
-    });
+            Some(Bounds { least, greatest: least + Vector::from(size) })
+        })
+    };
     prop_oneof![
-        prop::collection::vec(one.clone(), least..60),
-        (one, 1..200_usize).prop_map(|(bounds, count)| vec![bounds; count]),
+        prop::collection::vec(one(), least..60),
+        (one(), 1..200_usize).prop_map(|(bounds, count)| vec![bounds; count]),
     ]
 }
 

@@ -28,44 +28,52 @@ impl PreparedScene {
         let source = &self.scene.lights[light];
         let own = hit.primitive;
         let geometry = &self.shapes[own.shape].geometry;
-        if hit.from_inside && !geometry.part_encloses(own.part, source.position) {
+        // A parallel light is outside every shape.
+        let is_enclosed = source.position().is_some_and(|position| geometry.part_encloses(own.part, position));
+        if hit.from_inside && !is_enclosed {
             return Blocking { blocker: Some(own), is_doubtful: false };
         }
         if !self.scene.casts_shadows(own.shape, light) {
             return Blocking::NONE;
         }
         let start = hit.point.offset + hit.lift;
-        let to_light = Vector::from_f64(source.position - hit.point.anchor) - start;
+        let to_light = source.from_place(hit.point.anchor, start);
         if !T::zero().is_less(hit.point.normal.dot(to_light)) {
             return Blocking::NONE;
         }
         let distance = to_light.length();
         let direction = to_light * (T::from_f64(1.0) / distance);
         let ray = Ray { anchor: Vector::from_f64(hit.point.anchor), offset: start, direction };
-        self.nearest_blocker(own, &ray, distance)
+        self.nearest_blocker(own, &ray, source.position().map(|_| distance))
     }
 
-    fn nearest_blocker<T: Scalar>(&self, own: Primitive, ray: &Ray<T>, distance: T) -> Blocking {
+    /// What stands between the start of a ray and a light at this distance, or at none: a parallel light is beyond all.
+    pub(super) fn nearest_blocker<T: Scalar>(&self, own: Primitive, ray: &Ray<T>, distance: Option<T>) -> Blocking {
         let least = T::from_f64(self.shapes[own.shape].geometry.least_shadow_distance(own.part));
         // What is nearer to the light than this may as well be behind it.
-        let uncertain = distance * T::from_f64(ERROR_OF_DISTANCE);
+        let bounds = |distance: T| {
+            let uncertain = distance * T::from_f64(ERROR_OF_DISTANCE);
+            [distance - uncertain, distance, distance + uncertain]
+        };
+        let bounds = distance.map(bounds);
         let mut nearest: Option<(T, Primitive)> = None;
         let mut doubtful_from: Option<T> = None;
-        self.along_ray(ray, distance.rounded(), |primitive| {
+        let farthest = distance.map_or(f64::INFINITY, T::rounded);
+        self.along_ray(ray, farthest, |primitive| {
             // Beyond a certain blocker nothing matters, and neither does what is behind the light.
-            let limit = |nearest: Option<(T, Primitive)>| nearest.map_or(distance, |(at, _)| at).rounded();
+            let limit = |nearest: Option<(T, Primitive)>| nearest.map_or(farthest, |(at, _)| at.rounded());
             if primitive == own || !self.scene.shapes[primitive.shape].casts_shadow {
                 return limit(nearest);
             }
             let meeting = self.shapes[primitive.shape].geometry.meet(primitive.part, ray, Accuracy::OF_VISIBILITY);
-            let is_before_light = |at: &T| at.is_less(distance + uncertain);
+            let is_before_light = |at: &T| bounds.is_none_or(|[_, _, last]| at.is_less(last));
             doubtful_from = super::least(doubtful_from, meeting.doubtful_from.filter(is_before_light));
             let Some(at) = meeting.hit.map(|hit| hit.distance) else { return limit(nearest) };
             let is_own_neighbour = primitive.shape == own.shape && at.is_less(least);
-            if is_own_neighbour || !at.is_less(distance) {
+            if is_own_neighbour || bounds.is_some_and(|[_, distance, _]| !at.is_less(distance)) {
                 return limit(nearest);
             }
-            if (distance - uncertain).is_less(at) {
+            if bounds.is_some_and(|[first, ..]| first.is_less(at)) {
                 doubtful_from = super::least(doubtful_from, Some(at));
             }
             if nearest.is_none_or(|(nearest, _)| at.is_less(nearest)) {

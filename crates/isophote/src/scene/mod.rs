@@ -17,7 +17,7 @@ use source::{SamplingSource, ShadowSource};
 pub use validate::limits;
 
 use crate::camera::Camera;
-use crate::light::Light;
+use crate::light::{Ambient, Light};
 use crate::map::Resolution;
 use crate::reflectance::{Convention, Reflectance};
 use crate::render::Sampling;
@@ -41,6 +41,7 @@ pub struct Scene {
     pub(crate) materials: Vec<Material>,
     pub(crate) shapes: Vec<Shape>,
     pub(crate) lights: Vec<Light>,
+    pub(crate) ambient: Option<Ambient>,
     pub(crate) probes: Vec<Probe>,
     pub(crate) warnings: Vec<Problem>,
     pub(crate) source: SceneSource,
@@ -281,6 +282,12 @@ impl Scene {
     #[must_use]
     pub fn lights(&self) -> &[Light] {
         &self.lights
+    }
+
+    /// The light from all around, if there is one.
+    #[must_use]
+    pub fn ambient(&self) -> Option<&Ambient> {
+        self.ambient.as_ref()
     }
 
     /// The probes, in the order of the file.

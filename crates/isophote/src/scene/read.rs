@@ -10,8 +10,8 @@ use std::path::PathBuf;
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
-    CameraSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource, ShadowSource,
-    SphereSource,
+    AmbientSource, CameraSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource,
+    ShadowSource, SphereSource,
 };
 use crate::units::Choice;
 
@@ -50,6 +50,7 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         mesh: table.tables("mesh", files::read_mesh),
         spheres: table.tables("spheres", files::read_spheres),
         light: table.tables("light", read_light),
+        ambient: table.table("ambient", read_ambient),
         probe: table.tables("probe", read_probe),
     }
 }
@@ -108,7 +109,19 @@ fn read_light(table: &mut Table<'_>) -> LightSource {
         emission: table.choice("emission"),
         axis: table.numbers("axis"),
         target: table.numbers("target"),
+        inner_angle: table.number("inner_angle"),
+        outer_angle: table.number("outer_angle"),
+        direction: table.numbers("direction"),
+        irradiance: table.number("irradiance"),
         casts_shadows: table.boolean("casts_shadows"),
+    }
+}
+
+fn read_ambient(table: &mut Table<'_>) -> AmbientSource {
+    AmbientSource {
+        radiance: table.number("radiance"),
+        obstructed: table.boolean("obstructed"),
+        samples: table.count("samples"),
     }
 }
 

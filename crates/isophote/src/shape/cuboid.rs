@@ -22,7 +22,6 @@ impl Cuboid {
     }
 
     /// The part of the ray between each pair of faces, and what is common to the three parts (2.4).
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let local = self.placement.local_ray(ray);
         let size = self.size();

@@ -9,7 +9,7 @@ use crate::vector::Vector;
 ///
 /// `size` is its extent in metres, none if it has no end. `beyond` tells how far a place (x, y) is outside the border,
 /// in metres, negative inside.
-#[inline(always)]
+#[inline]
 pub fn meet<T: Scalar>(
     placement: &Placement,
     size: Option<f64>,
@@ -23,9 +23,9 @@ pub fn meet<T: Scalar>(
         return Meeting::MISS;
     }
     let slope = local.direction.z;
-    // A plane seen edge-on has no area.
-    if slope.rounded() == 0.0 {
-        return Meeting::MISS;
+    // Seen edge-on it has no area; what is left of such a slope is rounding, which more digits tell.
+    if (slope * slope).rounded() < 1e4 * T::NEGLIGIBLE_SQUARE {
+        return Meeting { hit: None, doubtful_from: Some(T::zero()) };
     }
     let at = -(local.nearest.z / slope);
     let distance = local.along + at;

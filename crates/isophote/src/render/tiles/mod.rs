@@ -29,10 +29,17 @@ pub const WIDTH: u32 = 64;
 /// Rows of a tile: bands that have as many are drawn best.
 pub const HEIGHT: u32 = 32;
 
-/// Whether scenes like this are drawn by tiles: spheres only, and many of them or with shadows.
+/// Whether scenes like this are drawn by tiles: spheres only, and many of them or with shadows; with lights that are
+/// somewhere, and ambient light that nothing keeps off.
 pub fn suit(scene: &PreparedScene) -> bool {
-    let is_round = scene.scene().shapes().iter().all(|shape| shape.geometry.is_round());
-    is_round && (scene.casts_shadows_between_shapes() || scene.primitive_count() > MANY)
+    let description = scene.scene();
+    let is_round = description.shapes().iter().all(|shape| shape.geometry.is_round());
+    let all_are_somewhere = description.lights().iter().all(|light| light.position().is_some());
+    let is_obstructed = description.ambient().is_some_and(|ambient| ambient.obstruction.is_some());
+    is_round
+        && all_are_somewhere
+        && !is_obstructed
+        && (scene.casts_shadows_between_shapes() || scene.primitive_count() > MANY)
 }
 
 /// With fewer spheres, and no shadows, going through the rows is faster.

@@ -3,7 +3,7 @@
 use super::group::{Group, MOST};
 use super::shadow::Shadows;
 use crate::lanes::{Element, Lane, Precision};
-use crate::light::PlacedLight;
+use crate::light::{Ambient, PlacedLight};
 use crate::map::Pixel;
 use crate::prepare::PreparedScene;
 use crate::real::Sum;
@@ -24,6 +24,8 @@ pub struct Shader<'a> {
     places: Box<Places>,
     shadows: Box<Shadows>,
     lights: Vec<PlacedLight>,
+    /// E_a (3.9), which nothing obstructs in the scenes that are drawn so.
+    ambient: f64,
     /// The lights that are above the horizon of a pixel, by their index among `lights`.
     chosen: Vec<usize>,
     /// v_j of the pixels for each of those.
@@ -123,6 +125,7 @@ impl<'a> Shader<'a> {
             places: Box::new(Places::new()),
             shadows: Box::new(Shadows::NEW),
             lights: Vec::new(),
+            ambient: scene.scene().ambient().map_or(0.0, Ambient::unobstructed_irradiance),
             chosen: Vec::new(),
             visible: Vec::new(),
             doubtful: [0; MOST / 8],
@@ -156,7 +159,7 @@ impl<'a> Shader<'a> {
                 doubtful.extend(in_doubt.map(|(_, cell)| cell.within(group.tile)));
             }
             let formula = self.scene.formula(group.primitive);
-            let fits = group.seen.ellipse.fits_single() && fits_single(&self.lights, formula.sharpness());
+            let fits = group.seen.ellipse.fits_single() && fits_single(&self.lights, self.ambient, formula.sharpness());
             if self.precision == Precision::Single && fits {
                 self.shade_in::<S::Narrow>(kind, group, formula, band)?;
             } else {
@@ -175,11 +178,7 @@ impl<'a> Shader<'a> {
         self.lights.clear();
         self.lights.extend(self.order.iter().map(|index| {
             let light = self.scene.scene().lights()[*index].seen_from::<f64>(center);
-            PlacedLight {
-                position: light.position * per_radius,
-                intensity: light.intensity * per_squared,
-                emission: light.emission,
-            }
+            PlacedLight { position: light.position * per_radius, intensity: light.intensity * per_squared, ..light }
         }));
     }
 
@@ -251,6 +250,8 @@ impl<'a> Shader<'a> {
             };
             let point = row.point(places.sphere.center, &place).point;
             let (irradiance, lobes) = self.sum(kind, &point, at, lobe);
+            let ambient = V::splat(kind, V::Element::from_f64(self.ambient));
+            let irradiance = irradiance + ambient;
             let diffuse = irradiance * formula.diffuse_factor(point.cos_theta_o);
             let specular = lobes * formula.specular_factor(point.cos_theta_o);
             for channel in &mut band.channels {
@@ -261,6 +262,8 @@ impl<'a> Shader<'a> {
                     ScalarChannel::Diffuse => diffuse,
                     ScalarChannel::Specular => specular,
                     ScalarChannel::Light(light) => self.irradiance_from(kind, &point, at, light),
+                    ScalarChannel::Ambient => ambient,
+                    ScalarChannel::AmbientError => V::splat(kind, V::Element::default()),
                     ScalarChannel::Depth => continue,
                 };
                 let overflow = match channel {

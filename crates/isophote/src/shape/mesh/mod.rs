@@ -1,6 +1,8 @@
 //! The triangle mesh (2.5).
 
 mod build;
+#[cfg(test)]
+mod tests;
 mod triangle;
 
 use super::{Accuracy, Bounds, Measure, Meeting, NearestPoint, Ray};
@@ -28,7 +30,6 @@ pub struct Mesh {
 
 impl Mesh {
     /// How a ray meets one of its triangles; see [`Triangle::meet`].
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, part: u32, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         self.triangle(part).meet(ray, accuracy, self.size())
     }

@@ -19,7 +19,7 @@ struct Crossing<T> {
     weights: [T; 3],
     /// In metres.
     distance: T,
-    /// What rounding may have cost a weight.
+    /// What rounding may have cost a weight: a quarter of the bound by which hit and miss are told apart.
     error: f64,
 }
 
@@ -30,7 +30,6 @@ impl Triangle {
     /// What an edge says depends on nothing but its two corners and the ray, and the neighbour that shares it computes the
     /// same number with the other sign: with ties counting as hits, a ray cannot slip between the two (Woop, Benthin and
     /// Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013).
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy, mesh_size: f64) -> Meeting<T> {
         let (crossing, doubtful_from) = self.cross(ray);
         let Some(crossing) = crossing else {
@@ -43,7 +42,7 @@ impl Triangle {
         let face = across.normalized();
         let is_back = T::zero().is_less(face.dot(ray.direction));
         let longest = sides[0].length().rounded().max(sides[1].length().rounded());
-        let mut normal_error = 8.0 * f64::EPSILON * longest * longest / across.length().rounded();
+        let mut normal_error = 3.0 * f64::EPSILON * longest * longest / across.length().rounded();
         let (normal, lift) = match self.normals {
             None => (if is_back { -face } else { face }, Vector::zero()),
             Some(normals) => {
@@ -64,7 +63,6 @@ impl Triangle {
     }
 
     /// Where the ray crosses the triangle, and from where on that is doubtful.
-    #[inline(always)]
     fn cross<T: Scalar>(&self, ray: &Ray<T>) -> (Option<Crossing<T>>, Option<f64>) {
         let corners = self.corners.map(|corner| (-ray.start_from(corner)).to_array());
         let direction = ray.direction.to_array();
@@ -102,7 +100,7 @@ impl Triangle {
         let is_hit =
             edges.iter().all(|edge| !edge.is_less(T::zero())) || edges.iter().all(|edge| !T::zero().is_less(*edge));
         let is_seen = is_hit && whole.rounded() != 0.0 && T::zero().is_less(distance);
-        (is_seen.then_some(Crossing { weights, distance, error }), doubtful_from)
+        (is_seen.then_some(Crossing { weights, distance, error: 0.25 * error }), doubtful_from)
     }
 
     /// From the first corner to the others.
@@ -114,7 +112,6 @@ impl Triangle {
 
     /// The normals of the corners, mixed by their weights. They say which side of the triangle is the front; then all
     /// are turned to the viewer's side together.
-    #[inline(always)]
     fn smooth<T: Scalar>(&self, face: Vector<T>, weights: &[T; 3], is_back: bool) -> Smooth<T> {
         let given = self.normals.map_or([face; 3], |normals| normals.map(Vector::from_f64));
         let has_none = |normal: Vector<T>| normal.dot(normal).rounded() == 0.0;
@@ -130,7 +127,6 @@ impl Triangle {
     /// The way out of the triangle up to the smooth surface that its normals pretend: above the tangent planes of all
     /// three corners. Shadow rays start there, or the triangles themselves would show at the terminator (Hanika, "Hacking
     /// the shadow terminator", Ray Tracing Gems II, 2021).
-    #[inline(always)]
     fn lift<T: Scalar>(&self, smooth: &Smooth<T>, weights: &[T; 3], offset: Vector<T>) -> Vector<T> {
         let [second, third] = self.sides();
         let mut lift = Vector::zero();
