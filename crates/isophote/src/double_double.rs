@@ -19,10 +19,44 @@ pub struct DoubleDouble<T = f64> {
 }
 
 /// A number type whose products can be had exactly, as two numbers.
+///
+/// Pairs of vectors must be computed in place, for the instructions at hand; of pairs of doubles that would only make the
+/// program large. So each type says by itself how its operations are called.
 pub trait ExactProduct: Real {
     /// self · factor − product, exactly, when `product` is the rounded self · factor.
     #[must_use]
     fn product_rest(self, factor: Self, product: Self) -> Self;
+
+    /// first + second.
+    #[must_use]
+    fn sum_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self>;
+
+    /// first · second.
+    #[must_use]
+    fn product_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self>;
+
+    /// first / second.
+    #[must_use]
+    fn quotient_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self>;
+}
+
+macro_rules! operations {
+    ($inline:meta) => {
+        #[$inline]
+        fn sum_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self> {
+            first.plus(second)
+        }
+
+        #[$inline]
+        fn product_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self> {
+            first.times(second)
+        }
+
+        #[$inline]
+        fn quotient_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self> {
+            first.over(second)
+        }
+    };
 }
 
 impl ExactProduct for f64 {
@@ -30,12 +64,25 @@ impl ExactProduct for f64 {
     fn product_rest(self, factor: Self, product: Self) -> Self {
         self.mul_add(factor, -product)
     }
+
+    operations!(inline);
 }
 
 impl<V: Lane<Element = f64>> ExactProduct for V {
     #[inline(always)]
     fn product_rest(self, factor: Self, product: Self) -> Self {
         Lane::product_rest(self, factor, product)
+    }
+
+    operations!(inline(always));
+}
+
+impl<T> DoubleDouble<T> {
+    /// The same number in another type: `convert` must be exact.
+    #[must_use]
+    #[inline(always)]
+    pub fn map<U>(self, convert: impl Fn(T) -> U) -> DoubleDouble<U> {
+        DoubleDouble { high: convert(self.high), low: convert(self.low) }
     }
 }
 
@@ -45,13 +92,6 @@ impl<T: ExactProduct> DoubleDouble<T> {
     #[inline(always)]
     pub fn exactly(high: T) -> Self {
         Self { high, low: high.constant(0.0) }
-    }
-
-    /// The same number in another type: `convert` must be exact.
-    #[must_use]
-    #[inline(always)]
-    pub fn map<U>(self, convert: impl Fn(T) -> U) -> DoubleDouble<U> {
-        DoubleDouble { high: convert(self.high), low: convert(self.low) }
     }
 
     /// The nearest number of half the digits.
@@ -197,15 +237,40 @@ impl Scalar for DoubleDouble {
     }
 }
 
+impl<T: ExactProduct> DoubleDouble<T> {
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        let high = Self::sum_of(self.high, other.high);
+        let low = Self::sum_of(self.low, other.low);
+        let carried = Self::normalized(high.high, high.low + low.high);
+        Self::normalized(carried.high, carried.low + low.low)
+    }
+
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        let product = Self::product_of(self.high, other.high);
+        let across = self.high * other.low + self.low * other.high;
+        Self::normalized(product.high, product.low + across)
+    }
+
+    /// Long division, three digits of 53 bits.
+    #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        let first = self.high / other.high;
+        let rest = self - other * Self::exactly(first);
+        let second = rest.high / other.high;
+        let rest = rest - other * Self::exactly(second);
+        let third = rest.high / other.high;
+        Self::sum_of(first, second) + Self::exactly(third)
+    }
+}
+
 impl<T: ExactProduct> Add for DoubleDouble<T> {
     type Output = Self;
 
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        let high = Self::sum_of(self.high, other.high);
-        let low = Self::sum_of(self.low, other.low);
-        let carried = Self::normalized(high.high, high.low + low.high);
-        Self::normalized(carried.high, carried.low + low.low)
+        T::sum_of_pairs(self, other)
     }
 }
 
@@ -232,24 +297,16 @@ impl<T: ExactProduct> Mul for DoubleDouble<T> {
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        let product = Self::product_of(self.high, other.high);
-        let across = self.high * other.low + self.low * other.high;
-        Self::normalized(product.high, product.low + across)
+        T::product_of_pairs(self, other)
     }
 }
 
 impl<T: ExactProduct> Div for DoubleDouble<T> {
     type Output = Self;
 
-    /// Long division, three digits of 53 bits.
     #[inline(always)]
     fn div(self, other: Self) -> Self {
-        let first = self.high / other.high;
-        let rest = self - other * Self::exactly(first);
-        let second = rest.high / other.high;
-        let rest = rest - other * Self::exactly(second);
-        let third = rest.high / other.high;
-        Self::sum_of(first, second) + Self::exactly(third)
+        T::quotient_of_pairs(self, other)
     }
 }
 

@@ -209,57 +209,58 @@ impl<T: ExactProduct> Ellipse<T> {
         let reach = root * per_z_part;
         let row = nearest_whole((y_middle - grid.first_y) * grid.per_row);
         let y_of_row = grid.first_y + grid.row_step * DoubleDouble::exactly(row);
-        let middle = |y_screen: DoubleDouble<T>| x * (y_screen * y + z) * per_a;
-        let column = nearest_whole((middle(y_middle) - grid.first_x) * grid.per_column);
+        let middle_there = x * (y_middle * y + z) * per_a;
+        let column = nearest_whole((middle_there - grid.first_x) * grid.per_column);
         let x_of_column = grid.first_x + grid.column_step * DoubleDouble::exactly(column);
-        let from_row = |y_screen: DoubleDouble<T>| ((y_screen - y_of_row) * grid.per_row).nearest();
-        let [first, last] = [from_row(y_middle - reach), from_row(y_middle + reach)];
+        let first = ((y_middle - reach - y_of_row) * grid.per_row).nearest();
+        let last = ((y_middle + reach - y_of_row) * grid.per_row).nearest();
         let is_upright = first.is_less(last);
         let rows = [T::select(is_upright, first, last), T::select(is_upright, last, first)];
         let gap_squared = x * x + y * y + z_part;
-        let rows_over_columns = grid.row_step * grid.per_column;
-        let stretch = rows_over_columns * per_a;
+        let stretch = grid.row_step * grid.per_column * per_a;
         let direction = grid.forward + grid.right * x_of_column + grid.up * y_of_row;
-        let directions = [direction, grid.right * grid.column_step, grid.up * grid.row_step];
-        let nearest = |vector: Vector<DoubleDouble<T>>| {
-            vector.map(
-                #[inline(always)]
-                |number| number.nearest(),
-            )
-        };
+        let [by_column, by_row] = [grid.right * grid.column_step, grid.up * grid.row_step];
+        let middle = x * (y_of_row * y + z) * per_a;
         Self {
             column,
             row,
             rows,
-            middle: [((middle(y_of_row) - x_of_column) * grid.per_column).nearest(), (x * y * stretch).nearest()],
+            middle: [((middle - x_of_column) * grid.per_column).nearest(), (x * y * stretch).nearest()],
             width_squared: (gap_squared * z_part * stretch * stretch).nearest(),
             clearance: (a * grid.column_step * grid.column_step).nearest(),
-            direction: directions.map(nearest),
-            moment: directions.map(
-                #[inline(always)]
-                |direction| nearest(direction.cross(from_eye)),
-            ),
+            direction: [nearest(direction), nearest(by_column), nearest(by_row)],
+            moment: [
+                nearest(direction.cross(from_eye)),
+                nearest(by_column.cross(from_eye)),
+                nearest(by_row.cross(from_eye)),
+            ],
             center: nearest(from_eye),
         }
     }
+}
+
+#[inline(always)]
+fn nearest<T: ExactProduct>(vector: Vector<DoubleDouble<T>>) -> Vector<T> {
+    Vector::new(vector.x.nearest(), vector.y.nearest(), vector.z.nearest())
 }
 
 impl<T: Copy> Ellipse<T> {
     /// The same outline in another number type.
     #[inline(always)]
     pub fn map<U>(&self, convert: impl Fn(T) -> U) -> Ellipse<U> {
-        let pair = |[first, second]: [T; 2]| [convert(first), convert(second)];
-        let three =
-            |[first, second, third]: [Vector<T>; 3]| [first.map(&convert), second.map(&convert), third.map(&convert)];
         Ellipse {
             column: convert(self.column),
             row: convert(self.row),
-            rows: pair(self.rows),
-            middle: pair(self.middle),
+            rows: [convert(self.rows[0]), convert(self.rows[1])],
+            middle: [convert(self.middle[0]), convert(self.middle[1])],
             width_squared: convert(self.width_squared),
             clearance: convert(self.clearance),
-            direction: three(self.direction),
-            moment: three(self.moment),
+            direction: [
+                self.direction[0].map(&convert),
+                self.direction[1].map(&convert),
+                self.direction[2].map(&convert),
+            ],
+            moment: [self.moment[0].map(&convert), self.moment[1].map(&convert), self.moment[2].map(&convert)],
             center: self.center.map(&convert),
         }
     }
@@ -346,20 +347,24 @@ impl Grid {
     /// The same grid for vectors of doubles.
     #[inline(always)]
     pub fn map<U>(&self, convert: impl Fn(f64) -> U) -> Grid<U> {
-        let number = |number: DoubleDouble| number.map(&convert);
         Grid {
-            eye: self.eye.map(number),
-            right: self.right.map(number),
-            up: self.up.map(number),
-            forward: self.forward.map(number),
-            first_x: number(self.first_x),
-            first_y: number(self.first_y),
-            column_step: number(self.column_step),
-            row_step: number(self.row_step),
-            per_column: number(self.per_column),
-            per_row: number(self.per_row),
+            eye: vector_of(self.eye, &convert),
+            right: vector_of(self.right, &convert),
+            up: vector_of(self.up, &convert),
+            forward: vector_of(self.forward, &convert),
+            first_x: self.first_x.map(&convert),
+            first_y: self.first_y.map(&convert),
+            column_step: self.column_step.map(&convert),
+            row_step: self.row_step.map(&convert),
+            per_column: self.per_column.map(&convert),
+            per_row: self.per_row.map(&convert),
         }
     }
+}
+
+#[inline(always)]
+fn vector_of<U>(vector: Vector<DoubleDouble>, convert: &impl Fn(f64) -> U) -> Vector<DoubleDouble<U>> {
+    Vector { x: vector.x.map(convert), y: vector.y.map(convert), z: vector.z.map(convert) }
 }
 
 impl<T: ExactProduct> Grid<T> {

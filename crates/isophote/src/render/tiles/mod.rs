@@ -183,11 +183,7 @@ impl Work<'_> {
         let least_length = self.view.least_length(tile);
         loop {
             let limit = beam.depth_of(self.canvas.farthest() / (least_length * least_length));
-            let numbers = std::iter::from_fn(
-                #[inline(always)]
-                || self.walk.next::<S::Narrow>(kind, tree, &beam, limit),
-            );
-            self.outlines.take(numbers);
+            self.outlines.take::<S::Narrow>(kind, tree, &beam, limit, &mut self.walk);
             if self.outlines.is_exhausted() {
                 return true;
             }
