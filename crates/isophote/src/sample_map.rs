@@ -13,7 +13,7 @@ pub(crate) struct Seen {
 /// A map of brightness over the window −half..half in both directions, in metres; `seen` is asked at pixel centres.
 pub(crate) fn square_map(pixels: u32, half: f64, seen: impl Fn(f64, f64) -> Option<Seen>) -> Map {
     let size = Resolution { width: pixels, height: pixels };
-    let window = Window { x: [-half, half], y: [-half, half], length: LengthUnit::Metre };
+    let window = Window { x: [-half, half], y: [-half, half], length: LengthUnit::Metre, in_degrees: false };
     map_over(size, window, seen)
 }
 

@@ -6,10 +6,7 @@ use std::{
 };
 
 use super::{ExportError, FileMetadata, names, one_line, read::LONGEST_JSON};
-use crate::{
-    map::{Channel, Map, Quantity, Values},
-    units::Choice,
-};
+use crate::map::{Channel, Map, Quantity, Values};
 
 /// Which pixels become rows of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +61,7 @@ fn write_comments(map: &Map, columns: &[Vec<String>], out: &mut impl Write) -> R
             "column, row: pixel of the full image, {} × {}, from 0 at the top left",
             map.full.width, map.full.height
         ),
-        format!("x, y: centre of the pixel on the screen, {}", map.window.length.name()),
+        format!("x, y: centre of the pixel on the screen, {}", map.window.unit().name()),
         "shape: index of the shape that is seen, -1 where none is".into(),
     ];
     for (channel, names) in map.channels().iter().zip(columns).filter(|(_, names)| !names.is_empty()) {

@@ -9,7 +9,7 @@ pub use values::{Scalars, Values};
 use serde::{Deserialize, Serialize};
 
 use crate::reflectance::Convention;
-use crate::units::{Choice, LengthUnit, Quantities};
+use crate::units::{Choice, LengthUnit, Quantities, ScreenUnit};
 
 /// Width and height in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -57,15 +57,26 @@ pub struct Region {
     pub size: Resolution,
 }
 
-/// A rectangle on the screen plane, in the scene's length unit.
+/// A rectangle on the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Window {
     /// Left and right edge.
     pub x: [f64; 2],
     /// Lower and upper edge.
     pub y: [f64; 2],
-    /// The unit of both.
+    /// The unit of lengths in the map, and of both where they are lengths.
     pub length: LengthUnit,
+    /// Whether both are angles in degrees, as those of a fisheye are.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub in_degrees: bool,
+}
+
+impl Window {
+    /// The unit of the edges.
+    #[must_use]
+    pub fn unit(&self) -> ScreenUnit {
+        ScreenUnit::of(self.length, self.in_degrees)
+    }
 }
 
 /// What a channel holds.
@@ -81,7 +92,8 @@ pub enum Quantity {
     Diffuse,
     /// The specular part of the brightness.
     Specular,
-    /// Distance from the eye to the surface along the viewing ray, ‖P − O‖.
+    /// Distance to the surface along the viewing ray: from the eye, ‖P − O‖, or from the plane through it where rays are
+    /// parallel.
     Depth,
     /// The point P on the surface.
     Position,

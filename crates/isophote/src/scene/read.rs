@@ -11,7 +11,7 @@ use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
     AmbientSource, CameraSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource,
-    ShadowSource, SphereSource,
+    ShadowSource, SphereSource, WindowSource,
 };
 use crate::units::Choice;
 
@@ -61,7 +61,12 @@ fn read_camera(table: &mut Table<'_>) -> CameraSource {
         forward: table.numbers("forward"),
         target: table.numbers("target"),
         up: table.numbers("up"),
+        projection: table.choice("projection"),
         screen: table.table("screen", read_screen),
+        field_of_view: table.number("field_of_view"),
+        window: table.table("window", read_window),
+        longitude: table.numbers("longitude"),
+        latitude: table.numbers("latitude"),
         resolution: table.counts("resolution"),
     }
 }
@@ -76,6 +81,10 @@ fn read_sampling(table: &mut Table<'_>) -> SamplingSource {
 
 fn read_screen(table: &mut Table<'_>) -> ScreenSource {
     ScreenSource { distance: table.number("distance"), x: table.numbers("x"), y: table.numbers("y") }
+}
+
+fn read_window(table: &mut Table<'_>) -> WindowSource {
+    WindowSource { x: table.numbers("x"), y: table.numbers("y") }
 }
 
 fn read_material(table: &mut Table<'_>) -> MaterialSource {

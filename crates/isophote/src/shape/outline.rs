@@ -1,7 +1,7 @@
 //! Where a shape appears on the screen: for renderers that go along rows instead of tracing ray by ray.
 
 use super::{Sphere, SurfacePoint};
-use crate::camera::{CameraFrame, between};
+use crate::camera::{CameraFrame, Projection, Screen, between};
 use crate::double_double::{DoubleDouble, ExactProduct};
 use crate::map::Resolution;
 use crate::real::{Real, Scalar};
@@ -147,7 +147,8 @@ pub(crate) const BEFORE_THE_EYE: f64 = 1e-3;
 impl Ellipse {
     /// The outline of a sphere.
     pub(super) fn of_sphere(sphere: &Sphere, frame: &CameraFrame<DoubleDouble>) -> Outline {
-        let grid = Grid::new(frame);
+        let Projection::Perspective(window) = &frame.projection else { return Outline::Unknown };
+        let grid = Grid::new(frame, window);
         let from_eye = grid.from_eye(Vector::from_f64(sphere.center), DoubleDouble::from_f64(sphere.radius));
         let in_camera = grid.in_camera(from_eye);
         let z = in_camera.z.rounded();
@@ -155,7 +156,7 @@ impl Ellipse {
             return Outline::Unseen;
         }
         if z < 1.0 + BEFORE_THE_EYE {
-            let is_outside = is_beside_the_window(in_camera.map(DoubleDouble::rounded).to_array(), frame);
+            let is_outside = is_beside_the_window(in_camera.map(DoubleDouble::rounded).to_array(), window);
             return if is_outside { Outline::Unseen } else { Outline::Unknown };
         }
         Outline::Ellipse(Box::new(Self::new(from_eye, in_camera, &grid)))
@@ -288,14 +289,14 @@ impl<T: Real> Ellipse<T> {
 }
 
 /// Whether a sphere of radius 1 is wholly beyond one of the four planes through the eye and an edge of the window.
-fn is_beside_the_window([x, y, z]: [f64; 3], frame: &CameraFrame<DoubleDouble>) -> bool {
+fn is_beside_the_window([x, y, z]: [f64; 3], window: &Screen) -> bool {
     let beyond = |along: f64, [low, high]: [f64; 2]| {
-        let [low, high] = [low, high].map(|edge| edge / frame.screen.distance);
+        let [low, high] = [low, high].map(|edge| edge / window.distance);
         let below = (low * z - along) / low.hypot(1.0);
         let above = (along - high * z) / high.hypot(1.0);
         below.max(above) > 1.0 + 1e-9
     };
-    beyond(x, frame.screen.x) || beyond(y, frame.screen.y)
+    beyond(x, window.x) || beyond(y, window.y)
 }
 
 /// The grid of pixel centres on a screen at distance 1, and the axes of the camera.
@@ -316,14 +317,14 @@ pub(crate) struct Grid<T = f64> {
 
 impl Grid {
     /// The grid of a camera.
-    pub fn new(frame: &CameraFrame<DoubleDouble>) -> Self {
+    pub fn new(frame: &CameraFrame<DoubleDouble>, window: &Screen) -> Self {
         let exact = DoubleDouble::from_f64;
-        let per_distance = exact(1.0) / exact(frame.screen.distance);
+        let per_distance = exact(1.0) / exact(window.distance);
         let step =
             |first: f64, last: f64, count: u32| (exact(last) - exact(first)) * per_distance / exact(f64::from(count));
         let Resolution { width, height } = frame.resolution;
-        let [left, right] = frame.screen.x;
-        let [bottom, top] = frame.screen.y;
+        let [left, right] = window.x;
+        let [bottom, top] = window.y;
         let (column_step, row_step) = (step(left, right, width), step(top, bottom, height));
         Self {
             eye: frame.eye,

@@ -12,6 +12,7 @@ use crate::export::figure::ticks::{self, Ticks};
 use crate::export::figure::{FigureError, level_lines, text};
 use crate::map::{Map, Quantity, Scalars};
 use crate::units::Choice;
+use crate::units::ScreenUnit;
 
 /// Longer side of the picture in px.
 const PICTURE: f64 = 480.0;
@@ -110,7 +111,10 @@ impl<'figure> Content<'figure> {
         let window = &map.window;
         let (width, height) = (window.x[1] - window.x[0], window.y[1] - window.y[0]);
         let size = [width, height].map(|side| side * PICTURE / width.max(height));
-        let length = options.length_unit.as_deref().unwrap_or(window.length.name());
+        let length = match window.unit() {
+            ScreenUnit::Length(length) => options.length_unit.as_deref().unwrap_or(length.name()),
+            ScreenUnit::Degree => ScreenUnit::Degree.name(),
+        };
         let axis = |name, ticks: Ticks| Axis { title: ticks::title(name, length, ticks.exponent), ticks };
         Ok(Self {
             map,

@@ -2,6 +2,7 @@
 
 use super::Tile;
 use crate::accelerate::{Accelerator, Beam, Walk};
+use crate::camera::Screen;
 use crate::double_double::DoubleDouble;
 use crate::lanes::Lane;
 use crate::map::Resolution;
@@ -24,9 +25,9 @@ pub struct View {
 }
 
 impl View {
-    /// The view of a scene's camera.
-    pub fn new(scene: &PreparedScene) -> Self {
-        let (frame, grid) = (scene.frame(), Grid::new(scene.precise_frame()));
+    /// The view of a scene's camera through its window.
+    pub fn new(scene: &PreparedScene, window: &Screen) -> Self {
+        let (frame, grid) = (scene.frame(), Grid::new(scene.precise_frame(), window));
         let (first, step) = grid.rounded();
         let mut view = Self {
             grid,
