@@ -52,7 +52,7 @@ pub fn metadata(sample: &Map, scene: &PreparedScene, quantities: &[Quantity]) ->
     }
     metadata.channels.retain(|channel| quantities.iter().any(|quantity| quantity.name() == channel.name));
     metadata.region = Region::all(camera.resolution);
-    metadata.window = Window { x: edges(camera.screen.x), y: edges(camera.screen.y), length };
+    metadata.window = Window { x: edges(camera.screen.x), y: edges(camera.screen.y), ..metadata.window };
     metadata
 }
 

@@ -1,8 +1,10 @@
 //! The result of a render: named channels of linear values with units, and what made them.
 
+mod coordinates;
 mod mask;
 mod values;
 
+pub use coordinates::{CoordinateAxis, Coordinates};
 pub use mask::{Mask, Run};
 pub use values::{Scalars, Values};
 
@@ -57,15 +59,18 @@ pub struct Region {
     pub size: Resolution,
 }
 
-/// A rectangle on the screen plane, in the scene's length unit.
+/// A rectangle on the screen plane, in the scene's length unit, or on a surface, in the units of its coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Window {
     /// Left and right edge.
     pub x: [f64; 2],
     /// Lower and upper edge.
     pub y: [f64; 2],
-    /// The unit of both.
+    /// The scene's unit of length: that of both, unless the coordinates say otherwise.
     pub length: LengthUnit,
+    /// What x and y are.
+    #[serde(default, skip_serializing_if = "Coordinates::is_screen")]
+    pub coordinates: Coordinates,
 }
 
 /// What a channel holds.

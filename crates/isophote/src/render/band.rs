@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 use super::{Observer, RenderError, RenderSettings};
 use crate::camera::ScreenPosition;
 use crate::lanes::{Element, Precision};
-use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Run, Values, Window};
+use crate::map::{
+    Channel, Coordinates, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Run, Values, Window,
+};
 use crate::prepare::{Hit, PreparedScene};
 use crate::scene::Scene;
 use crate::units::LengthUnit;
@@ -107,6 +109,7 @@ pub fn window(scene: &Scene, region: Region) -> Window {
         x: [x(corner.column), x(corner.column + size.width)],
         y: [y(corner.row + size.height), y(corner.row)],
         length: scene.length,
+        coordinates: Coordinates::Screen,
     }
 }
 

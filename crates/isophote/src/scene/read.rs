@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, HashSet};
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
-    CameraSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource, ShadowSource,
-    SphereSource,
+    CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource,
+    ShadowSource, SphereSource,
 };
 use crate::units::Choice;
 
@@ -46,6 +46,7 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         disk: table.tables("disk", shapes::read_disk),
         light: table.tables("light", read_light),
         probe: table.tables("probe", read_probe),
+        grid: table.tables("grid", read_grid),
     }
 }
 
@@ -109,6 +110,18 @@ fn read_light(table: &mut Table<'_>) -> LightSource {
 
 fn read_probe(table: &mut Table<'_>) -> ProbeSource {
     ProbeSource { name: table.text("name"), at: table.numbers("at"), published: table.number("published") }
+}
+
+fn read_grid(table: &mut Table<'_>) -> GridSource {
+    GridSource {
+        name: table.text("name"),
+        corner: table.numbers("corner"),
+        center: table.numbers("center"),
+        u: table.numbers("u"),
+        v: table.numbers("v"),
+        points: table.counts("points"),
+        side: table.choice("side"),
+    }
 }
 
 /// Problems as they are found, each place at most once.

@@ -1,9 +1,11 @@
 //! A scene exactly as it is written: nothing checked, nothing filled in. The schema is generated from here.
 
+mod grid;
 mod shapes;
 
 use std::collections::BTreeMap;
 
+pub use grid::GridSource;
 use schemars::{JsonSchema, Schema, transform::RecursiveTransform, transform::Transform};
 use serde::Serialize;
 pub use shapes::{
@@ -100,6 +102,10 @@ pub struct SceneSource {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]
     pub probe: Vec<ProbeSource>,
+    /// Grids of points at which the irradiance is computed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub grid: Vec<GridSource>,
 }
 
 /// The observer: a pinhole camera that looks through a window.

@@ -28,9 +28,8 @@ impl Rectangle {
     #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let absolute = |value: T| value.max(-value);
-        let beyond = |x: T, y: T| {
-            (absolute(x) - T::from_f64(self.half_width)).max(absolute(y) - T::from_f64(self.half_height))
-        };
+        let beyond =
+            |x: T, y: T| (absolute(x) - T::from_f64(self.half_width)).max(absolute(y) - T::from_f64(self.half_height));
         flat::meet(&self.placement, Some(self.size()), ray, accuracy, beyond)
     }
 
@@ -60,6 +59,24 @@ impl Rectangle {
     pub fn bounds(&self) -> Bounds {
         let half = self.placement.half_sides(Vector::new(self.half_width, self.half_height, 0.0));
         Bounds::around(self.placement.origin, half)
+    }
+
+    /// Its middle, in metres.
+    #[must_use]
+    pub fn center(&self) -> Vector {
+        self.placement.origin
+    }
+
+    /// Unit vectors along its width and its height, and its normal.
+    #[must_use]
+    pub fn axes(&self) -> [Vector; 3] {
+        self.placement.axes()
+    }
+
+    /// Width and height, in metres.
+    #[must_use]
+    pub fn sides(&self) -> [f64; 2] {
+        [2.0 * self.half_width, 2.0 * self.half_height]
     }
 
     /// Half its diagonal, in metres.

@@ -1,6 +1,7 @@
 //! From what is written to what is valid: every check of a scene, once.
 
 mod camera;
+mod grids;
 mod numbers;
 mod places;
 mod shapes;
@@ -30,6 +31,8 @@ pub mod limits {
     pub const SHAPES: usize = 100_000;
     /// Probes in a scene.
     pub const PROBES: usize = 100_000;
+    /// Grids in a scene.
+    pub const GRIDS: usize = 1000;
     /// The largest coordinate, in metres: a tenth of a light year.
     pub const COORDINATE: f64 = 1e15;
     /// The smallest radius and screen, in metres.
@@ -61,6 +64,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     let shapes = validator.shapes(&source);
     let lights = validator.lights(&source);
     let probes = validator.probes(&source);
+    let grids = validator.grids(&source);
     validator.eye_against_shapes(camera.as_ref(), &shapes);
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
     validator.probes_against_shapes(&probes, &shapes);
@@ -79,6 +83,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
             shapes: shapes.into_iter().flatten().collect(),
             lights: lights.into_iter().flatten().collect(),
             probes: probes.into_iter().flatten().collect(),
+            grids: grids.into_iter().flatten().collect(),
             warnings: warnings.into_list(),
             source,
         }),
@@ -135,7 +140,7 @@ impl Validator {
     fn words_of_advice(&mut self, source: &SceneSource, camera: Option<&Camera>) {
         let root = Path::root();
         let count = shapes::count(source);
-        if count == 0 {
+        if count == 0 && source.grid.is_empty() {
             let help = "write a table [[sphere]], [[box]] or of another shape";
             self.warn(&root.key("sphere"), "the scene has no shapes".into(), help);
         }
