@@ -7,9 +7,11 @@ GENERATED := target/generated
 # gungraun refuses a runner of another version than its own.
 GUNGRAUN := 0.20.0
 GUNGRAUN_RUNNER := target/gungraun/bin/gungraun-runner
+FUZZ_TARGETS := $(notdir $(basename $(wildcard fuzz/fuzz_targets/*.rs)))
+FUZZ_SECONDS := 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check bench bench-instructions compare audit docs generate generated-is-current
+.PHONY: help demo test check bench bench-instructions compare audit fuzz docs generate generated-is-current
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-18s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -42,6 +44,17 @@ bench-instructions: ## Count the instructions of every stage (needs valgrind; in
 audit: ## Licences, sources and bans of all dependencies (installs cargo-deny if it is missing)
 	@$(CARGO) deny --version >/dev/null 2>&1 || $(CARGO) install --locked cargo-deny
 	$(CARGO) deny check licenses sources bans
+
+# What a run finds goes on under target/; fuzz/corpus holds small seeds only. The limit on memory finds headers that lie.
+fuzz: ## Feed every reader of files damaged ones, FUZZ_SECONDS=60 each (installs cargo-fuzz and a nightly Rust)
+	@rustup run nightly rustc --version >/dev/null 2>&1 || rustup toolchain install nightly --profile minimal
+	@$(CARGO) fuzz --version >/dev/null 2>&1 || $(CARGO) install --locked cargo-fuzz
+	@for target in $(FUZZ_TARGETS); do \
+		echo "$$target:"; \
+		mkdir -p target/fuzz-corpus/$$target; \
+		$(CARGO) +nightly fuzz run --target-dir target/fuzz $$target target/fuzz-corpus/$$target fuzz/corpus/$$target -- \
+			-max_total_time=$(FUZZ_SECONDS) -timeout=10 -malloc_limit_mb=256 -print_final_stats=1 -verbosity=0 || exit 1; \
+	done
 
 docs: generate ## Regenerate what is generated, and build the documentation of the library
 	$(CARGO) doc --workspace --no-deps

@@ -53,7 +53,8 @@ fn read(argument: &SceneArgument) -> Result<(String, Scene)> {
     } else if Format::from_path(path).is_some() || is_store(path) {
         let no_scene = |error| SceneError::unreadable(&name, format!("no scene can be taken out of it: {error}"), None);
         let metadata = metadata(path).map_err(no_scene)?;
-        Scene::from_text(&name, &metadata.scene, Syntax::Toml)?
+        let directory = path.parent().unwrap_or(Path::new(""));
+        Scene::from_text_in(directory, &name, &metadata.scene, Syntax::Toml)?
     } else {
         Scene::from_file(path)?
     };

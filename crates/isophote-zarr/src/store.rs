@@ -195,7 +195,8 @@ impl Store {
     fn damaged_descriptions(&self) -> Result<Vec<Damage>, StoreError> {
         let mut damages = Vec::new();
         let metadata = &self.identity.metadata;
-        let scene = Scene::from_text("the store's scene", &metadata.scene, Syntax::Toml)
+        let directory = self.files.root().parent().unwrap_or(Path::new(""));
+        let scene = Scene::from_text_in(directory, "the store's scene", &metadata.scene, Syntax::Toml)
             .map_err(|error| StoreError::Damaged { path: self.files.path(ZARR_JSON), reason: error.to_string() })?;
         for (name, _, bytes) in describe::coordinates(&PreparedScene::new(&scene), &metadata.window)? {
             let file = format!("{name}/c/0");

@@ -1,10 +1,12 @@
 //! The one suite that every renderer passes.
 
 use crate::double_double::DoubleDouble;
+use crate::light::{Emission, Light, LightKind, PointLight};
 use crate::map::{Map, Pixel, Quantity, Region, Scalars, Values};
 use crate::prepare::PreparedScene;
 use crate::real::{Real, Scalar};
 use crate::render::{RenderError, RenderSettings, Renderer};
+use crate::shade::LightTerm;
 use crate::tolerance::{DOUBLE, Tolerance};
 use crate::vector::Vector;
 
@@ -71,7 +73,8 @@ pub enum NonConformance {
 }
 
 /// The channels whose error is measured.
-const COMPARED: [Quantity; 4] = [Quantity::Brightness, Quantity::Irradiance, Quantity::Diffuse, Quantity::Specular];
+const COMPARED: [Quantity; 5] =
+    [Quantity::Brightness, Quantity::Irradiance, Quantity::Diffuse, Quantity::Specular, Quantity::Ambient];
 const IRRADIANCE: usize = 1;
 
 /// Holds a renderer against the same formulas in 32 digits, pixel by pixel: what is seen and that nothing is where no
@@ -124,7 +127,7 @@ pub fn conforms(
 struct Exact {
     pixels: Vec<Option<ExactPixel>>,
     /// The brightest pixel of each compared channel.
-    peaks: [Peak; 4],
+    peaks: [Peak; 5],
 }
 
 #[derive(Clone, Copy)]
@@ -135,11 +138,11 @@ struct Peak {
 
 struct ExactPixel {
     shape: i32,
-    values: [f64; 4],
-    /// The smallest of cosθ_o, the lit lights' cosθ_i and the Lambertian ones' cosγ.
+    values: [f64; 5],
+    /// The smallest of cosθ_o, the lit lights' cosθ_i and [their own](cosine_of_emission).
     least_cosine: f64,
     /// n tanθ_h of the highlights, by their share in each value.
-    flanks: [f64; 4],
+    flanks: [f64; 5],
     /// In metres.
     distance: f64,
     /// In metres.
@@ -153,7 +156,7 @@ struct ExactPixel {
 
 impl Exact {
     fn new(scene: &PreparedScene, region: Region) -> Self {
-        let mut peaks = [Peak { value: 0.0, least_cosine: 1.0 }; 4];
+        let mut peaks = [Peak { value: 0.0, least_cosine: 1.0 }; 5];
         let mut pixels = Vec::with_capacity(region.size.pixels());
         for row in region.corner.row..region.corner.row + region.size.height {
             for column in region.corner.column..region.corner.column + region.size.width {
@@ -186,21 +189,20 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
             flanks += shininess * (1.0 / (cosine * cosine) - 1.0).max(0.0).sqrt() * lobe;
         }
         if DoubleDouble::zero().is_less(term.irradiance) {
-            // cosγ of a Lambertian light, 1 of an isotropic one.
-            let cos_gamma = term.intensity / DoubleDouble::from_f64(scene.scene().lights()[light].intensity);
-            for cosine in [term.cos_theta_i, cos_gamma] {
+            let of_emission = DoubleDouble::from_f64(cosine_of_emission(&scene.scene().lights()[light], term));
+            for cosine in [term.cos_theta_i, of_emission] {
                 least_cosine = DoubleDouble::select(cosine.is_less(least_cosine), cosine, least_cosine);
             }
         }
     });
-    let values = [shading.brightness(), shading.irradiance, shading.diffuse, shading.specular];
+    let values = [shading.brightness(), shading.irradiance, shading.diffuse, shading.specular, shading.ambient];
     let values = values.map(DoubleDouble::rounded);
     let flanks = flanks * formula.specular_factor(hit.point.cos_theta_o).rounded();
     let share = |value: f64| if value > 0.0 { flanks / value } else { 0.0 };
     Some(ExactPixel {
         shape: i32::try_from(hit.primitive.shape).unwrap_or(i32::MAX),
         values,
-        flanks: [share(values[0]), 0.0, 0.0, share(values[3])],
+        flanks: [share(values[0]), 0.0, 0.0, share(values[3]), 0.0],
         least_cosine: least_cosine.rounded(),
         distance: hit.distance.rounded(),
         position: rounded(hit.point.position()),
@@ -208,6 +210,21 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
         size: scene.scene().shapes()[hit.primitive.shape].geometry.size_near(rounded(hit.point.position())),
         by_light,
     })
+}
+
+/// cosγ of a Lambertian light: the relative error of its intensity is that of a direction over cosγ. Of any other light,
+/// what takes its place; 1 where the intensity does not depend on the direction.
+#[must_use]
+pub fn cosine_of_emission(light: &Light, term: &LightTerm<DoubleDouble>) -> f64 {
+    match &light.kind {
+        LightKind::Parallel(_) | LightKind::Point(PointLight { emission: Emission::Isotropic, .. }) => 1.0,
+        LightKind::Point(PointLight { emission: Emission::Lambertian { .. }, intensity, .. }) => {
+            (term.intensity / DoubleDouble::from_f64(*intensity)).rounded()
+        }
+        LightKind::Point(PointLight { emission: Emission::Spot(spot), .. }) => {
+            1.0 / spot.relative_growth(rounded(term.direction)).max(1.0)
+        }
+    }
 }
 
 fn rounded(vector: Vector<DoubleDouble>) -> Vector {

@@ -5,6 +5,7 @@ pub mod camera;
 pub mod conformance;
 pub mod double_double;
 pub mod export;
+mod hammersley;
 pub mod import;
 pub mod lanes;
 pub mod light;

@@ -1,4 +1,4 @@
-//! The formula: from light to brightness (3.1) to (3.6). It stands here once, for every number type.
+//! The formula: from light to brightness (3.1) to (3.9). It stands here once, for every number type.
 
 use crate::light::{Light, PlacedLight};
 use crate::real::{Real, Scalar, Sum};
@@ -9,8 +9,10 @@ use crate::vector::Vector;
 /// What a surface point sends to the eye, summed over all lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shading<T = f64> {
-    /// E = Σ E_j (3.1), W/m² or lx.
+    /// E = Σ E_j + E_a (3.1), (3.9), W/m² or lx.
     pub irradiance: T,
+    /// What of E is ambient light (3.9), W/m² or lx.
+    pub ambient: T,
     /// The diffuse part of B, in the convention's unit.
     pub diffuse: T,
     /// The specular part of B, in the convention's unit.
@@ -28,12 +30,13 @@ impl<T: Real> Shading<T> {
 
 /// Sums the brightness of a surface point over the lights, in their order.
 ///
-/// `visibility(j)` is v_j of (3.1): 1, or 0 in shadow. `each(j, term)` sees every light's own term.
+/// `visibility(j)` is v_j of (3.1): 1, or 0 in shadow. `ambient` is E_a of (3.9). `each(j, term)` sees every light's own term.
 #[inline(always)]
 pub fn shade<T: Scalar>(
     point: &SurfacePoint<T>,
     lights: &[Light],
     formula: &BrightnessFormula,
+    ambient: T,
     visibility: impl Fn(usize) -> T,
     mut each: impl FnMut(usize, &LightTerm<T>),
 ) -> Shading<T> {
@@ -45,9 +48,10 @@ pub fn shade<T: Scalar>(
         lobes.add(term.irradiance * term.lobe);
         each(index, &term);
     }
+    irradiance.add(ambient);
     let (diffuse, specular) = (formula.diffuse_factor(point.cos_theta_o), formula.specular_factor(point.cos_theta_o));
     let irradiance = irradiance.value();
-    Shading { irradiance, diffuse: irradiance * diffuse, specular: lobes.value() * specular }
+    Shading { irradiance, ambient, diffuse: irradiance * diffuse, specular: lobes.value() * specular }
 }
 
 /// One light's term of the sum, with the steps that lead to it.
@@ -57,9 +61,9 @@ pub struct LightTerm<T = f64> {
     pub visibility: T,
     /// L_j, the unit vector to the light.
     pub direction: Vector<T>,
-    /// r_j, in metres.
+    /// r_j, in metres; 1 for a parallel light, which has none.
     pub distance: T,
-    /// I_j(ω) towards the point, W/sr or cd.
+    /// I_j(ω) towards the point, W/sr or cd; E₀ of a parallel light, W/m² or lx.
     pub intensity: T,
     /// cosθ_i = max(0, N·L_j).
     pub cos_theta_i: T,
@@ -85,7 +89,7 @@ impl<T: Real> LightTerm<T> {
     }
 }
 
-/// E_j = v_j I_j cosθ_i / r_j² (3.1) and the lobe (N·H_j)ⁿ of (3.3) to (3.6).
+/// E_j = v_j I_j cosθ_i / r_j² (3.1) or v_j E₀ cosθ_i (3.8), and the lobe (N·H_j)ⁿ of (3.3) to (3.6).
 ///
 /// Neither L nor H is normalised: r H is split into its part along N, (cosθ_i + cosθ_o) r, and the part across, of
 /// whose squares cos²θ_h and sin²θ_h are the shares. Both parts keep their digits where the other one is small. What
@@ -99,7 +103,7 @@ pub fn light_term<T: Real>(
     visibility: T,
     lobe: &impl Lobe<T>,
 ) -> LightTerm<T> {
-    let to_light = light.position - point.offset;
+    let to_light = light.from_point(point.offset);
     let distance_squared = to_light.dot(to_light);
     let distance = distance_squared.sqrt();
     let along = point.normal.dot(to_light);

@@ -1,7 +1,7 @@
 //! The closed forms of docs/physics.md, section 5, to the precision that is promised.
 
 use isophote::analysis::probe::Place;
-use isophote::light::{Emission, Light};
+use isophote::light::{Emission, Light, LightKind, PointLight};
 use isophote::prepare::PreparedScene;
 use isophote::reflectance::{BrightnessFormula, Convention, Reflectance};
 use isophote::scene::Scene;
@@ -96,9 +96,11 @@ fn a_plane_under_a_lambertian_source_has_the_irradiance_of_cie_171_case_5_2() {
     let axis = Vector::new(0.0, -1.0, 0.0);
     let light = Light {
         name: "source".into(),
-        position: Vector::new(0.0, height, 0.0),
-        intensity,
-        emission: Emission::Lambertian { axis },
+        kind: LightKind::Point(PointLight {
+            position: Vector::new(0.0, height, 0.0),
+            intensity,
+            emission: Emission::Lambertian { axis },
+        }),
         casts_shadows: true,
     };
     let material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };
@@ -115,6 +117,35 @@ fn a_plane_under_a_lambertian_source_has_the_irradiance_of_cie_171_case_5_2() {
         assert_relative(irradiance, number(&row["exact"]), 1e-12, "exact");
         // The published table is rounded by hand: its entries are off by up to 0.023.
         assert!((irradiance - number(&row["published"])).abs() < 0.025, "{row}");
+    }
+}
+
+/// (5.4) on planes of a scene, lying and slanted: the light stands at the height over the plane's point.
+#[test]
+fn a_plane_of_a_scene_has_the_irradiance_of_cie_171_case_5_2() {
+    let table = reference("cie171_5_2.json");
+    let (intensity, height) = (number(&table["intensity"]), number(&table["height"]));
+    for [first, normal, second] in
+        [[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [[0.36, -0.8, 0.48], [0.48, 0.6, 0.64], [0.8, 0.0, -0.6]]]
+    {
+        let [first, normal, second] = [first, normal, second].map(Vector::from);
+        let source = normal * height;
+        let text = format!(
+            "version = 1\nlength = \"m\"\nconvention = \"irradiance\"\n\
+             plane = [{{ point = [0, 0, 0], normal = {:?} }}]\n\
+             light = [{{ position = {:?}, target = [0, 0, 0], emission = \"lambertian\", intensity = {intensity} }}]\n\
+             [camera]\neye = [1, 30, 1]\nforward = [1, -1, 1]\nscreen = {{ distance = 1, x = [-1, 1], y = [-1, 1] }}\n",
+            normal.to_array(),
+            source.to_array()
+        );
+        let scene =
+            Scene::from_text("plane", &text, isophote::scene::Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+        let prepared = PreparedScene::new(&scene);
+        for row in table["rows"].as_array().expect("rows") {
+            let point = first * number(&row["x"]) + second * number(&row["y"]);
+            let reading = prepared.probe(&Place::NearestTo(point)).expect("it is there");
+            assert_relative(reading.shading.irradiance, number(&row["exact"]), 1e-12, "exact");
+        }
     }
 }
 

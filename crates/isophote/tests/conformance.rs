@@ -3,7 +3,7 @@
 mod random;
 
 use isophote::analysis::probe::Place;
-use isophote::conformance::conforms;
+use isophote::conformance::{conforms, cosine_of_emission};
 use isophote::double_double::DoubleDouble;
 use isophote::lanes::{Instructions, Precision};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
@@ -95,7 +95,7 @@ fn single_precision_is_within_its_tolerance_on_the_scenes_of_the_repository() {
     }
 }
 
-/// Lights on all sides, of both kinds: blocks of them are skipped below the horizon, and the sums have many terms.
+/// Lights on all sides, of all kinds: blocks of them are skipped below the horizon, and the sums have many terms.
 fn with_many_lights(count: u32) -> SceneSource {
     let mut source = scene_file("lab.toml");
     source.probe.clear();
@@ -104,11 +104,22 @@ fn with_many_lights(count: u32) -> SceneSource {
         let (turn, height) = (f64::from(index) * 2.399_963, 1.0 - 2.0 * (f64::from(index) + 0.5) / f64::from(count));
         let (ring, distance) = ((1.0 - height * height).sqrt(), 1.5 + f64::from(index % 7));
         let is_lambertian = index.is_multiple_of(3);
+        if index % 11 == 5 {
+            return LightSource {
+                emission: Some(EmissionName::Parallel),
+                direction: Some([ring * turn.cos(), height, ring * turn.sin()]),
+                irradiance: Some(0.25),
+                ..LightSource::default()
+            };
+        }
+        let is_spot = index % 3 == 1;
         LightSource {
             name: None,
+            inner_angle: is_spot.then_some(10.0),
+            outer_angle: is_spot.then_some(40.0),
             position: Some([distance * ring * turn.cos(), distance * height, 5.0 + distance * ring * turn.sin()]),
-            emission: Some(if is_lambertian { EmissionName::Lambertian } else { EmissionName::Isotropic }),
-            target: is_lambertian.then_some([0.0, 0.0, 5.0]),
+            emission: Some([EmissionName::Lambertian, EmissionName::Spot, EmissionName::Isotropic][index as usize % 3]),
+            target: (is_lambertian || is_spot).then_some([0.3, 0.0, 5.0]),
             intensity: Some(f64::from(index % 5)),
             ..lamp.clone()
         }
@@ -347,7 +358,7 @@ proptest! {
     #![proptest_config(random::config(128))]
 
     #[test]
-    fn random_scenes_are_rendered_within_tolerance(source in random::scenes()) {
+    fn random_scenes_are_rendered_within_tolerance(source in random::worlds()) {
         let scene = prepared(source);
         for renderer in renderers() {
             let result = conforms(renderer.as_ref(), &scene, &DOUBLE);
@@ -356,7 +367,7 @@ proptest! {
     }
 
     #[test]
-    fn random_scenes_in_single_precision_are_within_its_tolerance(source in random::scenes()) {
+    fn random_scenes_in_single_precision_are_within_its_tolerance(source in random::worlds()) {
         let scene = prepared(source);
         let result = conforms(&Lanes::new(Precision::Single, None), &scene, &SINGLE);
         prop_assert!(result.is_ok(), "{}", result.unwrap_err());
@@ -365,7 +376,7 @@ proptest! {
     /// Against the same point in 32 digits; a highlight that has fallen below a millionth of its peak is left out, as it
     /// is in maps.
     #[test]
-    fn random_probes_are_within_tolerance(source in random::scenes(), toward in prop::array::uniform3(-1.0..1.0_f64)) {
+    fn random_probes_are_within_tolerance(source in random::worlds(), toward in prop::array::uniform3(-1.0..1.0_f64)) {
         let scene = prepared(source);
         for shape in scene.scene().shapes() {
             let Geometry::Sphere(sphere) = shape.geometry else { panic!("these scenes are made of spheres") };
@@ -380,8 +391,9 @@ proptest! {
             let shininess = scene.scene().shapes()[primitive.shape].material.map_or(1.0, |material| {
                 scene.scene().materials()[material].reflectance.shininess
             });
-            let expected = scene.shade_precisely(&exact, |_, term| {
+            let expected = scene.shade_precisely(&exact, |light, term| {
                 if term.irradiance.rounded() > 0.0 {
+                    least_cosine = least_cosine.min(cosine_of_emission(&scene.scene().lights()[light], term));
                     least_cosine = least_cosine.min(term.cos_theta_i.rounded());
                     faintest_lobe = faintest_lobe.min(term.cos_theta_h.rounded().powf(shininess));
                 }
@@ -406,7 +418,7 @@ proptest! {
     /// Bytes do not depend on the number of threads, and a region is a part of the whole.
     #[test]
     fn threads_and_regions_change_nothing(
-        source in random::scenes(),
+        source in random::worlds(),
         threads in 1_usize..5,
         corner in (0_u32..32, 0_u32..24),
         size in (1_u32..32, 1_u32..24),

@@ -76,7 +76,7 @@ mistakes! {
     a_fractional_resolution: "resolution = [800, 600]" => "resolution = [800.5, 600]", 1;
     an_unknown_convention: "convention = \"lab\"" => "convention = \"labb\"", 1;
     an_unknown_unit: "length = \"m\"" => "length = \"inch\"", 1;
-    an_unknown_emission: "emission = \"isotropic\"" => "emission = \"spot\"", 1;
+    an_unknown_emission: "emission = \"isotropic\"" => "emission = \"laser\"", 1;
     an_axis_of_an_isotropic_light: "emission = \"isotropic\"" => "axis = [0, 0, 1]", 1;
     a_lambertian_light_without_axis: "emission = \"isotropic\"" => "emission = \"lambertian\"", 1;
     intensity_and_power: "intensity = 100" => "power = 3\nintensity = 100", 1;
@@ -86,6 +86,116 @@ mistakes! {
     a_probe_off_the_surface: "at = [0, 0, 4]" => "at = [0.353, 0.353, 4.830]", 1;
     an_unclosed_list: "eye = [0, 0, 0]" => "eye = [0, 0, 0", 1;
     a_key_given_twice: "radius = 1" => "radius = 1\nradius = 2", 1;
+}
+
+/// A shape of every other kind.
+const WORLD: &str = r#"version = 1
+length = "mm"
+convention = "irradiance"
+camera = { eye = [0, 0, 50], target = [0, 0, 0], screen = { distance = 5, x = [-4, 4], y = [-3, 3] } }
+light = [{ position = [0, 0, 40], intensity = 1 }]
+
+[[ellipsoid]]
+center = [0, 0, 0]
+radii = [1, 2, 3]
+rotation = { axis = [1, 1, 0], degrees = 30 }
+
+[[box]]
+center = [9, 0, 0]
+size = [3, 2, 1]
+
+[[cylinder]]
+from = [0, 9, 0]
+to = [0, 9, 5]
+radius = 0.5
+
+[[cone]]
+base = [0, -9, 0]
+apex = [0, -9, 4]
+radius = 2
+apex_radius = 1
+
+[[plane]]
+point = [0, 0, -9]
+normal = [0, 0, 1]
+
+[[rectangle]]
+center = [-9, 0, 0]
+normal = [0, 0, 2]
+up = [1, 1, 0]
+width = 4
+height = 3
+
+[[disk]]
+center = [-9, 9, 0]
+normal = [1, 0, 2]
+radius = 1.5
+"#;
+
+/// As `mistakes!`, in the scene above.
+macro_rules! mistakes_of_shapes {
+    ($($name:ident: $from:expr => $to:expr, $count:expr;)*) => {
+        $(
+            #[test]
+            fn $name() {
+                assert!(WORLD.contains($from), "the scene has no {:?}", $from);
+                let error = refused("world.toml", &WORLD.replacen($from, $to, 1), Syntax::Toml);
+                insta::assert_snapshot!(stringify!($name), error.report(false));
+                assert_eq!(error.problems.len(), $count);
+            }
+        )*
+    };
+}
+
+mistakes_of_shapes! {
+    two_radii_of_an_ellipsoid_are_wrong: "radii = [1, 2, 3]" => "radii = [1, 0, -3]", 2;
+    an_ellipsoid_with_one_radius: "radii = [1, 2, 3]" => "radius = 1", 2;
+    a_rotation_about_no_axis: "axis = [1, 1, 0]" => "axis = [0, 0, 0]", 1;
+    a_rotation_by_nothing: ", degrees = 30" => "", 1;
+    a_rotation_in_radians: "degrees = 30" => "radians = 0.5", 2;
+    a_rotation_that_is_a_list: "{ axis = [1, 1, 0], degrees = 30 }" => "[0, 30, 0]", 1;
+    a_box_of_no_height: "size = [3, 2, 1]" => "size = [3, 0, 1]", 1;
+    a_cylinder_of_no_length: "to = [0, 9, 5]" => "to = [0, 9, 0]", 1;
+    a_cone_whose_apex_is_its_base: "apex = [0, -9, 4]" => "apex = [0, -9, 0]", 1;
+    a_cone_that_is_all_point: "radius = 2" => "radius = 0", 1;
+    a_negative_apex_radius: "apex_radius = 1" => "apex_radius = -1", 1;
+    a_plane_without_direction: "normal = [0, 0, 1]" => "normal = [0, 0, 0]", 1;
+    a_plane_without_normal: "normal = [0, 0, 1]" => "", 1;
+    a_rectangle_of_no_area: "width = 4" => "width = 0", 1;
+    a_rectangle_whose_up_is_its_normal: "up = [1, 1, 0]" => "up = [0, 0, -1]", 1;
+    a_lying_rectangle_without_up: "normal = [0, 0, 2]\nup = [1, 1, 0]" => "normal = [0, 2, 0]", 1;
+    a_disk_of_negative_radius: "radius = 1.5" => "radius = -1.5", 1;
+    a_light_on_a_plane: "position = [0, 0, 40]" => "position = [3, 4, -9]", 1;
+    a_light_inside_a_box: "position = [0, 0, 40]" => "position = [9, 0.5, 0]", 1;
+    an_eye_on_a_disk: "eye = [0, 0, 50]" => "eye = [-9, 9, 0]", 1;
+    a_probe_beside_a_cone: "[[plane]]" => "[[probe]]\nat = [0, -12, 1]\n\n[[plane]]", 1;
+    two_shapes_of_different_kinds_with_one_name: "[[box]]" => "[[box]]\nname = \"ellipsoid[0]\"", 1;
+}
+
+#[test]
+fn a_scene_of_every_shape_is_valid_and_lists_them_by_kind() {
+    let scene = Scene::from_text("world.toml", WORLD, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+    let names: Vec<&str> = scene.shapes().iter().map(|shape| shape.name.as_str()).collect();
+    assert_eq!(
+        names,
+        ["ellipsoid[0]", "box[0]", "cylinder[0]", "cone[0]", "plane[0]", "rectangle[0]", "disk[0]"],
+        "whatever their order in the file"
+    );
+    let kinds: Vec<&str> = scene.shapes().iter().map(|shape| shape.geometry.kind()).collect();
+    assert_eq!(kinds, ["ellipsoid", "box", "cylinder", "cone", "plane", "rectangle", "disk"]);
+    let messages: Vec<&str> = scene.warnings().iter().map(|warning| warning.message.as_str()).collect();
+    assert_eq!(messages, ["the shapes cast no shadows on each other: each is lit as if it were alone"]);
+    let again = Scene::from_text("again", &scene.source().to_toml(), Syntax::Toml).expect("it was valid");
+    assert_eq!(again.source(), scene.source());
+}
+
+#[test]
+fn too_many_shapes_of_all_kinds_together_are_refused() {
+    let mut text = WORLD.to_owned();
+    text.extend(std::iter::repeat_n("[[disk]]\ncenter = [0, 0, 1]\nnormal = [0, 0, 1]\nradius = 1\n", 99_994));
+    let error = refused("world.toml", &text, Syntax::Toml);
+    assert_eq!(error.problems.len(), 1);
+    assert_eq!(error.problems[0].message, "the scene has 100001 shapes");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use anyhow::Result;
 use isophote::camera::{Camera, CameraFrame, Screen};
-use isophote::light::{Emission, Light};
+use isophote::light::{Emission, Light, LightKind};
 use isophote::reflectance::Reflectance;
 use isophote::scene::{Material, Probe, Problem, Scene, Shape};
 use isophote::shape::Measure;
@@ -46,6 +46,9 @@ fn to_text(scene: &Scene) -> String {
     row("right", vector(frame.right));
     row("screen", format!("distance {}, x {left} to {right}, y {bottom} to {top}", short(screen.distance)));
     row("resolution", format!("{} × {} pixels", camera.resolution.width, camera.resolution.height));
+    if let Some(ambient) = scene.ambient() {
+        row("ambient", format!("{} {}", short(ambient.radiance), scene.quantities().radiance_unit()));
+    }
     for (title, table) in [
         ("materials", materials(scene)),
         ("shapes", shapes(scene)),
@@ -94,14 +97,32 @@ fn lights(scene: &Scene) -> Option<String> {
         ("emission", Align::Left),
     ];
     let rows = scene.lights().iter().map(|light| {
-        let emission = match light.emission {
-            Emission::Isotropic => "isotropic".into(),
-            Emission::Lambertian { axis } => format!("lambertian, axis {}", vector(axis)),
-        };
-        let position = vector(light.position);
-        vec![light.name.clone(), position, short(light.intensity), short(light.power()), emission]
+        let light_row =
+            |position, intensity, power, emission| vec![light.name.clone(), position, intensity, power, emission];
+        match &light.kind {
+            LightKind::Point(point) => {
+                let emission = emission_text(&point.emission);
+                light_row(vector(point.position), short(point.intensity), short(point.power()), emission)
+            }
+            LightKind::Parallel(parallel) => {
+                let irradiance = format!("{} {}", short(parallel.irradiance), scene.quantities().irradiance_unit());
+                let emission = format!("parallel, direction {}, E₀ {irradiance}", vector(parallel.direction));
+                light_row("–".into(), "–".into(), "–".into(), emission)
+            }
+        }
     });
     filled(&columns, &rows.collect::<Vec<_>>())
+}
+
+fn emission_text(emission: &Emission) -> String {
+    match emission {
+        Emission::Isotropic => "isotropic".into(),
+        Emission::Lambertian { axis } => format!("lambertian, axis {}", vector(*axis)),
+        Emission::Spot(spot) => {
+            let [inner, outer] = [spot.inner_angle(), spot.outer_angle()].map(|angle| short(angle.to_degrees()));
+            format!("spot, axis {}, {inner}° to {outer}°", vector(spot.axis))
+        }
+    }
 }
 
 fn probes(scene: &Scene) -> Option<String> {
@@ -141,6 +162,7 @@ fn to_json(scene: &Scene) -> Value {
         "materials": scene.materials().iter().map(material_json).collect::<Vec<_>>(),
         "shapes": scene.shapes().iter().map(|shape| shape_json(shape, scene)).collect::<Vec<_>>(),
         "lights": scene.lights().iter().map(light_json).collect::<Vec<_>>(),
+        "ambient": scene.ambient().map(|ambient| json!({"radiance": ambient.radiance})),
         "probes": scene.probes().iter().map(probe_json).collect::<Vec<_>>(),
         "warnings": scene.warnings().iter().map(warning_json).collect::<Vec<_>>(),
     })
@@ -181,14 +203,29 @@ fn shape_json(shape: &Shape, scene: &Scene) -> Value {
 }
 
 fn light_json(light: &Light) -> Value {
-    let (emission, axis) = match light.emission {
+    let point = match &light.kind {
+        LightKind::Point(point) => point,
+        LightKind::Parallel(parallel) => {
+            return json!({
+                "name": light.name, "emission": "parallel", "direction": parallel.direction.to_array(),
+                "irradiance": parallel.irradiance,
+            });
+        }
+    };
+    let (emission, axis) = match point.emission {
         Emission::Isotropic => ("isotropic", None),
         Emission::Lambertian { axis } => ("lambertian", Some(axis.to_array())),
+        Emission::Spot(spot) => ("spot", Some(spot.axis.to_array())),
     };
-    json!({
-        "name": light.name, "position": light.position.to_array(), "intensity": light.intensity,
-        "power": light.power(), "emission": emission, "axis": axis,
-    })
+    let mut value = json!({
+        "name": light.name, "position": point.position.to_array(), "intensity": point.intensity,
+        "power": point.power(), "emission": emission, "axis": axis,
+    });
+    if let Emission::Spot(spot) = point.emission {
+        value["inner_angle"] = spot.inner_angle().to_degrees().into();
+        value["outer_angle"] = spot.outer_angle().to_degrees().into();
+    }
+    value
 }
 
 fn probe_json(probe: &Probe) -> Value {

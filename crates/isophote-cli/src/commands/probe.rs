@@ -211,6 +211,8 @@ pub struct ProbeJson {
 struct ChannelsJson {
     brightness: ValueJson,
     irradiance: ValueJson,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ambient: Option<ValueJson>,
     diffuse: ValueJson,
     specular: ValueJson,
 }
@@ -227,8 +229,12 @@ struct LightJson {
     irradiance: f64,
     cos_theta_i: f64,
     cos_theta_h: f64,
-    distance: f64,
-    intensity: f64,
+    /// None of a parallel light.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    distance: Option<f64>,
+    /// Likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    intensity: Option<f64>,
     visibility: f64,
     diffuse: f64,
     specular: f64,
@@ -246,8 +252,8 @@ impl ProbeJson {
             irradiance: term.irradiance,
             cos_theta_i: term.cos_theta_i,
             cos_theta_h: term.cos_theta_h,
-            distance: length.from_metres(term.distance),
-            intensity: term.intensity,
+            distance: light.position().map(|_| length.from_metres(term.distance)),
+            intensity: light.position().map(|_| term.intensity),
             visibility: term.visibility,
             diffuse: term.diffuse(formula, &reading.hit.point),
             specular: term.specular(formula, &reading.hit.point),
@@ -262,6 +268,7 @@ impl ProbeJson {
             channels: ChannelsJson {
                 brightness: brightness(reading.shading.brightness()),
                 irradiance: irradiance(reading.shading.irradiance),
+                ambient: description.ambient().map(|_| irradiance(reading.shading.ambient)),
                 diffuse: brightness(reading.shading.diffuse),
                 specular: brightness(reading.shading.specular),
             },

@@ -78,7 +78,11 @@ impl<'a> Job<'a> {
         if wanted.is_empty() {
             wanted.push(main.clone());
             if files.iter().any(MapFile::holds_many_channels) {
-                wanted.extend(Quantity::COMMON);
+                // Without ambient light its channel is nothing but zeros.
+                let has_ambient = scene.ambient().is_some();
+                wanted.extend(
+                    Quantity::COMMON.into_iter().filter(|quantity| has_ambient || *quantity != Quantity::Ambient),
+                );
             }
         } else if files.iter().any(MapFile::holds_many_channels) {
             // What tells the background from the dark goes with every file that has room for it.

@@ -99,7 +99,7 @@ fn quantities(arguments: &SectionArguments, scene: &Scene) -> Result<Vec<Quantit
         matches!(quantity, Quantity::Position | Quantity::Normal | Quantity::Shape | Quantity::Light(_))
     };
     if let Some(quantity) = quantities.iter().find(unsuitable) {
-        let allowed = "brightness, irradiance, diffuse, specular, depth";
+        let allowed = "brightness, irradiance, ambient, diffuse, specular, depth";
         return Err(Usage(format!("a section cannot show `{}`; allowed: {allowed}", quantity.name())).into());
     }
     Ok(if quantities.is_empty() { vec![Quantity::Brightness] } else { quantities })
@@ -118,6 +118,7 @@ impl Section<'_> {
         let (hit, shading) = sample.seen.as_ref()?;
         Some(match quantity {
             Quantity::Irradiance => shading.irradiance,
+            Quantity::Ambient => shading.ambient,
             Quantity::Diffuse => shading.diffuse,
             Quantity::Specular => shading.specular,
             Quantity::Depth => self.scene.length().from_metres(hit.distance),

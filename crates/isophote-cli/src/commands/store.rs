@@ -96,7 +96,8 @@ pub fn merge(arguments: &MergeArguments) -> Result<String> {
     end_in_order();
     let store = Store::open(&arguments.store).map_err(explained)?;
     let name = arguments.store.display().to_string();
-    let scene = PreparedScene::new(&Scene::from_text(&name, &store.metadata().scene, Syntax::Toml)?);
+    let directory = arguments.store.parent().unwrap_or(Path::new(""));
+    let scene = PreparedScene::new(&Scene::from_text_in(directory, &name, &store.metadata().scene, Syntax::Toml)?);
     let check = if arguments.check { Check::Content } else { Check::Presence };
     let statistics = store.merge(check).map_err(explained)?;
     printed(&statistics, &scene, arguments.json)

@@ -82,14 +82,12 @@ fn towards(name: &str, primitive: Primitive, scene: &Scene) -> Result<Vector> {
         let names: Vec<&str> = scene.lights().iter().take(20).map(|light| light.name.as_str()).collect();
         Usage(format!("--towards: there is no light \"{name}\"; there are: {}", names.join(", ")))
     })?;
-    // Other shapes refuse an axis anyway, whatever it is.
-    let geometry = &scene.shapes()[primitive.shape].geometry;
-    let direction = geometry.bounds(primitive.part).map(|bounds| {
-        let middle = (bounds.least + bounds.greatest) * 0.5;
-        light.position - middle
-    });
-    let direction = direction.filter(|direction| direction.length() > 0.0);
-    direction.ok_or_else(|| Usage(format!("--towards: \"{name}\" stands in the middle of the shape")).into())
+    let bounds = scene.shapes()[primitive.shape].geometry.bounds(primitive.part).unwrap_or_default();
+    let middle = (bounds.least + bounds.greatest) * 0.5;
+    let direction: Vector = light.from_place(middle, Vector::default());
+    let is_somewhere = direction.length() > 0.0;
+    let nowhere = || Usage(format!("--towards: the light \"{name}\" stands in the middle of the shape")).into();
+    is_somewhere.then_some(direction).ok_or_else(nowhere)
 }
 
 struct Summary<'s> {

@@ -51,7 +51,7 @@ fn the_schema_refuses_what_the_program_refuses() {
         ("/material/clay/shininess", json!(0)),
         ("/sphere/0/radius", json!(0)),
         ("/sphere/0", json!({"center": [0, 0, 5], "raduis": 1})),
-        ("/light/0/emission", json!("spot")),
+        ("/light/0/emission", json!("laser")),
         ("/light/0/intensity", json!(-1)),
         ("/probe/0/at", Value::Null),
     ] {
@@ -74,6 +74,7 @@ fn the_reader_knows_exactly_the_keys_of_the_schema() {
         ("/material/*", "[material.clay]\nzzz = 1"),
         ("/sphere/*", "[[sphere]]\nzzz = 1"),
         ("/light/*", "[[light]]\nzzz = 1"),
+        ("/ambient", "[ambient]\nzzz = 1"),
         ("/probe/*", "[[probe]]\nzzz = 1"),
         ("/grid/*", "[[grid]]\nzzz = 1"),
     ];

@@ -95,6 +95,7 @@ fn push(channel: &mut Channel, cells: &[Option<Cell>], light: usize, shape: i32,
     let in_unit = |vector: Vector| vector.to_array().map(|metres| window.length.from_metres(metres));
     let scalar = |cell: &Cell| match channel.quantity {
         Quantity::Irradiance => cell.shading.irradiance,
+        Quantity::Ambient => cell.shading.ambient,
         Quantity::Diffuse => cell.shading.diffuse,
         Quantity::Specular => cell.shading.specular,
         Quantity::Light(_) => cell.lights[light],

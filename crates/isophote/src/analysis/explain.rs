@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::probe::{ProbeReading, SeenFromEye};
-use crate::light::Emission;
+use crate::light::{Ambient, Emission, Light, LightKind, ParallelLight, PointLight};
 use crate::prepare::PreparedScene;
 use crate::reflectance::{Convention, Reflectance, lobe_constant};
 use crate::shade::LightTerm;
@@ -20,6 +20,9 @@ impl ProbeReading {
         self.explain_geometry(&mut text, scene, name);
         for (index, term) in self.terms.iter().enumerate() {
             self.explain_light(&mut text, scene, index, term);
+        }
+        if let Some(ambient) = scene.scene().ambient() {
+            self.explain_ambient(&mut text, scene, ambient);
         }
         self.explain_sum(&mut text, scene);
         text
@@ -71,12 +74,21 @@ impl ProbeReading {
     }
 
     fn explain_light(&self, text: &mut String, scene: &PreparedScene, index: usize, term: &LightTerm) {
+        let Light { name, kind, .. } = &scene.scene().lights()[index];
+        line(text, format_args!(""));
+        line(text, format_args!("Light {} \"{name}\"", index + 1));
+        match kind {
+            LightKind::Point(light) => self.explain_point_light(text, scene, light, index),
+            LightKind::Parallel(light) => self.explain_parallel_light(text, scene, light, index),
+        }
+        self.explain_reflection(text, scene, term);
+    }
+
+    fn explain_point_light(&self, text: &mut String, scene: &PreparedScene, light: &PointLight, index: usize) {
+        let term = &self.terms[index];
         let description = scene.scene();
         let length = description.length();
-        let light = &description.lights()[index];
         let unit = description.quantities().irradiance_unit();
-        line(text, format_args!(""));
-        line(text, format_args!("Light {} \"{}\"", index + 1, light.name));
         line(text, format_args!("  S   = {} {}", vector_in(light.position, length), length.name()));
         let metres = digits(term.distance);
         if length == LengthUnit::Metre {
@@ -86,32 +98,9 @@ impl ProbeReading {
             line(text, format_args!("  r   = ‖S − P‖ = {distance} {} = {metres} m", length.name()));
         }
         line(text, format_args!("  L   = (S − P)/r = {}", vector(term.direction)));
-        let cosine = self.hit.point.normal.dot(term.direction);
-        line(text, format_args!("  cosθ_i = max(0, N·L) = max(0, {}) = {}", digits(cosine), digits(term.cos_theta_i)));
-        let intensity_unit = description.quantities().intensity_unit();
-        match light.emission {
-            Emission::Isotropic => {
-                line(text, format_args!("  I   = {} {intensity_unit}, isotropic", digits(term.intensity)));
-            }
-            Emission::Lambertian { axis } => {
-                let cosine = axis.dot(-term.direction);
-                line(text, format_args!("  A   = {}   axis of the light", vector(axis)));
-                line(text, format_args!("  cosγ = A·(−L) = {}", digits(cosine)));
-                let (on_axis, intensity) = (digits(light.intensity), digits(term.intensity));
-                let cosine = digits(cosine);
-                line(
-                    text,
-                    format_args!(
-                        "  I   = I₀ max(0, cosγ) = {on_axis} × max(0, {cosine}) = {intensity} {intensity_unit}"
-                    ),
-                );
-            }
-        }
-        if let Some(blocker) = self.blockers[index] {
-            let name = scene.scene().name_of(blocker);
-            let what = if blocker == self.hit.primitive { "the wall of " } else { "" };
-            line(text, format_args!("  v   = {}: {what}\"{name}\" stands between", term.visibility));
-        }
+        self.explain_cosine(text, term);
+        explain_emission(text, light, term, description.quantities().intensity_unit());
+        self.explain_visibility(text, scene, index);
         line(
             text,
             format_args!(
@@ -123,36 +112,70 @@ impl ProbeReading {
                 digits(term.irradiance)
             ),
         );
-        self.explain_reflection(text, scene, term);
+    }
+
+    fn explain_parallel_light(&self, text: &mut String, scene: &PreparedScene, light: &ParallelLight, index: usize) {
+        let term = &self.terms[index];
+        let unit = scene.scene().quantities().irradiance_unit();
+        line(text, format_args!("  D   = {}   the way that its light travels", vector(light.direction)));
+        line(text, format_args!("  L   = −D = {}", vector(term.direction)));
+        self.explain_cosine(text, term);
+        let across = digits(light.irradiance);
+        line(text, format_args!("  E₀  = {across} {unit}, on a plane at right angles to D"));
+        self.explain_visibility(text, scene, index);
+        let (visibility, cosine, irradiance) = (term.visibility, digits(term.cos_theta_i), digits(term.irradiance));
+        line(
+            text,
+            format_args!("  E   = v E₀ cosθ_i = {visibility} × {across} × {cosine} = {irradiance} {unit}   (3.8)"),
+        );
+    }
+
+    fn explain_cosine(&self, text: &mut String, term: &LightTerm) {
+        let cosine = self.hit.point.normal.dot(term.direction);
+        line(text, format_args!("  cosθ_i = max(0, N·L) = max(0, {}) = {}", digits(cosine), digits(term.cos_theta_i)));
+    }
+
+    fn explain_visibility(&self, text: &mut String, scene: &PreparedScene, index: usize) {
+        if let Some(blocker) = self.blockers[index] {
+            let name = scene.scene().name_of(blocker);
+            let what = if blocker == self.hit.primitive { "the wall of " } else { "" };
+            line(text, format_args!("  v   = {}: {what}\"{name}\" stands between", self.terms[index].visibility));
+        }
+    }
+
+    fn explain_ambient(&self, text: &mut String, scene: &PreparedScene, ambient: &Ambient) {
+        let unit = scene.scene().quantities().irradiance_unit();
+        let (radiance, irradiance) = (digits(ambient.radiance), digits(self.shading.ambient));
+        line(text, format_args!(""));
+        line(text, format_args!("Ambient light"));
+        if ambient.obstruction.is_none() {
+            line(text, format_args!("  E   = π L_a = π × {radiance} = {irradiance} {unit}   (3.9)"));
+        } else {
+            let whole = ambient.unobstructed_irradiance();
+            let share = digits(if whole > 0.0 { self.shading.ambient / whole } else { 0.0 });
+            let error = digits(scene.ambient_irradiance(&self.hit).standard_error);
+            line(text, format_args!("  p   = {share} of the hemisphere, by cosθ, is free"));
+            line(
+                text,
+                format_args!(
+                    "  E   = π L_a p = π × {radiance} × {share} = {irradiance} {unit}, standard error {error}   (3.9)"
+                ),
+            );
+        }
+        self.explain_diffuse(text, scene, self.shading.ambient);
     }
 
     fn explain_reflection(&self, text: &mut String, scene: &PreparedScene, term: &LightTerm) {
+        self.explain_diffuse(text, scene, term.irradiance);
         let convention = scene.scene().convention();
         let Some(material) = scene.scene().material_of(self.hit.primitive) else { return };
-        if !convention.uses_material() {
+        let Reflectance { specular: k_s, shininess: n, .. } = scene.scene().materials()[material].reflectance;
+        if !convention.has_specular_part() || k_s == 0.0 || self.hit.point.cos_theta_o <= 0.0 {
             return;
         }
-        let Reflectance { diffuse: k_d, specular: k_s, shininess: n } = scene.scene().materials()[material].reflectance;
         let formula = scene.formula(self.hit.primitive);
         let irradiance = digits(term.irradiance);
         let end = format!("{}   ({})", convention.unit(scene.scene().quantities()), convention.formula_number());
-        if self.hit.point.cos_theta_o <= 0.0 {
-            line(text, format_args!("  diffuse = specular = 0 {end}, since θ_o ≥ 90°"));
-            return;
-        }
-        let diffuse = match convention {
-            Convention::Irradiance | Convention::Lambert | Convention::Course => {
-                format!("E k_d = {irradiance} × {k_d}")
-            }
-            Convention::Lab => {
-                format!("E k_d cosθ_o = {irradiance} × {k_d} × {}", digits(self.hit.point.cos_theta_o))
-            }
-            Convention::CoursePi | Convention::Radiance => format!("E k_d/π = {irradiance} × {k_d}/π"),
-        };
-        line(text, format_args!("  diffuse  = {diffuse} = {} {end}", digits(term.diffuse(formula, &self.hit.point))));
-        if !convention.has_specular_part() || k_s == 0.0 {
-            return;
-        }
         let half = if term.half.length() > 0.0 { term.half.normalized() } else { term.half };
         line(text, format_args!("  H   = (L + V)/‖L + V‖ = {}", vector(half)));
         let (cosine, lobe) = (digits(term.cos_theta_h), digits(term.lobe));
@@ -169,12 +192,39 @@ impl ProbeReading {
         line(text, format_args!("  specular = {specular} = {} {end}", digits(term.specular(formula, &self.hit.point))));
     }
 
+    fn explain_diffuse(&self, text: &mut String, scene: &PreparedScene, irradiance: f64) {
+        let convention = scene.scene().convention();
+        let Some(material) = scene.scene().material_of(self.hit.primitive) else { return };
+        if !convention.uses_material() {
+            return;
+        }
+        let k_d = scene.scene().materials()[material].reflectance.diffuse;
+        let end = format!("{}   ({})", convention.unit(scene.scene().quantities()), convention.formula_number());
+        if self.hit.point.cos_theta_o <= 0.0 {
+            line(text, format_args!("  diffuse = specular = 0 {end}, since θ_o ≥ 90°"));
+            return;
+        }
+        let value = digits(irradiance * scene.formula(self.hit.primitive).diffuse_factor(self.hit.point.cos_theta_o));
+        let irradiance = digits(irradiance);
+        let diffuse = match convention {
+            Convention::Irradiance | Convention::Lambert | Convention::Course => {
+                format!("E k_d = {irradiance} × {k_d}")
+            }
+            Convention::Lab => {
+                format!("E k_d cosθ_o = {irradiance} × {k_d} × {}", digits(self.hit.point.cos_theta_o))
+            }
+            Convention::CoursePi | Convention::Radiance => format!("E k_d/π = {irradiance} × {k_d}/π"),
+        };
+        line(text, format_args!("  diffuse  = {diffuse} = {value} {end}"));
+    }
+
     fn explain_sum(&self, text: &mut String, scene: &PreparedScene) {
         let description = scene.scene();
         let convention = description.convention();
         let unit = convention.unit(description.quantities());
         line(text, format_args!(""));
-        line(text, format_args!("Sum over {} light{}", self.terms.len(), if self.terms.len() == 1 { "" } else { "s" }));
+        let (lights, ambient) = (self.terms.len(), description.ambient().map_or("", |_| " and the ambient light"));
+        line(text, format_args!("Sum over {lights} light{}{ambient}", if lights == 1 { "" } else { "s" }));
         let irradiance = description.quantities().irradiance_unit();
         line(text, format_args!("  E = {} {irradiance}   (3.1)", full(self.shading.irradiance)));
         if convention.uses_material() {
@@ -184,6 +234,39 @@ impl ProbeReading {
         let number = convention.formula_number();
         line(text, format_args!("  B = {} {unit}   ({number})", full(self.shading.brightness())));
     }
+}
+
+fn explain_emission(text: &mut String, light: &PointLight, term: &LightTerm, unit: &str) {
+    let (on_axis, intensity) = (digits(light.intensity), digits(term.intensity));
+    let axis = match light.emission {
+        Emission::Isotropic => {
+            line(text, format_args!("  I   = {intensity} {unit}, isotropic"));
+            return;
+        }
+        Emission::Lambertian { axis } => axis,
+        Emission::Spot(spot) => spot.axis,
+    };
+    let cosine = axis.dot(-term.direction);
+    line(text, format_args!("  A   = {}   axis of the light", vector(axis)));
+    line(text, format_args!("  cosγ = A·(−L) = {}", digits(cosine)));
+    let Emission::Spot(spot) = light.emission else {
+        let cosine = digits(cosine);
+        line(text, format_args!("  I   = I₀ max(0, cosγ) = {on_axis} × max(0, {cosine}) = {intensity} {unit}"));
+        return;
+    };
+    let [inner, outer] = [spot.inner_angle(), spot.outer_angle()];
+    let [inner_cosine, outer_cosine] = [inner, outer].map(libm::cos);
+    let [inner, outer] = [inner, outer].map(|angle| digits(angle.to_degrees()));
+    line(text, format_args!("  α   = {inner}°, β = {outer}°   half angles of its cones"));
+    let x = ((cosine - outer_cosine) / (inner_cosine - outer_cosine)).clamp(0.0, 1.0);
+    line(text, format_args!("  x   = (cosγ − cosβ)/(cosα − cosβ), from 0 to 1: {}", digits(x)));
+    line(
+        text,
+        format_args!(
+            "  I   = I₀ x²(3 − 2x) = {on_axis} × {} = {intensity} {unit}   (3.7)",
+            digits(x * x * (3.0 - 2.0 * x))
+        ),
+    );
 }
 
 fn line(text: &mut String, content: std::fmt::Arguments<'_>) {

@@ -24,7 +24,7 @@ pub enum GridError {
         cell: Pixel,
     },
     /// A channel that needs a surface.
-    #[error("a grid has no channel `{name}`; allowed: irradiance, position, normal, light.NAME")]
+    #[error("a grid has no channel `{name}`; allowed: irradiance, ambient, position, normal, light.NAME")]
     NoSuchChannel {
         /// The channel.
         name: String,
@@ -38,20 +38,21 @@ pub enum GridError {
 }
 
 impl PreparedScene {
-    /// What arrives (3.1) at each point of a grid, with the scene's shadows. A point stands at the centre of its cell;
+    /// What arrives (3.1), (3.9) at each point of a grid, with the scene's shadows. A point stands at the centre of its cell;
     /// row 0 is the one that is farthest along v, column 0 the nearest along u.
     ///
     /// # Errors
     /// A light at one of the points, or a channel that grids do not have.
     pub fn grid(&self, grid: &Grid, quantities: &[Quantity]) -> Result<Map, GridError> {
         let is_known = |quantity: &Quantity| {
-            matches!(quantity, Quantity::Irradiance | Quantity::Position | Quantity::Normal | Quantity::Light(_))
+            let is_place = matches!(quantity, Quantity::Position | Quantity::Normal);
+            is_place || matches!(quantity, Quantity::Irradiance | Quantity::Ambient | Quantity::Light(_))
         };
         if let Some(quantity) = quantities.iter().find(|quantity| !is_known(quantity)) {
             return Err(GridError::NoSuchChannel { name: quantity.name() });
         }
         for light in self.scene().lights() {
-            if let Some(cell) = grid.point_at(light.position) {
+            if let Some(cell) = light.position().and_then(|position| grid.point_at(position)) {
                 return Err(GridError::LightAtPoint { light: light.name.clone(), grid: grid.name.clone(), cell });
             }
         }

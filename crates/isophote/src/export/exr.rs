@@ -79,7 +79,14 @@ fn channel_names(map: &Map) -> Vec<Vec<String>> {
         Quantity::Position => axes("P"),
         Quantity::Normal => axes("N"),
         Quantity::Shape => vec!["shape.index".into()],
-        Quantity::Irradiance | Quantity::Diffuse | Quantity::Specular | Quantity::Light(_) => vec![format!("{name}.Y")],
+        Quantity::Irradiance
+        | Quantity::Ambient
+        | Quantity::AmbientError
+        | Quantity::Diffuse
+        | Quantity::Specular
+        | Quantity::Light(_) => {
+            vec![format!("{name}.Y")]
+        }
         Quantity::Samples | Quantity::Coverage => vec![format!("{name}.V")],
     };
     map.channels().iter().zip(names).map(in_file).collect()

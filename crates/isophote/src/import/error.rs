@@ -33,7 +33,7 @@ pub enum ImportError {
         /// The file.
         file: PathBuf,
         /// What is wrong, and where.
-        fault: Fault,
+        fault: Box<Fault>,
     },
 }
 

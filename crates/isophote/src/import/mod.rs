@@ -29,7 +29,7 @@ pub use spheres::SphereList;
 pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ImportError> {
     let format = MeshFormat::from_suffix(path)?;
     let bytes = format::contents(path)?;
-    mesh_from_bytes(&bytes, format).map_err(|fault| ImportError::Content { file: path.into(), fault })
+    mesh_from_bytes(&bytes, format).map_err(|fault| ImportError::Content { file: path.into(), fault: fault.into() })
 }
 
 /// The spheres of a file whose suffix is `.csv`, `.npy` or `.ply`.
@@ -39,7 +39,7 @@ pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ImportError> {
 pub fn read_spheres(path: &Path) -> Result<SphereList, ImportError> {
     let format = SpheresFormat::from_suffix(path)?;
     let bytes = format::contents(path)?;
-    spheres_from_bytes(&bytes, format).map_err(|fault| ImportError::Content { file: path.into(), fault })
+    spheres_from_bytes(&bytes, format).map_err(|fault| ImportError::Content { file: path.into(), fault: fault.into() })
 }
 
 /// The triangles of a file's contents.

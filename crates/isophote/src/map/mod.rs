@@ -78,8 +78,10 @@ pub struct Window {
 pub enum Quantity {
     /// Brightness by the scene's convention (3.1)–(3.6).
     Brightness,
-    /// Irradiance (illuminance in a photometric scene), summed over the lights (3.1).
+    /// Irradiance (illuminance in a photometric scene), summed over the lights and with the ambient light (3.1).
     Irradiance,
+    /// What of the irradiance is ambient light (3.9).
+    Ambient,
     /// The diffuse part of the brightness.
     Diffuse,
     /// The specular part of the brightness.
@@ -96,15 +98,18 @@ pub enum Quantity {
     Samples,
     /// The part of them that met a surface.
     Coverage,
+    /// The standard error of [`Ambient`](Self::Ambient) where what obstructs it is sampled.
+    AmbientError,
     /// Irradiance from the light with this name alone, one term of (3.1).
     Light(String),
 }
 
 impl Quantity {
     /// The quantities that every map can hold, whatever the lights are called.
-    pub const COMMON: [Self; 8] = [
+    pub const COMMON: [Self; 9] = [
         Self::Brightness,
         Self::Irradiance,
+        Self::Ambient,
         Self::Diffuse,
         Self::Specular,
         Self::Depth,
@@ -113,15 +118,15 @@ impl Quantity {
         Self::Shape,
     ];
 
-    /// How a pixel was sampled: one ray through its centre, unless the scene asks for more.
-    pub const OF_SAMPLING: [Self; 2] = [Self::Samples, Self::Coverage];
+    /// What tells how the others were sampled.
+    pub const OF_SAMPLING: [Self; 3] = [Self::Samples, Self::Coverage, Self::AmbientError];
 
     /// The unit of the quantity in a scene of this kind: `"1"` for pure numbers, `""` for indices.
     #[must_use]
     pub fn unit(&self, convention: Convention, quantities: Quantities, length: LengthUnit) -> &'static str {
         match self {
             Self::Brightness | Self::Diffuse | Self::Specular => convention.unit(quantities),
-            Self::Irradiance | Self::Light(_) => quantities.irradiance_unit(),
+            Self::Irradiance | Self::Ambient | Self::AmbientError | Self::Light(_) => quantities.irradiance_unit(),
             Self::Depth | Self::Position => length.name(),
             Self::Normal | Self::Samples | Self::Coverage => "1",
             Self::Shape => "",
@@ -143,6 +148,7 @@ impl Quantity {
         match self {
             Self::Brightness => "brightness".into(),
             Self::Irradiance => "irradiance".into(),
+            Self::Ambient => "ambient".into(),
             Self::Diffuse => "diffuse".into(),
             Self::Specular => "specular".into(),
             Self::Depth => "depth".into(),
@@ -151,6 +157,7 @@ impl Quantity {
             Self::Shape => "shape".into(),
             Self::Samples => "samples".into(),
             Self::Coverage => "coverage".into(),
+            Self::AmbientError => "ambient-error".into(),
             Self::Light(light) => format!("light.{light}"),
         }
     }

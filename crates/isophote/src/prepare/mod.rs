@@ -1,16 +1,19 @@
 //! A scene laid out for tracing and shading. It chooses no renderer.
 
 mod bare;
+mod obstruction;
 mod visibility;
 
 use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::OnceLock;
 
+pub use obstruction::AmbientIrradiance;
 pub use visibility::Blocking;
 
 use crate::camera::{CameraFrame, ScreenPosition};
 use crate::double_double::DoubleDouble;
+use crate::light::Light;
 use crate::map::{Pixel, Resolution};
 use crate::real::Scalar;
 use crate::reflectance::{BrightnessFormula, Reflectance};
@@ -71,9 +74,11 @@ impl PreparedScene {
     pub fn new(scene: &Scene) -> Self {
         let without_material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };
         let materials = scene.materials.iter().map(|material| &material.reflectance);
+        let steepest_edge = scene.lights.iter().map(Light::steepest_edge).fold(0.0, f64::max);
         let formulas = materials.chain([&without_material]).map(|material| {
             let formula = BrightnessFormula::new(scene.convention, material);
-            let accuracy = Accuracy::for_shading((formula.specular > 0.0).then_some(formula.shininess));
+            let shininess = (formula.specular > 0.0).then_some(formula.shininess);
+            let accuracy = Accuracy::for_shading(shininess, steepest_edge);
             let doubtful_in_outline = accuracy.doubtful_clearance(&TracingError::IN_OUTLINE);
             PreparedFormula { formula, accuracy, doubtful_in_outline }
         });
@@ -175,7 +180,12 @@ impl PreparedScene {
 
     /// Whether a shape may stand in another one's light.
     pub(crate) fn casts_shadows_between_shapes(&self) -> bool {
-        self.scene.shadows && self.primitives().nth(1).is_some()
+        let is_ambient_obstructed = self.scene.ambient.is_some_and(|ambient| ambient.obstruction.is_some());
+        (self.scene.shadows || is_ambient_obstructed) && self.has_shapes_beside_one()
+    }
+
+    fn has_shapes_beside_one(&self) -> bool {
+        self.primitives().nth(1).is_some()
     }
 
     /// All that can be hit.
@@ -225,7 +235,8 @@ impl PreparedScene {
             };
             if blocker.is_some() { 0.0 } else { 1.0 }
         };
-        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), visibility, each)
+        let ambient = self.ambient_irradiance(hit).irradiance;
+        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), ambient, visibility, each)
     }
 
     /// The same for a hit of 32 digits.
@@ -238,7 +249,9 @@ impl PreparedScene {
             let is_blocked = self.blocking(hit, light).blocker.is_some();
             DoubleDouble::from_f64(if is_blocked { 0.0 } else { 1.0 })
         };
-        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), visibility, each)
+        // The directions are sampled, which a double is good enough for.
+        let ambient = DoubleDouble::from_f64(self.ambient_irradiance(&hit.rounded()).irradiance);
+        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), ambient, visibility, each)
     }
 
     fn prepared_formula(&self, primitive: Primitive) -> &PreparedFormula {

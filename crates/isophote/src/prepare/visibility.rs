@@ -28,7 +28,9 @@ impl PreparedScene {
         let source = &self.scene.lights[light];
         let own = hit.primitive;
         let geometry = &self.shapes[own.shape].geometry;
-        if hit.from_inside && !geometry.part_encloses(own.part, source.position) {
+        // A parallel light is outside every shape.
+        let is_enclosed = source.position().is_some_and(|position| geometry.part_encloses(own.part, position));
+        if hit.from_inside && !is_enclosed {
             return Blocking { blocker: Some(own), is_doubtful: false };
         }
         if !self.scene.casts_shadows(own.shape, light) {
@@ -45,20 +47,27 @@ impl PreparedScene {
         lift: Vector<T>,
         light: usize,
     ) -> Blocking {
+        let source = &self.scene.lights[light];
         let start = point.offset + lift;
-        let to_light = Vector::from_f64(self.scene.lights[light].position - point.anchor) - start;
+        let to_light = source.from_place(point.anchor, start);
         if !T::zero().is_less(point.normal.dot(to_light)) {
             return Blocking::NONE;
         }
         let distance = to_light.length();
         let direction = to_light * (T::from_f64(1.0) / distance);
         let ray = Ray { anchor: Vector::from_f64(point.anchor), offset: start, direction };
-        self.nearest_blocker(own, &ray, distance)
+        self.nearest_blocker(own, &ray, source.position().map(|_| distance))
     }
 
-    fn nearest_blocker<T: Scalar>(&self, own: &[Primitive], ray: &Ray<T>, distance: T) -> Blocking {
+    /// What stands between the start of a ray on its `own` primitives and a light at this distance, or at none: a
+    /// parallel light is beyond all.
+    pub(super) fn nearest_blocker<T: Scalar>(&self, own: &[Primitive], ray: &Ray<T>, distance: Option<T>) -> Blocking {
         // What is nearer to the light than this may as well be behind it.
-        let uncertain = distance * T::from_f64(ERROR_OF_DISTANCE);
+        let bounds = |distance: T| {
+            let uncertain = distance * T::from_f64(ERROR_OF_DISTANCE);
+            [distance - uncertain, distance, distance + uncertain]
+        };
+        let bounds = distance.map(bounds);
         let mut nearest: Option<(T, Primitive)> = None;
         let mut doubtful_from: Option<T> = None;
         let casting =
@@ -69,13 +78,13 @@ impl PreparedScene {
         };
         for primitive in self.primitives().filter(casting) {
             let meeting = self.shapes[primitive.shape].geometry.meet(primitive.part, ray, Accuracy::OF_VISIBILITY);
-            let is_before_light = |at: &T| at.is_less(distance + uncertain);
+            let is_before_light = |at: &T| bounds.is_none_or(|[_, _, last]| at.is_less(last));
             doubtful_from = super::least(doubtful_from, meeting.doubtful_from.filter(is_before_light));
             let Some(at) = meeting.hit.map(|hit| hit.distance) else { continue };
-            if is_neighbour(primitive, at) || !at.is_less(distance) {
+            if is_neighbour(primitive, at) || bounds.is_some_and(|[_, distance, _]| !at.is_less(distance)) {
                 continue;
             }
-            if (distance - uncertain).is_less(at) {
+            if bounds.is_some_and(|[first, ..]| first.is_less(at)) {
                 doubtful_from = super::least(doubtful_from, Some(at));
             }
             if nearest.is_none_or(|(nearest, _)| at.is_less(nearest)) {

@@ -146,6 +146,10 @@ pub enum ScalarChannel {
     Brightness,
     /// E.
     Irradiance,
+    /// E_a.
+    Ambient,
+    /// The standard error of the ambient light.
+    AmbientError,
     /// The diffuse part of B.
     Diffuse,
     /// The specular part of B.
@@ -236,6 +240,8 @@ impl ScalarChannel {
         match quantity {
             Quantity::Brightness => Self::Brightness,
             Quantity::Irradiance => Self::Irradiance,
+            Quantity::Ambient => Self::Ambient,
+            Quantity::AmbientError => Self::AmbientError,
             Quantity::Diffuse => Self::Diffuse,
             Quantity::Specular => Self::Specular,
             Quantity::Depth => Self::Depth,
@@ -321,6 +327,8 @@ impl Band<'_> {
         let scalar = |scalar: ScalarChannel| match scalar {
             ScalarChannel::Brightness => shading.brightness(),
             ScalarChannel::Irradiance => shading.irradiance,
+            ScalarChannel::Ambient => shading.ambient,
+            ScalarChannel::AmbientError => scene.ambient_irradiance(hit).standard_error,
             ScalarChannel::Diffuse => shading.diffuse,
             ScalarChannel::Specular => shading.specular,
             ScalarChannel::Depth => length.from_metres(hit.distance),

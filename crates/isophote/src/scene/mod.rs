@@ -17,7 +17,7 @@ use source::{GridSource, SamplingSource, ShadowSource};
 pub use validate::limits;
 
 use crate::camera::Camera;
-use crate::light::Light;
+use crate::light::{Ambient, Light};
 use crate::map::Resolution;
 use crate::reflectance::{Convention, Reflectance};
 use crate::render::Sampling;
@@ -41,6 +41,7 @@ pub struct Scene {
     pub(crate) materials: Vec<Material>,
     pub(crate) shapes: Vec<Shape>,
     pub(crate) lights: Vec<Light>,
+    pub(crate) ambient: Option<Ambient>,
     pub(crate) probes: Vec<Probe>,
     pub(crate) grids: Vec<Grid>,
     pub(crate) warnings: Vec<Problem>,
@@ -116,14 +117,24 @@ impl Scene {
         let name = path.display().to_string();
         let text = Self::read_text(&mut open(path, &name)?, &name)?;
         let is_json = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("json"));
-        Self::from_text(&name, &text, if is_json { Syntax::Json } else { Syntax::Toml })
+        let syntax = if is_json { Syntax::Json } else { Syntax::Toml };
+        Self::from_text_in(path.parent().unwrap_or(FilePath::new("")), &name, &text, syntax)
     }
 
-    /// Reads a scene from a text; `name` stands for it in error messages.
+    /// Reads a scene from a text; `name` stands for it in error messages. Relative paths in it start at the working
+    /// directory.
     ///
     /// # Errors
     /// Every problem of the text and of the scene in it, with its place.
     pub fn from_text(name: &str, text: &str, syntax: Syntax) -> Result<Self, SceneError> {
+        Self::from_text_in(FilePath::new(""), name, text, syntax)
+    }
+
+    /// The same, with the directory at which relative paths start.
+    ///
+    /// # Errors
+    /// As [`from_text`](Self::from_text).
+    pub fn from_text_in(directory: &FilePath, name: &str, text: &str, syntax: Syntax) -> Result<Self, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
             let help = "`isophote new lab` writes a scene to start from";
@@ -140,7 +151,8 @@ impl Scene {
             syntax_problems[0].help = Some(help.into());
         }
         problems.extend(syntax_problems);
-        let source = read::read(&document, &mut problems);
+        let mut source = read::read(&document, &mut problems);
+        source.directory = directory.into();
         let lines = error::Lines::new(text);
         let locate = |mut problem: Problem| {
             problem.locate(&lines, &document);
@@ -297,6 +309,12 @@ impl Scene {
     #[must_use]
     pub fn lights(&self) -> &[Light] {
         &self.lights
+    }
+
+    /// The light from all around, if there is one.
+    #[must_use]
+    pub fn ambient(&self) -> Option<&Ambient> {
+        self.ambient.as_ref()
     }
 
     /// The probes, in the order of the file.

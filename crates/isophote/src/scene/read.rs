@@ -1,14 +1,16 @@
 //! From the tree to [`SceneSource`]: types and keys. Every key is named here once; what it may hold is checked in
 //! `validate`.
 
+mod files;
 mod shapes;
 
 use std::collections::{BTreeMap, HashSet};
+use std::path::PathBuf;
 
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
-    CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource,
+    AmbientSource, CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource,
     ShadowSource, SphereSource,
 };
 use crate::units::Choice;
@@ -26,6 +28,7 @@ pub fn read(document: &Document, problems: &mut Problems) -> SceneSource {
 
 fn read_scene(table: &mut Table<'_>) -> SceneSource {
     SceneSource {
+        directory: PathBuf::new(),
         version: table.count("version"),
         title: table.text("title"),
         length: table.choice("length"),
@@ -44,7 +47,10 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         plane: table.tables("plane", shapes::read_plane),
         rectangle: table.tables("rectangle", shapes::read_rectangle),
         disk: table.tables("disk", shapes::read_disk),
+        mesh: table.tables("mesh", files::read_mesh),
+        spheres: table.tables("spheres", files::read_spheres),
         light: table.tables("light", read_light),
+        ambient: table.table("ambient", read_ambient),
         probe: table.tables("probe", read_probe),
         grid: table.tables("grid", read_grid),
     }
@@ -104,7 +110,19 @@ fn read_light(table: &mut Table<'_>) -> LightSource {
         emission: table.choice("emission"),
         axis: table.numbers("axis"),
         target: table.numbers("target"),
+        inner_angle: table.number("inner_angle"),
+        outer_angle: table.number("outer_angle"),
+        direction: table.numbers("direction"),
+        irradiance: table.number("irradiance"),
         casts_shadows: table.boolean("casts_shadows"),
+    }
+}
+
+fn read_ambient(table: &mut Table<'_>) -> AmbientSource {
+    AmbientSource {
+        radiance: table.number("radiance"),
+        obstructed: table.boolean("obstructed"),
+        samples: table.count("samples"),
     }
 }
 

@@ -1,10 +1,13 @@
 //! A scene exactly as it is written: nothing checked, nothing filled in. The schema is generated from here.
 
+mod files;
 mod grid;
 mod shapes;
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
+pub use files::{MeshSource, SpheresSource};
 pub use grid::GridSource;
 use schemars::{JsonSchema, Schema, transform::RecursiveTransform, transform::Transform};
 use serde::Serialize;
@@ -22,6 +25,9 @@ use crate::units::{LengthUnit, Quantities};
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Isophote scene")]
 pub struct SceneSource {
+    /// Where relative paths in the scene start: the directory of its file.
+    #[serde(skip)]
+    pub directory: PathBuf,
     /// Version of the scene format: 1.
     #[schemars(required, extend("const" = 1))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -90,6 +96,14 @@ pub struct SceneSource {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]
     pub rectangle: Vec<RectangleSource>,
+    /// The meshes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub mesh: Vec<MeshSource>,
+    /// Files of many spheres.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub spheres: Vec<SpheresSource>,
     /// The disks.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]
@@ -98,6 +112,9 @@ pub struct SceneSource {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]
     pub light: Vec<LightSource>,
+    /// Light from all around.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ambient: Option<AmbientSource>,
     /// Points whose values are reported.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]
@@ -228,39 +245,75 @@ pub struct ShadowSource {
     pub receives_shadow: Option<bool>,
 }
 
-/// A point light.
+/// A light.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LightSource {
     /// A name of its own; by default `light[0]`, `light[1]` and so on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Where it stands: not inside a sphere, unless the eye is inside the same one.
-    #[schemars(required)]
+    /// Where it stands: not inside a sphere, unless the eye is inside the same one. Required, but for a parallel light,
+    /// which has no place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub position: Option<[f64; 3]>,
     /// Intensity on the axis in W/sr or cd. Either this or `power`.
     #[schemars(range(min = 0.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub intensity: Option<f64>,
-    /// Power sent out in all directions, in W or lm; isotropic: 4π times the intensity, lambertian: π times.
+    /// Power sent out in all directions, in W or lm; isotropic: 4π times the intensity, lambertian: π times,
+    /// spot: π (2 − cos α − cos β) times, for the half angles α and β of its cones.
     #[schemars(range(min = 0.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub power: Option<f64>,
-    /// How the intensity depends on the direction: not at all, or as the cosine of the angle from the axis.
+    /// How the intensity depends on the direction: not at all, as the cosine of the angle from the axis, or by two cones;
+    /// or that the light comes from one direction, like the sun's.
     #[schemars(extend("default" = "isotropic"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub emission: Option<EmissionName>,
-    /// The axis of a lambertian light, of any length but zero. Either this or `target`.
+    /// The axis of a lambertian light or of a spot, of any length but zero. Either this or `target`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 3]>,
-    /// A point at which a lambertian light is aimed. Either this or `axis`.
+    /// A point at which a lambertian light or a spot is aimed. Either this or `axis`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<[f64; 3]>,
+    /// Half the opening of the cone in which a spot has its full intensity, in degrees from the axis.
+    #[schemars(range(min = 0.0, max = 90.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inner_angle: Option<f64>,
+    /// Half the opening of the cone outside which a spot sends nothing, in degrees from the axis; at least half a degree more
+    /// than `inner_angle`.
+    #[schemars(range(min = 0.0, max = 90.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outer_angle: Option<f64>,
+    /// The direction in which the light of a parallel light travels, of any length but zero.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f64; 3]>,
+    /// What a parallel light gives to a plane at right angles to its direction, in W/m² or lx.
+    #[schemars(range(min = 0.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub irradiance: Option<f64>,
     /// Whether shapes keep its light from each other, if the scene has shadows.
     #[schemars(extend("default" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub casts_shadows: Option<bool>,
+}
+
+/// Light that comes from all around, with the same radiance from every direction.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AmbientSource {
+    /// Its radiance L_a in W/(m²·sr) or cd/m²: every surface receives π L_a of it.
+    #[schemars(required, range(min = 0.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radiance: Option<f64>,
+    /// Whether shapes keep it from each other.
+    #[schemars(extend("default" = false))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub obstructed: Option<bool>,
+    /// In how many directions each point looks for shapes that are in the way.
+    #[schemars(range(min = 1, max = 4096), extend("default" = 64))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples: Option<u64>,
 }
 
 /// The emission patterns by name.
@@ -271,15 +324,21 @@ pub enum EmissionName {
     Isotropic,
     /// I₀ cosγ, γ the angle from the axis.
     Lambertian,
+    /// I₀ within a cone, 0 outside another, a smooth step between.
+    Spot,
+    /// From one direction, without loss: the sun.
+    Parallel,
 }
 
 impl crate::units::Choice for EmissionName {
-    const ALL: &'static [Self] = &[Self::Isotropic, Self::Lambertian];
+    const ALL: &'static [Self] = &[Self::Isotropic, Self::Lambertian, Self::Spot, Self::Parallel];
 
     fn name(self) -> &'static str {
         match self {
             Self::Isotropic => "isotropic",
             Self::Lambertian => "lambertian",
+            Self::Spot => "spot",
+            Self::Parallel => "parallel",
         }
     }
 }

@@ -36,6 +36,20 @@ struct Side<T> {
     error: f64,
 }
 
+/// A point of the surface, in the shape's axes.
+struct Found<T> {
+    place: Vector<T>,
+    /// Outward.
+    normal: Vector<T>,
+    cos_theta_o: T,
+    /// Whether it is found again with 32 digits.
+    is_inexact: bool,
+}
+
+/// How much of what a ray may have lost across its direction shows in the normal of the side: that bound is a generous one,
+/// as hit and miss depend on it.
+const NORMAL_ERROR: f64 = 0.2;
+
 impl Cone {
     /// A cone from the middle of its base to its apex, two points that differ, with the radii at both (in metres, not
     /// negative, not both zero).
@@ -49,7 +63,6 @@ impl Cone {
     ///
     /// b² − ac is computed as ‖R D⊥ − k D_z P⊥‖² − (P⊥ × D⊥)², a difference of two squares that factors: with P near
     /// the axis it keeps its digits at the silhouette. cosθ_o is its root over R √(1 + k²), exactly.
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let local = self.placement.local_ray(ray);
         let size = self.size();
@@ -67,31 +80,22 @@ impl Cone {
         }
         let doubtful_from = doubtful_from.map(T::from_f64);
         let Some(crossing) = passage.crossing else { return Meeting { hit: None, doubtful_from } };
-        let place = local.at(crossing.at);
         let distance = local.along + crossing.at;
-        let turned = T::from_f64(if passage.from_inside { -1.0 } else { 1.0 });
-        let (place, normal, cos_theta_o, is_inexact) = if crossing.face == SIDE {
-            let slope = self.slope::<T>();
-            let radius = slope.times_plus(place.z, T::from_f64(self.radii[0]));
-            let from_axis = place.x.times_plus(place.x, place.y * place.y).sqrt();
-            let (x, y) = (place.x / from_axis, place.y / from_axis);
-            let steepness = slope.times_plus(slope, T::from_f64(1.0)).sqrt();
-            let cos_theta_o = side.root / (radius * steepness);
-            let is_inexact = self.is_inexact(&side, cos_theta_o.rounded(), radius.rounded(), error, accuracy);
-            let normal = Vector::new(x, y, -slope) * (turned / steepness);
-            (Vector::new(x * radius, y * radius, place.z), normal, cos_theta_o, is_inexact)
-        } else {
+        let place = local.at(crossing.at);
+        let on_side = (crossing.face == SIDE).then(|| self.on_side(place, &side, error, accuracy)).flatten();
+        let Found { place, normal, cos_theta_o, is_inexact } = on_side.unwrap_or_else(|| {
             let z = if crossing.face == BASE { T::zero() } else { height };
-            let slope = local.direction.z;
-            let towards_eye = T::from_f64(if T::zero().is_less(slope) { -1.0 } else { 1.0 });
-            let cosine = -(slope * towards_eye);
-            let is_inexact = accuracy.is_exceeded_by(error / (size * cosine.rounded()), 0.0);
-            (Vector::new(place.x, place.y, z), Vector::new(T::zero(), T::zero(), towards_eye), cosine, is_inexact)
-        };
+            let cos_theta_o = local.direction.z.max(-local.direction.z);
+            let outward = T::from_f64(if crossing.face == BASE { -1.0 } else { 1.0 });
+            let is_inexact = accuracy.is_exceeded_by(error / (size * cos_theta_o.rounded()), 0.0);
+            let normal = Vector::new(T::zero(), T::zero(), outward);
+            Found { place: Vector::new(place.x, place.y, z), normal, cos_theta_o, is_inexact }
+        });
+        let turned = T::from_f64(if passage.from_inside { -1.0 } else { 1.0 });
         let point = SurfacePoint {
             anchor: self.placement.origin,
             offset: self.placement.to_scene(place),
-            normal: self.placement.to_scene(normal),
+            normal: self.placement.to_scene(normal * turned),
             view: -ray.direction,
             cos_theta_o,
         };
@@ -101,7 +105,6 @@ impl Cone {
     }
 
     /// The part of a ray within the side; nothing if it passes for sure.
-    #[inline(always)]
     fn side<T: Scalar>(&self, local: &LocalRay<T>, error: f64) -> Option<Side<T>> {
         let (place, direction) = (local.nearest, local.direction);
         let slope = self.slope::<T>();
@@ -118,7 +121,7 @@ impl Cone {
         let second = place.x * direction.y - place.y * direction.x;
         let discriminant = (first - second) * (first + second);
         let growth = 1.0 + slope.rounded().abs();
-        let lost = 4.0 * (first.rounded() + second.rounded().abs()) * error * growth;
+        let lost = 4.0 * (first.rounded() + second.rounded().abs() + error * growth) * error * growth;
         let quadratic = (across - narrowing) * (across + narrowing);
         let constant = (from_axis - radius) * (from_axis + radius);
         let is_steep = quadratic.rounded() < 0.0;
@@ -133,20 +136,32 @@ impl Cone {
             let error = 2.0 * widest * growth * (error + f64::EPSILON * far) / root.rounded();
             Crossing { at, error: error.min(2.0 * NEVER), face: SIDE }
         };
-        let span = side_span(quadratic, half_linear, constant, root, narrowing, crossing);
+        let is_certain = constant.rounded().abs() > 4.0 * self.size() * error * growth;
+        let degenerate = Span::always(constant.is_less(T::zero()), if is_certain { 0.0 } else { 2.0 * NEVER }, SIDE);
+        let span = side_span(quadratic, half_linear, constant, root, narrowing, crossing).unwrap_or(degenerate);
         Some(Side { span, root, discriminant: discriminant.rounded(), error: lost })
     }
 
-    /// Whether a hit of the side is traced again with 32 digits.
-    #[inline(always)]
-    fn is_inexact<T: Scalar>(&self, side: &Side<T>, cosine: f64, radius: f64, error: f64, accuracy: Accuracy) -> bool {
-        let slope = self.slope::<f64>();
-        let steepness = 1.0 + slope * slope;
+    /// A point of the side, brought onto it exactly; nothing at the apex, which has no normal of its own.
+    fn on_side<T: Scalar>(&self, at: Vector<T>, side: &Side<T>, error: f64, accuracy: Accuracy) -> Option<Found<T>> {
+        let slope = self.slope::<T>();
+        let radius = slope.times_plus(at.z, T::from_f64(self.radii[0]));
+        let from_axis = at.x.times_plus(at.x, at.y * at.y).sqrt();
+        if !T::zero().is_less(radius) || !T::zero().is_less(from_axis) {
+            return None;
+        }
+        let (x, y) = (at.x / from_axis, at.y / from_axis);
+        let steepness = slope.times_plus(slope, T::from_f64(1.0)).sqrt();
+        let cos_theta_o = side.root / (radius * steepness);
+        let narrowest = radius.rounded() * steepness.rounded();
         let tracing = TracingError {
-            clearance: side.error / (radius * radius * steepness),
-            normal: error * (1.0 + slope.abs()) / (radius * steepness),
+            clearance: side.error / (narrowest * narrowest),
+            normal: NORMAL_ERROR * error * (1.0 + slope.rounded().abs()) / narrowest,
         };
-        cosine * cosine < accuracy.doubtful_clearance(&tracing).end
+        let cosine = cos_theta_o.rounded();
+        let is_inexact = cosine * cosine < accuracy.doubtful_clearance(&tracing).end;
+        let normal = Vector::new(x, y, -slope) * (T::from_f64(1.0) / steepness);
+        Some(Found { place: Vector::new(x * radius, y * radius, at.z), normal, cos_theta_o, is_inexact })
     }
 
     /// k.
@@ -193,9 +208,11 @@ impl Cone {
             ([from_axis.min(end), height], [0.0, 1.0]),
         ];
         let distance = |[x, y]: [f64; 2]| (from_axis - x).hypot(z - y);
-        let [first, second, third] = candidates;
-        let nearer = |a: ([f64; 2], [f64; 2]), b: ([f64; 2], [f64; 2])| if distance(b.0) < distance(a.0) { b } else { a };
-        nearer(nearer(first, second), third)
+        let least = candidates.iter().map(|(at, _)| distance(*at)).fold(f64::INFINITY, f64::min);
+        // At a rim, which is the nearest of two faces, that one counts which has the point before it.
+        let before = |(at, normal): &([f64; 2], [f64; 2])| (from_axis - at[0]) * normal[0] + (z - at[1]) * normal[1];
+        let nearest = candidates.into_iter().filter(|(at, _)| distance(*at) <= least * (1.0 + 1e-12));
+        nearest.max_by(|first, second| before(first).total_cmp(&before(second))).unwrap_or(candidates[0])
     }
 
     /// The box around it with sides along the scene's axes.
@@ -244,8 +261,8 @@ impl Cone {
     }
 }
 
-/// Where F < 0, on the side of the apex where R > 0; beyond the apex, the flat end cuts it off.
-#[inline(always)]
+/// Where F < 0, on the side of the apex where R > 0; beyond the apex, the flat end cuts it off. Nothing where F is the same
+/// all along: on a ray along the axis of a cylinder, or one through the apex.
 fn side_span<T: Scalar>(
     quadratic: T,
     half_linear: T,
@@ -253,30 +270,27 @@ fn side_span<T: Scalar>(
     root: T,
     narrowing: T,
     crossing: impl Fn(T) -> Crossing<T>,
-) -> Span<T> {
+) -> Option<Span<T>> {
     let never = |side: f64| Crossing { at: T::from_f64(NEVER * side), error: 0.0, face: SIDE };
     let is_negative = half_linear.rounded() < 0.0;
     // The root that is a sum of two numbers of one sign, and the other from the product of both.
     let sum = if is_negative { root - half_linear } else { -(root + half_linear) };
     if sum.rounded() == 0.0 {
-        // Along the axis of a cylinder, or through the apex.
-        return Span::always(constant.rounded() < 0.0, 0.0, SIDE);
+        return None;
     }
     let near = constant / sum;
+    let from = |at| Span { enter: crossing(at), leave: never(1.0) };
+    let until = |at| Span { enter: never(-1.0), leave: crossing(at) };
     if quadratic.rounded() == 0.0 {
-        return if is_negative {
-            Span { enter: crossing(near), leave: never(1.0) }
-        } else {
-            Span { enter: never(-1.0), leave: crossing(near) }
-        };
+        return Some(if is_negative { from(near) } else { until(near) });
     }
     let far = sum / quadratic;
     let (first, last) = if near.is_less(far) { (near, far) } else { (far, near) };
-    if quadratic.rounded() > 0.0 {
+    Some(if quadratic.rounded() > 0.0 {
         Span { enter: crossing(first), leave: crossing(last) }
     } else if narrowing.rounded() > 0.0 {
-        Span { enter: crossing(last), leave: never(1.0) }
+        from(last)
     } else {
-        Span { enter: never(-1.0), leave: crossing(first) }
-    }
+        until(first)
+    })
 }

@@ -22,7 +22,6 @@ impl Cuboid {
     }
 
     /// The part of the ray between each pair of faces, and what is common to the three parts (2.4).
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let local = self.placement.local_ray(ray);
         let size = self.size();
@@ -64,11 +63,7 @@ impl Cuboid {
     pub fn signed_distance(&self, point: Vector) -> f64 {
         let place = self.placement.place_of(point);
         let outside = |place: f64, half: f64| place.abs() - half;
-        let out = [
-            outside(place.x, self.half.x),
-            outside(place.y, self.half.y),
-            outside(place.z, self.half.z),
-        ];
+        let out = [outside(place.x, self.half.x), outside(place.y, self.half.y), outside(place.z, self.half.z)];
         let largest = out.into_iter().fold(f64::NEG_INFINITY, f64::max);
         if largest < 0.0 { largest } else { Vector::from(out.map(|out| out.max(0.0))).length() }
     }

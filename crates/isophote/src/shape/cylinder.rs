@@ -19,7 +19,6 @@ impl Cylinder {
     }
 
     /// See [`Cone::meet`].
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         self.body.meet(ray, accuracy)
     }

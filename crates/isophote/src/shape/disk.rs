@@ -21,7 +21,6 @@ impl Disk {
     }
 
     /// See [`flat`].
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let beyond = |x: T, y: T| x.times_plus(x, y * y).sqrt() - T::from_f64(self.radius);
         flat::meet(&self.placement, Some(self.radius), ray, accuracy, beyond)

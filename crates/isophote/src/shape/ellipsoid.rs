@@ -23,7 +23,6 @@ impl Ellipsoid {
     /// As the ray meets a sphere, in the space where the radii are 1 (2.4). With x' = (x/a, y/b, z/c) of the point there
     /// and g = (x'/a, …) the normal is g/‖g‖, and cosθ_o = ‖D'‖ h'/‖g‖ exactly, D' being the direction there and h' half
     /// the chord.
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let local = self.placement.local_ray(ray);
         let [shortest, longest] = self.extremes();
@@ -41,7 +40,7 @@ impl Ellipsoid {
         // Rounding is magnified by how far from round it is: once where the ray passes, again in the normal.
         let flatness = longest / shortest;
         let error = f64::EPSILON * (1.0 + local.reach / shortest);
-        let error = TracingError { clearance: 16.0 * error * flatness, normal: 1.5 * error * flatness };
+        let error = TracingError { clearance: 16.0 * error * flatness, normal: 0.75 * error * flatness };
         let doubtful = accuracy.doubtful_clearance(&error);
         if clearance.rounded() <= doubtful.start {
             return Meeting::MISS;

@@ -9,7 +9,7 @@ use crate::vector::Vector;
 ///
 /// `size` is its extent in metres, none if it has no end. `beyond` tells how far a place (x, y) is outside the border,
 /// in metres, negative inside.
-#[inline(always)]
+#[inline]
 pub fn meet<T: Scalar>(
     placement: &Placement,
     size: Option<f64>,

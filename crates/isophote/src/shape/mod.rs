@@ -26,7 +26,7 @@ pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use ellipsoid::Ellipsoid;
 pub use locate::{Located, Miss, surface_at};
-pub use mesh::{CornerNormals, Mesh, MeshData, MeshError, MeshPlacing};
+pub use mesh::{Mesh, MeshData, MeshError, MeshPlacing};
 pub use outline::{Ellipse, Outline, PlaceInRow, PointInRow, RowOfEllipse};
 pub use placement::{LocalRay, Placement, Rotation};
 pub use plane::Plane;
@@ -128,6 +128,12 @@ impl Geometry {
     #[must_use]
     pub fn is_round(&self) -> bool {
         matches!(self, Self::Sphere(_) | Self::Spheres(_))
+    }
+
+    /// Whether its parts have materials of their own.
+    #[must_use]
+    pub fn has_own_materials(&self) -> bool {
+        self.material_of(0).is_some()
     }
 
     /// How many parts there are.

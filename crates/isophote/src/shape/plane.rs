@@ -19,7 +19,6 @@ impl Plane {
     }
 
     /// See [`flat`].
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         flat::meet(&self.placement, None, ray, accuracy, |_, _| -T::from_f64(f64::INFINITY))
     }

@@ -105,19 +105,23 @@ impl Accuracy {
     /// Hit or miss is all that matters, as for shadows.
     pub const OF_VISIBILITY: Self = Self { magnification: 0.0, of_place: 0.0 };
 
-    /// A hit that is shaded with a lobe of this shininess, if any.
+    /// A hit that is shaded with a lobe of this shininess, if any, where spots have edges no
+    /// [steeper](crate::light::Light::steepest_edge) than this.
     ///
-    /// The error of the normal is magnified by a terminator, by 1/cosθ_i, and by a highlight: n tanθ_h, largest where
+    /// The error of the normal is magnified by a terminator, by 1/cosθ_i, by the edge of a spot, and by a highlight: n tanθ_h, largest where
     /// the highlight has fallen to a millionth of its peak, tan²θ_h = 10^(12/n) − 1, or where θ_h is as large as the
     /// cosines of the promise let it be. Some four roundings go into θ_h.
     #[must_use]
-    pub fn for_shading(shininess: Option<f64>) -> Self {
+    pub fn for_shading(shininess: Option<f64>, steepest_edge: f64) -> Self {
         let terminator = 1.0 / tolerance::DOUBLE.peak_cosine;
         let highlight = shininess.map_or(0.0, |n| {
             let faintest = (libm::pow(10.0, 12.0 / n) - 1.0).sqrt();
             4.0 * n * faintest.min(1.0 / tolerance::DOUBLE.above_cosine)
         });
-        Self { magnification: terminator.max(highlight), of_place: highlight.max(4.0) }
+        Self {
+            magnification: terminator.max(highlight).max(steepest_edge),
+            of_place: highlight.max(steepest_edge).max(4.0),
+        }
     }
 
     /// Whether a hit is traced again with 32 digits for these errors of its place (in sizes of the shape) and of its

@@ -25,7 +25,6 @@ impl Rectangle {
     }
 
     /// See [`flat`].
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let absolute = |value: T| value.max(-value);
         let beyond =

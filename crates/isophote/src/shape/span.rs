@@ -39,7 +39,7 @@ pub const NEVER: f64 = 1e200;
 impl<T: Scalar> Span<T> {
     /// Between two parallel planes: where `place + at · direction` is between `low` and `high`. `error` is that of the
     /// place.
-    #[inline(always)]
+    #[inline]
     pub fn between(place: T, direction: T, [low, high]: [T; 2], error: f64, [low_face, high_face]: [usize; 2]) -> Self {
         let slope = direction.rounded();
         if slope == 0.0 {
@@ -56,7 +56,7 @@ impl<T: Scalar> Span<T> {
     }
 
     /// The whole ray, or none of it.
-    #[inline(always)]
+    #[inline]
     pub fn always(is_inside: bool, error: f64, face: usize) -> Self {
         let end = if is_inside { NEVER } else { -NEVER };
         let crossing = |at| Crossing { at: T::from_f64(at), error, face };
@@ -65,7 +65,7 @@ impl<T: Scalar> Span<T> {
 }
 
 /// How a ray that starts at −`along` passes the body that is common to these spans.
-#[inline(always)]
+#[inline]
 pub fn pass<T: Scalar, const N: usize>(spans: [Span<T>; N], along: T) -> Passage<T> {
     let (mut enter, mut leave) = (spans[0].enter, spans[0].leave);
     let [mut earliest_enter, mut latest_enter] = [f64::NEG_INFINITY; 2];

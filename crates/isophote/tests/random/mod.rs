@@ -3,7 +3,8 @@
 use isophote::camera::Handedness;
 use isophote::reflectance::Convention;
 use isophote::scene::source::{
-    CameraSource, EmissionName, LightSource, MaterialSource, SceneSource, ScreenSource, SphereSource,
+    AmbientSource, CameraSource, ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, EmissionName,
+    LightSource, MaterialSource, PlaneSource, RectangleSource, RotationSource, SceneSource, ScreenSource, SphereSource,
 };
 use isophote::units::{Choice, LengthUnit};
 use proptest::prelude::*;
@@ -27,7 +28,7 @@ pub fn scenes() -> impl Strategy<Value = SceneSource> {
         prop::sample::select(Handedness::ALL),
     );
     let spheres = prop::collection::vec((point(1.0), 0.1..1.2_f64, 0_usize..2), 1..=4);
-    let lights = prop::collection::vec((direction(), 3.0..12.0_f64, 0.0..100.0_f64, any::<bool>(), point(2.0)), 1..=5);
+    let lights = prop::collection::vec((direction(), 3.0..12.0_f64, 0.0..100.0_f64, emission(), point(2.0)), 1..=5);
     let materials = [material(), material()];
     (look, spheres, lights, materials)
         .prop_map(|((from, distance, up, convention, length, handedness), spheres, lights, materials)| SceneSource {
@@ -63,12 +64,118 @@ pub fn scenes() -> impl Strategy<Value = SceneSource> {
         .prop_filter("up is not along the view", |source| isophote::scene::Scene::try_from(source.clone()).is_ok())
 }
 
-fn light((from, distance, intensity, is_lambertian, target): ([f64; 3], f64, f64, bool, [f64; 3])) -> LightSource {
+/// The numbers from which any shape is made.
+type Seed = ([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64, usize);
+
+/// Scenes of two to eight shapes of every kind with shadows, otherwise as [`worlds`]; some have the eye inside a shape.
+#[allow(dead_code, reason = "not every file of tests asks for it")]
+pub fn solids() -> impl Strategy<Value = SceneSource> {
+    let seed =
+        (point(1.0), prop::array::uniform3(0.1..1.2_f64), direction(), direction(), -180.0..180.0_f64, 0_usize..2);
+    let shapes = prop::collection::vec((seed, 0_usize..8), 2..=8);
+    let shadow_less = (0_usize..8, any::<bool>());
+    (worlds(), shapes, shadow_less, 0.0..=1.0_f64).prop_filter_map(
+        "no light is shut in, or stands on a surface",
+        |(mut source, shapes, (without, casts), nearness)| {
+            source.shadows = Some(true);
+            source.sphere.clear();
+            for (seed, kind) in shapes {
+                add(&mut source, &seed, kind);
+            }
+            if let Some(shape) = source.sphere.get_mut(without) {
+                shape.shadow.casts_shadow = Some(casts);
+                shape.shadow.receives_shadow = Some(!casts);
+            }
+            let camera = source.camera.get_or_insert_default();
+            camera.resolution = Some([20, 15]);
+            if nearness < 0.3 {
+                camera.eye = camera.eye.map(|eye| eye.map(|coordinate| coordinate * (nearness + 0.01)));
+            }
+            isophote::scene::Scene::try_from(source.clone()).is_ok().then_some(source)
+        },
+    )
+}
+
+fn add(source: &mut SceneSource, seed: &Seed, kind: usize) {
+    let (center, [first, second, third], axis, other, degrees, material) = *seed;
+    let material = Some(format!("m{material}"));
+    let end = Some([0, 1, 2].map(|index| center[index] + axis[index] * third));
+    let rotation = (degrees > 0.0).then_some(RotationSource { axis: Some(axis), degrees: Some(degrees) });
+    let (place, sizes, radius) = (Some(center), Some([first, second, third]), Some(first));
+    match kind {
+        0 => source.sphere.push(SphereSource { center: place, radius, material, ..SphereSource::default() }),
+        1 => {
+            let shape =
+                EllipsoidSource { center: place, radii: sizes, rotation, material, ..EllipsoidSource::default() };
+            source.ellipsoid.push(shape);
+        }
+        2 => {
+            let shape = CuboidSource { center: place, size: sizes, rotation, material, ..CuboidSource::default() };
+            source.cuboid.push(shape);
+        }
+        3 => {
+            source.cylinder.push(CylinderSource { from: place, to: end, radius, material, ..CylinderSource::default() })
+        }
+        4 => {
+            let apex_radius = (degrees > 0.0).then_some(second);
+            let shape = ConeSource { base: place, apex: end, radius, apex_radius, material, ..ConeSource::default() };
+            source.cone.push(shape);
+        }
+        5 => source.plane.push(PlaneSource { point: place, normal: Some(axis), material, ..PlaneSource::default() }),
+        6 => source.rectangle.push(RectangleSource {
+            center: place,
+            normal: Some(axis),
+            up: Some(other),
+            width: radius,
+            height: Some(third),
+            material,
+            ..RectangleSource::default()
+        }),
+        _ => source.disk.push(DiskSource {
+            center: place,
+            normal: Some(axis),
+            radius,
+            material,
+            ..DiskSource::default()
+        }),
+    }
+}
+
+/// The same with parallel lights and ambient light, for what does not ask how a scene behaves when it is made larger.
+pub fn worlds() -> impl Strategy<Value = SceneSource> {
+    let suns = prop::collection::vec((direction(), 0.0..10.0_f64), 0..=2);
+    (scenes(), suns, prop::option::of(0.0..2.0_f64)).prop_map(|(mut source, suns, radiance)| {
+        source.light.extend(suns.into_iter().map(|(direction, irradiance)| LightSource {
+            emission: Some(EmissionName::Parallel),
+            direction: Some(direction),
+            irradiance: Some(irradiance),
+            ..LightSource::default()
+        }));
+        source.ambient =
+            radiance.map(|radiance| AmbientSource { radiance: Some(radiance), ..AmbientSource::default() });
+        source
+    })
+}
+
+/// Of point lights, with the half angles of a spot.
+fn emission() -> impl Strategy<Value = (EmissionName, Option<[f64; 2]>)> {
+    prop_oneof![
+        Just((EmissionName::Isotropic, None)),
+        Just((EmissionName::Lambertian, None)),
+        (0.0..60.0_f64, 0.5..30.0_f64).prop_map(|(inner, more)| (EmissionName::Spot, Some([inner, inner + more]))),
+    ]
+}
+
+type RandomLight = ([f64; 3], f64, f64, (EmissionName, Option<[f64; 2]>), [f64; 3]);
+
+fn light((from, distance, intensity, (emission, angles), target): RandomLight) -> LightSource {
     LightSource {
         position: Some(from.map(|component| component * distance)),
         intensity: Some(intensity),
-        emission: Some(if is_lambertian { EmissionName::Lambertian } else { EmissionName::Isotropic }),
-        target: is_lambertian.then_some(target),
+        emission: Some(emission),
+        target: (emission != EmissionName::Isotropic).then_some(target),
+        inner_angle: angles.map(|[inner, _]| inner),
+        outer_angle: angles.map(|[_, outer]| outer),
         ..LightSource::default()
     }
 }

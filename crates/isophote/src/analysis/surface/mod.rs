@@ -86,7 +86,7 @@ pub enum SurfaceError {
         size: Resolution,
     },
     /// A channel that belongs to a camera's rays.
-    #[error("a surface has no channel `{name}`: it belongs to a camera")]
+    #[error("a surface has no channel `{name}`: it belongs to a camera's map")]
     ChannelOfCamera {
         /// The channel.
         name: String,
@@ -142,7 +142,7 @@ impl Surface<'_> {
     /// The values at the centres of the cells, in double precision: row 0 has the greatest latitude or height, column 0
     /// the least longitude or angle, −180°.
     ///
-    /// Irradiance and the parts of single lights are those of (3.1), with the scene's shadows. Brightness and its two
+    /// Irradiance and the parts of single lights are those of (3.1) and (3.9), with the scene's shadows. Brightness and its two
     /// parts are what the scene's eye would see if nothing stood before it: with one of them among the channels, cells
     /// that are turned away from the eye (θ_o ≥ 90°) are left out.
     ///
@@ -150,7 +150,7 @@ impl Surface<'_> {
     /// A channel of a camera, or of a light that there is not.
     pub fn map(&self, quantities: &[Quantity]) -> Result<Map, SurfaceError> {
         let of_camera =
-            |quantity: &&Quantity| matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage);
+            |quantity: &&Quantity| matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage | Quantity::AmbientError);
         if let Some(quantity) = quantities.iter().find(of_camera) {
             return Err(SurfaceError::ChannelOfCamera { name: quantity.name() });
         }

@@ -242,7 +242,7 @@ fn what_has_no_map_is_refused_with_a_reason() {
     let surface = scene.surface(&of(0, 0)).expect("a sphere");
     assert_eq!(surface.size(), Resolution { width: 360, height: 180 });
     let refusal = |quantity| surface.map(&[quantity]).expect_err("it is refused").to_string();
-    assert_eq!(refusal(Quantity::Depth), "a surface has no channel `depth`: it belongs to a camera");
+    assert_eq!(refusal(Quantity::Depth), "a surface has no channel `depth`: it belongs to a camera's map");
     assert_eq!(refusal(Quantity::Light("star".into())), "the scene has no light named \"star\"");
     let text = format!("{HEAD}{}[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\n", camera([0.0, 1.0, 0.0]));
     let plane = prepared(&text).surface(&request()).expect_err("it is refused").to_string();

@@ -62,8 +62,8 @@ impl Vertices {
             }
             b"vn" => self.normals.push(three(rest, "normal", &[3])?),
             b"vt" => self.textures += 1,
-            b"f" | b"fo" | b"usemtl" | b"o" | b"g" | b"s" | b"mg" | b"mtllib" | b"p" | b"l" => {}
-            b"lod" | b"bevel" | b"c_interp" | b"d_interp" | b"shadow_obj" | b"trace_obj" | b"usemap" | b"maplib" => {}
+            b"f" | b"fo" | b"usemtl" | b"o" | b"g" | b"s" | b"mg" | b"mtllib" | b"p" | b"l" | b"lod" | b"bevel"
+            | b"c_interp" | b"d_interp" | b"shadow_obj" | b"trace_obj" | b"usemap" | b"maplib" => {}
             b"vp" | b"cstype" | b"deg" | b"bmat" | b"step" | b"curv" | b"curv2" | b"surf" | b"parm" | b"trim"
             | b"hole" | b"scrv" | b"sp" | b"end" | b"con" | b"ctech" | b"stech" | b"call" | b"csh" => {
                 let what = format!("‘{}’ (curves, curved surfaces, other files)", shown(keyword));

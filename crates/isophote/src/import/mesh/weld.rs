@@ -59,9 +59,10 @@ const FREE: u32 = u32::MAX;
 
 /// Coordinates of meshes differ in their upper bits alone (short decimals, single precision): products fold these into
 /// all others.
+#[expect(clippy::cast_possible_truncation, reason = "any bits of the products will do")]
 fn hash(vector: [f64; 3]) -> usize {
     let fold = |hash: u64, component: f64| {
-        let product = u128::from(hash ^ component.to_bits()) * 0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835_u128;
+        let product = u128::from(hash ^ component.to_bits()) * 0x9e37_79b9_7f4a_7c15_u128;
         (product ^ (product >> 64)) as u64
     };
     vector.into_iter().fold(0x243f_6a88_85a3_08d3, fold) as usize

@@ -112,7 +112,7 @@ fn too_few(found: usize) -> Problem {
 }
 
 fn vertex_index(index: f64, count: usize) -> Result<usize, Problem> {
-    // Integers of 32 bits: this is exact.
+    #[expect(clippy::cast_possible_truncation, reason = "it is a whole number of 32 bits")]
     let index = index as i64;
     let allowed = usize::try_from(index).ok().filter(|index| *index < count);
     allowed.ok_or(Problem::Index { field: "a vertex index", index, first: 0, count: count as u64, backwards: 0 })

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::import::{
     Fault, Place, Problem,
-    text::{integer, number, words},
+    text::{integer, number, shown, words},
 };
 
 /// What follows the header.
@@ -159,7 +159,7 @@ impl Source<'_> {
             let field = format!("the length of list {}", property.name);
             return Err(Problem::NotANumber { field, text: length.to_string(), allowed: "0 or more" });
         }
-        // Lengths are 32-bit integers: this is exact.
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number of 32 bits")]
         let length = length as u64;
         if let Self::Bytes { rest, .. } = self {
             let (needed, left) = (u128::from(length) * property.kind.size() as u128, rest.len() as u64);
@@ -188,7 +188,7 @@ impl Source<'_> {
                     return Err(Problem::Parts { what, found: *taken, allowed });
                 }
                 (*left, *taken) = (after, *taken + 1);
-                if kind.is_integer() { Ok(integer(word, name)? as f64) } else { number(word, name) }
+                if kind.is_integer() { whole_number(word, name) } else { number(word, name) }
             }
             Self::Bytes { rest, is_big } => {
                 let Some((bytes, after)) = rest.split_at_checked(kind.size()) else {
@@ -200,6 +200,14 @@ impl Source<'_> {
             }
         }
     }
+}
+
+/// No kind of PLY is wider than 32 bits, and a double holds all of these.
+fn whole_number(word: &[u8], name: &str) -> Result<f64, Problem> {
+    let value = integer(word, name)?;
+    let value = i32::try_from(value).map(f64::from).or_else(|_| u32::try_from(value).map(f64::from));
+    let allowed = "a whole number of 32 bits";
+    value.map_err(|_| Problem::NotANumber { field: name.into(), text: shown(word), allowed })
 }
 
 /// All of these kinds fit into a double.

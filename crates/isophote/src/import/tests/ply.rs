@@ -161,7 +161,7 @@ fn mistakes_of_headers_are_named() {
         with("list uchar int", "list float int"),
         "line 11: the kind of a list's length is ‘float’; allowed: whole numbers"
     );
-    assert_eq!(with("end_header", "comment"), "header: the line ‘end_header’ is missing; it ends the header");
+    assert_eq!(mesh_fault(Ply, &ASCII[..60]), "header: the line ‘end_header’ is missing; it ends the header");
 }
 
 #[test]
@@ -173,6 +173,10 @@ fn mistakes_of_rows_are_named_with_their_line() {
     assert_eq!(with("255 0 1 1", "255 0 - 1"), "line 18: x is ‘-’; a number is needed");
     assert_eq!(with("7 4 0 1 2 3", "7 4 0 1 2 5"), "line 22: a vertex index is 5; allowed are 0 to 4");
     assert_eq!(with("7 4 0 1 2 3", "7 4 0 1 2 -1"), "line 22: a vertex index is -1; allowed are 0 to 4");
+    assert_eq!(
+        with("7 4 0 1 2 3", "7 4 0 1 2 4294967296"),
+        "line 22: vertex_indices is ‘4294967296’; a whole number of 32 bits is needed"
+    );
     assert_eq!(with("7 4 0 1 2 3", "7 2 0 1"), "line 22: the face has 2; at least 3 corners are needed");
     assert_eq!(
         with("7 4 0 1 2 3", "7 -4 0 1 2 3"),
@@ -182,5 +186,7 @@ fn mistakes_of_rows_are_named_with_their_line() {
         with("\n0 1\n", "\n0 1\n2 3\n"),
         "the file: 3 bytes follow after the last element that the header announces; nothing may follow"
     );
-    assert_eq!(with("\n0 1\n", "\n"), "line 23: element edge has 0; the header announces 1 rows");
+    let none = "header: 1 rows of element edge need 3 bytes, but 0 are left in the file";
+    assert_eq!(with("\n0 1\n", "\n"), none);
+    assert_eq!(with("\n0 1\n", "\n\n\n\n"), "line 26: element edge has 0; the header announces 1 rows");
 }

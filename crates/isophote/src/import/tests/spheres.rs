@@ -1,4 +1,4 @@
-use super::spheres_fault;
+use super::{spheres_fault, write::rounded};
 use crate::import::{
     MaterialSlots, SphereList,
     SpheresFormat::{Csv, Npy, Ply},
@@ -9,9 +9,9 @@ fn list() -> SphereList {
     SphereList { centers: vec![[1.0, 2.0, 3.0], [-0.5, 0.25, 1e3]], radii: vec![0.1, 2.5], materials: None }
 }
 
-fn slots(names: &[Option<&str>], slots: &[u16]) -> Option<MaterialSlots> {
+fn slots(names: &[Option<&str>], slots: &[u16]) -> MaterialSlots {
     let names = names.iter().map(|name| name.map(str::to_owned)).collect();
-    Some(MaterialSlots { names, slots: slots.to_vec() })
+    MaterialSlots { names, slots: slots.to_vec() }
 }
 
 #[test]
@@ -23,7 +23,7 @@ fn a_table_has_its_columns_in_any_order() {
         list()
     );
     let text = "material,x,y,z,radius\nsteel,1,2,3,0.1\n\"a, \"\"b\"\"\",-0.5,0.25,1e3,2.5\n,0,0,0,1\nsteel,0,0,0,1\n";
-    assert_eq!(read(text).materials, slots(&[Some("steel"), Some("a, \"b\""), None], &[0, 1, 2, 0]));
+    assert_eq!(read(text).materials, Some(slots(&[Some("steel"), Some("a, \"b\""), None], &[0, 1, 2, 0])));
     assert_eq!(read("material,x,y,z,radius\n,1,2,3,0.1\n,-0.5,0.25,1e3,2.5\n"), list());
 }
 
@@ -49,7 +49,7 @@ fn mistakes_of_tables_are_named_with_their_line() {
     let quotes = "allowed: quotes around the whole name, doubled within";
     assert_eq!(named("a\"b"), format!("line 2: a name is ‘a\"b’; {quotes}"));
     assert_eq!(named("\"a"), format!("line 2: a name is ‘\"a’; {quotes}"));
-    let many = (0..65537).map(|i| format!("0,0,0,1,m{i}\n")).collect::<String>();
+    let many = (0..65537).map(|i| format!("0,0,0,1,m{i}")).collect::<Vec<_>>().join("\n");
     assert_eq!(fault(&format!("x,y,z,radius,material\n{many}")), "line 65538: there are more than 65536 materials");
 }
 
@@ -76,8 +76,8 @@ fn an_array_is_read_in_every_kind_and_version() {
         }
     }
     let single = SphereList { radii: vec![f64::from(0.1_f32), 2.5], ..list() };
-    let little = npy(1, &dictionary("<f4"), &numbers(|number| (number as f32).to_le_bytes()));
-    let big = npy(1, &dictionary(">f4"), &numbers(|number| (number as f32).to_be_bytes()));
+    let little = npy(1, &dictionary("<f4"), &numbers(|number| rounded(number).to_le_bytes()));
+    let big = npy(1, &dictionary(">f4"), &numbers(|number| rounded(number).to_be_bytes()));
     assert_eq!(spheres_from_bytes(&little, Npy).unwrap(), single);
     assert_eq!(spheres_from_bytes(&big, Npy).unwrap(), single);
 }
@@ -139,7 +139,7 @@ fn points_of_ply_have_a_radius_and_perhaps_a_material() {
     assert_eq!(spheres_from_bytes(plain.as_bytes(), Ply).unwrap(), list());
     let named = format!("{header}property uchar material\nend_header\n0.1 1 2 3 7\n2.5 -0.5 0.25 1000 0\n");
     let materials = spheres_from_bytes(named.as_bytes(), Ply).unwrap().materials;
-    assert_eq!(materials, slots(&[Some("7"), Some("0")], &[0, 1]));
+    assert_eq!(materials, Some(slots(&[Some("7"), Some("0")], &[0, 1])));
     assert_eq!(
         spheres_fault(Ply, plain.replace("float radius", "float size")),
         "header: property radius of element vertex is missing; it must be a single number"

@@ -105,10 +105,20 @@ pub fn binary_stl(header: &[u8], triangles: &[[[f64; 3]; 3]]) -> Vec<u8> {
     bytes.extend(u32::try_from(triangles.len()).unwrap().to_le_bytes());
     for triangle in triangles {
         bytes.extend([0; 12]);
-        bytes.extend(triangle.as_flattened().iter().flat_map(|number| (*number as f32).to_le_bytes()));
+        bytes.extend(single(triangle));
         bytes.extend([0; 2]);
     }
     bytes
+}
+
+/// Little-endian bytes of single precision.
+pub fn single(vectors: &[[f64; 3]]) -> Vec<u8> {
+    vectors.as_flattened().iter().flat_map(|number| rounded(*number).to_le_bytes()).collect()
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "what a file of single precision holds")]
+pub fn rounded(number: f64) -> f32 {
+    number as f32
 }
 
 /// A document and the binary chunk, one after the other.
@@ -125,9 +135,6 @@ pub fn glb(json: &str, binary: &[u8]) -> Vec<u8> {
 
 /// One node with one primitive; numbers in single precision.
 pub fn glb_of(mesh: &Polygons) -> Vec<u8> {
-    let single = |vectors: &[[f64; 3]]| -> Vec<u8> {
-        vectors.as_flattened().iter().flat_map(|number| (*number as f32).to_le_bytes()).collect()
-    };
     let indices: Vec<u8> =
         mesh.triangles().flatten().flat_map(|index| u32::try_from(index).unwrap().to_le_bytes()).collect();
     let positions = single(&mesh.vertices);

@@ -246,6 +246,7 @@ impl StretchWork<'_, '_> {
             while first < chunk_end {
                 let point = self.point::<V>(kind, &row, first).point;
                 let (irradiance, lobes) = sum(kind, &point, lit_by, lobe);
+                let irradiance = irradiance + V::splat(kind, lights.ambient);
                 let sums = Sums { irradiance, lobes, cos_theta_o: point.cos_theta_o };
                 let count = (chunk_end - first).min(count_of::<V>());
                 self.store(first, count, &sums, &point, kind, lights)?;
@@ -304,6 +305,8 @@ impl StretchWork<'_, '_> {
             let values = match quantity {
                 ScalarChannel::Brightness => sums.diffuse(formula) + sums.specular(formula),
                 ScalarChannel::Irradiance => sums.irradiance,
+                ScalarChannel::Ambient => V::splat(kind, lights.ambient),
+                ScalarChannel::AmbientError => V::splat(kind, V::Element::default()),
                 ScalarChannel::Diffuse => sums.diffuse(formula),
                 ScalarChannel::Specular => sums.specular(formula),
                 ScalarChannel::Light(_) => match asked_for.next() {

@@ -1,19 +1,4 @@
-//! Where the samples of a pixel are.
-
-/// Places within a pixel, as parts of its width and height from its upper left corner: Hammersley's points, the same in
-/// every pixel. Of n = 2^m points, every rectangle of 1/n of the pixel whose sides are powers of 1/2 holds exactly one
-/// (a (0, m, 2)-net), so that edges of any direction cut off about their share of them. One point is the centre.
-pub fn places(count: u32) -> Vec<[f64; 2]> {
-    let count = count.max(1);
-    let levels = count.next_power_of_two();
-    let place = |index: u32| {
-        let across = (f64::from(index) + 0.5) / f64::from(count);
-        // The bits of the index, mirrored at the binary point, and half of the last place.
-        let down = f64::from(index.reverse_bits()) / 4_294_967_296.0 + 0.5 / f64::from(levels);
-        [across, down]
-    };
-    (0..count).map(place).collect()
-}
+//! How many samples of a pixel are enough.
 
 /// How far the share of the points on one side of a straight edge may be from the share of the area, times n^(3/4).
 pub const EDGE_ERROR: f64 = 0.75;
@@ -30,36 +15,7 @@ pub fn enough(contrast: f64, tolerance: f64, most: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn one_sample_is_the_centre_of_the_pixel() {
-        assert_eq!(places(1), [[0.5, 0.5]]);
-    }
-
-    #[test]
-    fn the_samples_are_spread_evenly_around_the_centre() {
-        for count in [2, 4, 5, 16, 100, 256] {
-            let places = places(count);
-            assert_eq!(places.len(), count as usize);
-            for axis in [0, 1] {
-                let mean = places.iter().map(|place| place[axis]).sum::<f64>() / f64::from(count);
-                assert!((mean - 0.5).abs() < 0.5 / f64::from(count), "{count}: {mean}");
-            }
-        }
-    }
-
-    #[test]
-    fn every_rectangle_of_powers_of_two_holds_one_point() {
-        let places = places(64);
-        for columns in [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0_f64] {
-            let mut seen = std::collections::HashSet::new();
-            for [across, down] in &places {
-                #[expect(clippy::cast_possible_truncation, reason = "small whole numbers")]
-                seen.insert(((across * columns).floor() as i32, (down * 64.0 / columns).floor() as i32));
-            }
-            assert_eq!(seen.len(), 64, "{columns} columns");
-        }
-    }
+    use crate::hammersley::points;
 
     /// The area of the unit square where `x cosφ + y sinφ < d`, by a fine sum over columns.
     fn area_below(angle: f64, distance: f64) -> f64 {
@@ -77,7 +33,7 @@ mod tests {
     fn the_error_of_an_edge_is_bounded() {
         let mut worst = 0.0_f64;
         for count in [4, 8, 16, 32, 64, 128, 256] {
-            let places = places(count);
+            let places = points(count);
             for turn in 1..180 {
                 let angle = (f64::from(turn) + 0.21).to_radians() * 2.0;
                 let (sine, cosine) = angle.sin_cos();

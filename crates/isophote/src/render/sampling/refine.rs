@@ -2,6 +2,7 @@
 
 use super::{FIRST_SAMPLES, Filter, Sampling, pattern};
 use crate::camera::ScreenPosition;
+use crate::hammersley::points;
 use crate::map::{Map, Mask, Pixel, Quantity, Scalars, Values};
 use crate::prepare::{Hit, PreparedScene};
 use crate::render::RenderError;
@@ -40,9 +41,9 @@ impl Averages {
     pub fn of(map: &Map, scene: &PreparedScene) -> Self {
         let is_mean = |quantity: &Quantity| match quantity {
             Quantity::Brightness | Quantity::Irradiance | Quantity::Diffuse | Quantity::Specular => true,
-            Quantity::Light(_) => true,
+            Quantity::Ambient | Quantity::Light(_) => true,
             Quantity::Depth | Quantity::Position | Quantity::Normal | Quantity::Shape => false,
-            Quantity::Samples | Quantity::Coverage => false,
+            Quantity::Samples | Quantity::Coverage | Quantity::AmbientError => false,
         };
         let channels = map.channels.iter().enumerate().filter(|(_, channel)| is_mean(&channel.quantity));
         let channels = channels.map(|(index, channel)| (index, ScalarChannel::of(&channel.quantity, scene.scene())));
@@ -64,8 +65,9 @@ impl Averages {
                 ScalarChannel::Irradiance => *value = shading.irradiance,
                 ScalarChannel::Diffuse => *value = shading.diffuse,
                 ScalarChannel::Specular => *value = shading.specular,
+                ScalarChannel::Ambient => *value = shading.ambient,
                 ScalarChannel::Light(_) => {}
-                ScalarChannel::Depth => unreachable!("it is no mean"),
+                ScalarChannel::Depth | ScalarChannel::AmbientError => unreachable!("it is no mean"),
             }
         }
         shading.brightness()
@@ -97,7 +99,7 @@ impl Refinement {
         let mut values = vec![0.0; channels];
         let [mut least, mut greatest] = [f64::INFINITY, f64::NEG_INFINITY];
         let (mut covered, mut first_hit) = (0_u32, None);
-        for place in pattern::places(samples) {
+        for place in points(samples) {
             let position = ScreenPosition::InPixel { pixel, place };
             let hit = scene.trace(position);
             values.fill(0.0);
@@ -187,7 +189,7 @@ fn gathered(
     let even: Vec<f64> = offsets(filter)
         .iter()
         .map(|[columns, rows]| {
-            let places = pattern::places(64);
+            let places = points(64);
             let weight = |[x, y]: &[f64; 2]| filter.weight(x - 0.5 - columns, y - 0.5 - rows);
             places.iter().map(weight).sum::<f64>() / 64.0
         })

@@ -84,6 +84,6 @@ pub(super) fn read_disk(table: &mut Table<'_>) -> DiskSource {
     }
 }
 
-fn read_rotation(table: &mut Table<'_>) -> RotationSource {
+pub(super) fn read_rotation(table: &mut Table<'_>) -> RotationSource {
     RotationSource { axis: table.numbers("axis"), degrees: table.number("degrees") }
 }

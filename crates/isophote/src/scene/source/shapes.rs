@@ -17,7 +17,7 @@ pub struct EllipsoidSource {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center: Option<[f64; 3]>,
     /// Its radii along its own x, y and z.
-    #[schemars(required, inner(extend("exclusiveMinimum" = 0)))]
+    #[schemars(required, extend("items" = {"type": "number", "format": "double", "exclusiveMinimum": 0}))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radii: Option<[f64; 3]>,
     /// How it is turned about its centre.
@@ -43,7 +43,7 @@ pub struct CuboidSource {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center: Option<[f64; 3]>,
     /// Its sides along its own x, y and z.
-    #[schemars(required, inner(extend("exclusiveMinimum" = 0)))]
+    #[schemars(required, extend("items" = {"type": "number", "format": "double", "exclusiveMinimum": 0}))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<[f64; 3]>,
     /// How it is turned about its centre.

@@ -1,13 +1,16 @@
 //! From what is written to what is valid: every check of a scene, once.
 
 mod camera;
+mod files;
 mod grids;
+mod lights;
 mod numbers;
 mod places;
 mod shapes;
 mod things;
 
 use std::collections::HashSet;
+use std::path::PathBuf;
 
 use super::Scene;
 use super::document::Path;
@@ -37,11 +40,11 @@ pub mod limits {
     pub const COORDINATE: f64 = 1e15;
     /// The smallest radius and screen, in metres.
     pub const SMALLEST: f64 = 1e-12;
-    /// The largest intensity and power.
+    /// The largest intensity, power, irradiance and radiance.
     pub const INTENSITY: f64 = 1e30;
     /// How many sizes of a shape the eye may be away before a warning says that the promised digits are not kept.
     pub const REMOTENESS: f64 = 1e9;
-    /// Rays for a pixel.
+    /// Rays for a pixel, and directions in which ambient light is looked for.
     pub const SAMPLES: u32 = 4096;
     /// The allowed error of a pixel, as a part of the largest brightness.
     pub const TOLERANCE: std::ops::RangeInclusive<f64> = 1e-4..=1.0;
@@ -54,6 +57,8 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     let mut validator = Validator {
         length: source.length.unwrap_or(LengthUnit::Metre),
         convention: source.convention.unwrap_or(Convention::Radiance),
+        directory: source.directory.clone(),
+        materials: source.material.keys().cloned().collect(),
         problems,
         warnings: Problems::default(),
     };
@@ -63,13 +68,14 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     let materials = validator.materials(&source);
     let shapes = validator.shapes(&source);
     let lights = validator.lights(&source);
+    let ambient = validator.ambient(&source);
     let probes = validator.probes(&source);
     let grids = validator.grids(&source);
     validator.eye_against_shapes(camera.as_ref(), &shapes);
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
     validator.probes_against_shapes(&probes, &shapes);
     validator.words_of_advice(&source, camera.as_ref());
-    let Validator { length, convention, problems, warnings } = validator;
+    let Validator { length, convention, problems, warnings, .. } = validator;
     match camera {
         Some(camera) if problems.is_empty() => Ok(Scene {
             title: source.title.clone().unwrap_or_default(),
@@ -82,6 +88,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
             materials: materials.into_iter().flatten().collect(),
             shapes: shapes.into_iter().flatten().collect(),
             lights: lights.into_iter().flatten().collect(),
+            ambient,
             probes: probes.into_iter().flatten().collect(),
             grids: grids.into_iter().flatten().collect(),
             warnings: warnings.into_list(),
@@ -97,6 +104,10 @@ type Checked<T> = Vec<Option<T>>;
 struct Validator {
     length: LengthUnit,
     convention: Convention,
+    /// Where relative paths start.
+    directory: PathBuf,
+    /// The names of the materials, in their order.
+    materials: Vec<String>,
     problems: Problems,
     warnings: Problems,
 }
@@ -124,17 +135,22 @@ impl Validator {
             self.wrong(&path.key("tolerance"), format!("`sampling.tolerance` is {tolerance}"), &help);
         }
         let default = if written.tolerance.is_some() { Sampling::MOST } else { 1 };
-        let samples = written.samples.map_or(Some(default), |samples| u32::try_from(samples).ok());
-        let samples = samples.filter(|samples| (1..=limits::SAMPLES).contains(samples));
-        if let (None, Some(samples)) = (samples, written.samples) {
-            let help = format!("allowed: 1 to {}", limits::SAMPLES);
-            self.wrong(&path.key("samples"), format!("`sampling.samples` is {samples}"), &help);
-        }
+        let samples = written.samples.map_or(Some(default), |samples| self.samples(&path, samples));
         Sampling {
             samples: samples.unwrap_or(default),
             tolerance: written.tolerance,
             filter: written.filter.unwrap_or_default(),
         }
+    }
+
+    /// The key `samples` of a table.
+    fn samples(&mut self, table: &Path, written: u64) -> Option<u32> {
+        let samples = u32::try_from(written).ok().filter(|samples| (1..=limits::SAMPLES).contains(samples));
+        if samples.is_none() {
+            let help = format!("allowed: 1 to {}", limits::SAMPLES);
+            self.wrong(&table.key("samples"), format!("`{table}.samples` is {written}"), &help);
+        }
+        samples
     }
 
     fn words_of_advice(&mut self, source: &SceneSource, camera: Option<&Camera>) {
@@ -144,7 +160,7 @@ impl Validator {
             let help = "write a table [[sphere]], [[box]] or of another shape";
             self.warn(&root.key("sphere"), "the scene has no shapes".into(), help);
         }
-        if source.light.is_empty() {
+        if source.light.is_empty() && source.ambient.is_none() {
             self.warn(&root.key("light"), "the scene has no lights: all is black".into(), "write a table [[light]]");
         }
         if count > 1 && !source.light.is_empty() && source.shadows.is_none() {

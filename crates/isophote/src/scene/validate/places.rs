@@ -35,9 +35,12 @@ impl Validator {
             let eye_inside = camera.is_some_and(|camera| shape.geometry.signed_distance(camera.eye) < 0.0);
             for (index, light) in lights.iter().enumerate() {
                 let Some(light) = light else { continue };
-                let distance = shape.geometry.signed_distance(light.position);
-                let path = Path::root().key("light").index(index).key("position");
-                if distance.abs() <= shape.geometry.surface_tolerance(light.position) {
+                let path = Path::root().key("light").index(index);
+                // A parallel light is outside every shape.
+                let position = light.position();
+                let distance = position.map_or(f64::INFINITY, |position| shape.geometry.signed_distance(position));
+                let path = path.key(if position.is_some() { "position" } else { "direction" });
+                if position.is_some_and(|position| distance.abs() <= shape.geometry.surface_tolerance(position)) {
                     let message = format!("the light \"{}\" is on the surface of \"{}\"", light.name, shape.name);
                     self.wrong(&path, message, "move it away: the irradiance next to a point light has no bound");
                 } else if distance < 0.0 && !eye_inside && camera.is_some() {

@@ -8,17 +8,18 @@ use super::{Checked, Validator, limits};
 use crate::scene::Shape;
 use crate::scene::document::Path;
 use crate::scene::source::{
-    ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, PlaneSource, RectangleSource, RotationSource,
-    SceneSource, ShadowSource, SphereSource,
+    ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, PlaneSource, RectangleSource,
+    RotationSource, SceneSource, ShadowSource, SphereSource,
 };
 use crate::shape::{Cone, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Plane, Rectangle, Rotation, Sphere};
 use crate::vector::Vector;
 
 /// The tables of shapes, in the order of a scene's shapes: first by kind, then as in the file.
-pub(super) const KINDS: [&str; 8] = ["sphere", "ellipsoid", "box", "cylinder", "cone", "plane", "rectangle", "disk"];
+pub(super) const KINDS: [&str; 10] =
+    ["sphere", "ellipsoid", "box", "cylinder", "cone", "plane", "rectangle", "disk", "mesh", "spheres"];
 
 /// A shape as it is written, of any kind.
-trait Written {
+pub(super) trait Written {
     /// Its name, its material's, and what it has to do with shadows.
     fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource);
 
@@ -32,7 +33,7 @@ fn written(source: &SceneSource) -> impl Iterator<Item = (Path, &dyn Written)> {
         let table = Path::root().key(kind);
         shapes.iter().enumerate().map(move |(index, shape)| (table.index(index), shape as &dyn Written))
     }
-    let [sphere, ellipsoid, cuboid, cylinder, cone, plane, rectangle, disk] = KINDS;
+    let [sphere, ellipsoid, cuboid, cylinder, cone, plane, rectangle, disk, mesh, spheres] = KINDS;
     of_kind(sphere, &source.sphere)
         .chain(of_kind(ellipsoid, &source.ellipsoid))
         .chain(of_kind(cuboid, &source.cuboid))
@@ -41,6 +42,8 @@ fn written(source: &SceneSource) -> impl Iterator<Item = (Path, &dyn Written)> {
         .chain(of_kind(plane, &source.plane))
         .chain(of_kind(rectangle, &source.rectangle))
         .chain(of_kind(disk, &source.disk))
+        .chain(of_kind(mesh, &source.mesh))
+        .chain(of_kind(spheres, &source.spheres))
 }
 
 /// The names of the materials that shapes are made of, one for each shape that names one.
@@ -66,13 +69,16 @@ impl Validator {
             let (name, material, shadow) = shape.head();
             let name = names.check(self, &path, name);
             let geometry = shape.geometry(self, &path);
-            let material = self.material_of(&path, material, &known);
+            // Parts with materials of their own need no other.
+            let has_own = geometry.as_ref().is_none_or(|geometry| geometry.has_own_materials());
+            let material =
+                if has_own && material.is_none() { Ok(None) } else { self.material_of(&path, material, &known) };
             Some(Shape::new(name?, material.ok()?, geometry?, shadow))
         };
         written(source).map(check).collect()
     }
 
-    fn rotation(&mut self, path: &Path, rotation: Option<RotationSource>) -> Option<Rotation> {
+    pub(super) fn rotation(&mut self, path: &Path, rotation: Option<RotationSource>) -> Option<Rotation> {
         let path = path.key("rotation");
         let Some(RotationSource { axis, degrees }) = rotation else {
             // It may have been written and not understood.

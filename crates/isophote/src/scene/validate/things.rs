@@ -1,15 +1,13 @@
-//! Materials, lights and probes, each for itself.
+//! Materials and probes, each for itself.
 
 use std::collections::HashMap;
 
 use super::{Checked, Validator, limits};
-use crate::light::{Emission, Light};
 use crate::reflectance::{Convention, Reflectance};
 use crate::scene::document::Path;
 use crate::scene::read::{closest, short, suggestion};
-use crate::scene::source::{EmissionName, LightSource, MaterialSource, ProbeSource, SceneSource};
+use crate::scene::source::{MaterialSource, ProbeSource, SceneSource};
 use crate::scene::{Material, Probe};
-use crate::vector::Vector;
 
 impl Validator {
     pub(super) fn materials(&mut self, source: &SceneSource) -> Checked<Material> {
@@ -68,60 +66,6 @@ impl Validator {
             return Err(Reported);
         }
         Ok(index)
-    }
-
-    pub(super) fn lights(&mut self, source: &SceneSource) -> Checked<Light> {
-        if !self.few_enough("light", source.light.len(), limits::LIGHTS) {
-            return Vec::new();
-        }
-        let mut names = Names::new("light");
-        let check = |(index, light): (usize, &LightSource)| {
-            let path = Path::root().key("light").index(index);
-            let name = names.check(self, &path, light.name.as_deref());
-            let position = self.required_point(&path, "position", light.position);
-            let emission = self.emission(&path, light, position);
-            let intensity = self.intensity(&path, light, emission);
-            let casts_shadows = light.casts_shadows.unwrap_or(true);
-            Some(Light { name: name?, position: position?, intensity: intensity?, emission: emission?, casts_shadows })
-        };
-        source.light.iter().enumerate().map(check).collect()
-    }
-
-    fn emission(&mut self, path: &Path, light: &LightSource, position: Option<Vector>) -> Option<Emission> {
-        if light.emission == Some(EmissionName::Lambertian) {
-            let axis = self.direction_or_target(path, position, ("axis", light.axis), light.target)?;
-            return Some(Emission::Lambertian { axis: axis.normalized() });
-        }
-        for (key, written) in [("axis", light.axis.is_some()), ("target", light.target.is_some())] {
-            if written {
-                let message = format!("`{path}.{key}` means nothing for an isotropic light");
-                self.wrong(&path.key(key), message, "leave it out, or write `emission = \"lambertian\"`");
-            }
-        }
-        Some(Emission::Isotropic)
-    }
-
-    fn intensity(&mut self, path: &Path, light: &LightSource, emission: Option<Emission>) -> Option<f64> {
-        let (key, value) = match (light.intensity, light.power) {
-            (Some(intensity), None) => ("intensity", intensity),
-            (None, Some(power)) => ("power", power),
-            (Some(_), Some(_)) => {
-                let message = format!("`{path}` has both `intensity` and `power`");
-                self.wrong(&path.key("power"), message, "allowed: one of the two");
-                return None;
-            }
-            (None, None) => {
-                let help = "write `intensity` (W/sr or cd), or `power` (W or lm) instead";
-                self.problems.missing(path, "intensity", help);
-                return None;
-            }
-        };
-        if !(0.0..=limits::INTENSITY).contains(&value) {
-            let help = format!("allowed: 0 to {:e}", limits::INTENSITY);
-            self.wrong(&path.key(key), format!("`{path}.{key}` is {value}"), &help);
-            return None;
-        }
-        if key == "power" { Some(value / emission?.solid_angle()) } else { Some(value) }
     }
 
     pub(super) fn probes(&mut self, source: &SceneSource) -> Checked<Probe> {

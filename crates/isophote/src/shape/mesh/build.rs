@@ -1,6 +1,7 @@
 //! From the triangles of a file to a mesh that stands in a scene.
 
 use super::Mesh;
+use crate::import::CornerNormals;
 use crate::shape::{Bounds, Rotation};
 use crate::vector::Vector;
 
@@ -11,21 +12,13 @@ pub struct MeshData {
     pub vertices: Vec<[f64; 3]>,
     /// The corners of each triangle: indices into `vertices`.
     pub triangles: Vec<[u32; 3]>,
-    /// Directions for smooth shading, if any.
+    /// Directions for smooth shading, if any; of any length, but zero for none (the triangle's own normal then stands
+    /// there).
     pub normals: Option<CornerNormals>,
     /// The slot of each triangle: an index into `materials`. Empty where all have the shape's own material.
     pub slots: Vec<u16>,
     /// The material of each slot; none stands for the shape's own.
     pub materials: Vec<Option<u32>>,
-}
-
-/// A direction for each corner of each triangle.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CornerNormals {
-    /// The directions; of any length, but zero for none (the triangle's own normal then stands there).
-    pub vectors: Vec<[f64; 3]>,
-    /// Each triangle's three: indices into `vectors`.
-    pub corners: Vec<[u32; 3]>,
 }
 
 /// What is done with the triangles of a file, in this order.

@@ -1,13 +1,16 @@
 //! The triangle mesh (2.5).
 
 mod build;
+#[cfg(test)]
+mod tests;
 mod triangle;
 
 use super::{Accuracy, Bounds, Measure, Meeting, NearestPoint, Ray};
+use crate::import::CornerNormals;
 use crate::real::Scalar;
 use crate::vector::Vector;
 
-pub use build::{CornerNormals, MeshData, MeshError, MeshPlacing};
+pub use build::{MeshData, MeshError, MeshPlacing};
 use triangle::Triangle;
 
 /// Triangles that share their corners: the parts of the shape. Lean, as there may be millions: two lists of numbers.
@@ -27,7 +30,6 @@ pub struct Mesh {
 
 impl Mesh {
     /// How a ray meets one of its triangles; see [`Triangle::meet`].
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, part: u32, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         self.triangle(part).meet(ray, accuracy, self.size())
     }
@@ -83,10 +85,10 @@ impl Mesh {
     #[must_use]
     pub fn part_bounds(&self, part: u32) -> Bounds {
         let corners = self.triangle(part).corners;
-        corners.map(|corner| Bounds { least: corner, greatest: corner }).into_iter().fold(
-            Bounds { least: corners[0], greatest: corners[0] },
-            Bounds::union,
-        )
+        corners
+            .map(|corner| Bounds { least: corner, greatest: corner })
+            .into_iter()
+            .fold(Bounds { least: corners[0], greatest: corners[0] }, Bounds::union)
     }
 
     /// The box around all of it.

@@ -19,7 +19,7 @@ struct Crossing<T> {
     weights: [T; 3],
     /// In metres.
     distance: T,
-    /// What rounding may have cost a weight.
+    /// What rounding may have cost a weight: a quarter of the bound by which hit and miss are told apart.
     error: f64,
 }
 
@@ -30,7 +30,6 @@ impl Triangle {
     /// What an edge says depends on nothing but its two corners and the ray, and the neighbour that shares it computes the
     /// same number with the other sign: with ties counting as hits, a ray cannot slip between the two (Woop, Benthin and
     /// Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013).
-    #[inline(always)]
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy, mesh_size: f64) -> Meeting<T> {
         let (crossing, doubtful_from) = self.cross(ray);
         let Some(crossing) = crossing else {
@@ -43,7 +42,7 @@ impl Triangle {
         let face = across.normalized();
         let is_back = T::zero().is_less(face.dot(ray.direction));
         let longest = sides[0].length().rounded().max(sides[1].length().rounded());
-        let mut normal_error = 8.0 * f64::EPSILON * longest * longest / across.length().rounded();
+        let mut normal_error = 3.0 * f64::EPSILON * longest * longest / across.length().rounded();
         let (normal, lift) = match self.normals {
             None => (if is_back { -face } else { face }, Vector::zero()),
             Some(normals) => {
@@ -57,15 +56,13 @@ impl Triangle {
         let place_error = crossing.error * longest / mesh_size;
         let faces_away_by_rounding = cos_theta_o.rounded().abs() < 4.0 * (normal_error + f64::EPSILON);
         let is_inexact = accuracy.is_exceeded_by(place_error, normal_error) || faces_away_by_rounding;
-        let point =
-            SurfacePoint { anchor: self.corners[0], offset, normal, view: -ray.direction, cos_theta_o };
+        let point = SurfacePoint { anchor: self.corners[0], offset, normal, view: -ray.direction, cos_theta_o };
         let doubtful_from = doubtful_from.map(T::from_f64).or(is_inexact.then_some(crossing.distance));
         let hit = Intersection { distance: crossing.distance, point, from_inside: false, lift };
         Meeting { hit: Some(hit), doubtful_from }
     }
 
     /// Where the ray crosses the triangle, and from where on that is doubtful.
-    #[inline(always)]
     fn cross<T: Scalar>(&self, ray: &Ray<T>) -> (Option<Crossing<T>>, Option<f64>) {
         let corners = self.corners.map(|corner| (-ray.start_from(corner)).to_array());
         let direction = ray.direction.to_array();
@@ -75,8 +72,7 @@ impl Triangle {
         let [right, up] = [(ahead + 1) % 3, (ahead + 2) % 3];
         let inverse = T::from_f64(1.0) / direction[ahead];
         let shear = [direction[right] * inverse, direction[up] * inverse];
-        let seen =
-            corners.map(|c| [c[right] - shear[0] * c[ahead], c[up] - shear[1] * c[ahead]]);
+        let seen = corners.map(|c| [c[right] - shear[0] * c[ahead], c[up] - shear[1] * c[ahead]]);
         let edge = |from: usize, to: usize| seen[to][0] * seen[from][1] - seen[to][1] * seen[from][0];
         let edges = [edge(1, 2), edge(2, 0), edge(0, 1)];
         let largest = |values: &[T]| values.iter().fold(0.0_f64, |largest, value| largest.max(value.rounded().abs()));
@@ -84,7 +80,8 @@ impl Triangle {
         let width = seen.iter().map(|corner| largest(corner)).fold(0.0, f64::max);
         let error = 2.0 * PLACE_ERROR * reach * width;
         let depths = corners.map(|corner| (corner[ahead] * inverse).rounded());
-        let [least, greatest] = [depths.into_iter().fold(f64::INFINITY, f64::min), depths.into_iter().fold(f64::NEG_INFINITY, f64::max)];
+        let [least, greatest] =
+            [depths.into_iter().fold(f64::INFINITY, f64::min), depths.into_iter().fold(f64::NEG_INFINITY, f64::max)];
         let doubles = edges.map(T::rounded);
         let is_beside = doubles.iter().any(|edge| *edge < -error) && doubles.iter().any(|edge| *edge > error);
         if is_beside || greatest < -2.0 * PLACE_ERROR * reach {
@@ -94,13 +91,16 @@ impl Triangle {
         let whole = edges[0] + edges[1] + edges[2];
         let error = error / whole.rounded().abs();
         let weights = edges.map(|edge| edge * (T::from_f64(1.0) / whole));
-        let distance = (corners[0][ahead] * weights[0] + corners[1][ahead] * weights[1] + corners[2][ahead] * weights[2]) * inverse;
+        let distance =
+            (corners[0][ahead] * weights[0] + corners[1][ahead] * weights[1] + corners[2][ahead] * weights[2])
+                * inverse;
         let distance_error = 4.0 * PLACE_ERROR * reach + error * (greatest - least);
         let starts_here = !(distance.rounded().abs() > distance_error);
         let doubtful_from = (!is_within || starts_here).then(|| (least - distance_error).max(0.0));
-        let is_hit = edges.iter().all(|edge| !edge.is_less(T::zero())) || edges.iter().all(|edge| !T::zero().is_less(*edge));
+        let is_hit =
+            edges.iter().all(|edge| !edge.is_less(T::zero())) || edges.iter().all(|edge| !T::zero().is_less(*edge));
         let is_seen = is_hit && whole.rounded() != 0.0 && T::zero().is_less(distance);
-        (is_seen.then_some(Crossing { weights, distance, error }), doubtful_from)
+        (is_seen.then_some(Crossing { weights, distance, error: 0.25 * error }), doubtful_from)
     }
 
     /// From the first corner to the others.
@@ -112,7 +112,6 @@ impl Triangle {
 
     /// The normals of the corners, mixed by their weights. They say which side of the triangle is the front; then all
     /// are turned to the viewer's side together.
-    #[inline(always)]
     fn smooth<T: Scalar>(&self, face: Vector<T>, weights: &[T; 3], is_back: bool) -> Smooth<T> {
         let given = self.normals.map_or([face; 3], |normals| normals.map(Vector::from_f64));
         let has_none = |normal: Vector<T>| normal.dot(normal).rounded() == 0.0;
@@ -128,7 +127,6 @@ impl Triangle {
     /// The way out of the triangle up to the smooth surface that its normals pretend: above the tangent planes of all
     /// three corners. Shadow rays start there, or the triangles themselves would show at the terminator (Hanika, "Hacking
     /// the shadow terminator", Ray Tracing Gems II, 2021).
-    #[inline(always)]
     fn lift<T: Scalar>(&self, smooth: &Smooth<T>, weights: &[T; 3], offset: Vector<T>) -> Vector<T> {
         let [second, third] = self.sides();
         let mut lift = Vector::zero();

@@ -20,8 +20,10 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
     let document = Document::parse(json)?;
     document.check_supported()?;
     let buffers = Buffers { document: &document, binary };
-    let mut reader = Reader { document: &document, buffers, builder: MeshBuilder::default(), corners: 0 };
-    for (index, transform) in document.placed_nodes()? {
+    let nodes = document.placed_nodes()?;
+    check_corners(&document, &nodes, binary.len() as u64)?;
+    let mut reader = Reader { document: &document, buffers, builder: MeshBuilder::default() };
+    for (index, transform) in nodes {
         reader.node(index, &transform)?;
     }
     reader.builder.finish()
@@ -69,11 +71,31 @@ const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
 /// Vertices and corners with all their repetitions: a node takes a few bytes of the file to repeat a whole mesh.
 const MOST_CORNERS: u64 = 300_000_000;
 
+fn check_corners(document: &Document, nodes: &[(usize, Transform)], bytes: u64) -> Result<(), Fault> {
+    // Each takes a byte at least. Accessors that lie, and indices that lead nowhere, are found where they are read.
+    let count = |accessor: Option<usize>| {
+        let accessor = accessor.and_then(|accessor| document.accessors.get(accessor));
+        accessor.map_or(0, |accessor| accessor.count.min(bytes))
+    };
+    let corners = |primitive: &Primitive| count(primitive.attributes.position) + count(primitive.indices);
+    let of_meshes: Vec<u64> =
+        document.meshes.iter().map(|mesh| mesh.primitives.iter().map(corners).fold(0, u64::saturating_add)).collect();
+    let mut all = 0_u64;
+    for (index, _) in nodes {
+        let mesh = document.nodes[*index].mesh.and_then(|mesh| of_meshes.get(mesh));
+        all = all.saturating_add(mesh.copied().unwrap_or(0));
+        if all > MOST_CORNERS {
+            let problem = Problem::TooMany { what: "corners, with all repetitions", most: MOST_CORNERS };
+            return Err(problem.at(Place::Json(format!("nodes[{index}]"))));
+        }
+    }
+    Ok(())
+}
+
 struct Reader<'a> {
     document: &'a Document,
     buffers: Buffers<'a>,
     builder: MeshBuilder,
-    corners: u64,
 }
 
 impl Reader<'_> {
@@ -104,10 +126,6 @@ impl Reader<'_> {
             Some(indices) => self.buffers.indices(indices, positions.len())?,
             None => (0..positions.len()).collect(),
         };
-        self.corners += (positions.len() + indices.len()) as u64;
-        if self.corners > MOST_CORNERS {
-            return Err(at(Problem::TooMany { what: "corners, with all repetitions", most: MOST_CORNERS }));
-        }
         let positions = transform.points(&positions).map_err(at)?;
         let normals = normals.map(|normals| transform.normals(&normals));
         let name = primitive.material.map(|index| self.document.material_name(index, place)).transpose()?;
@@ -149,7 +167,7 @@ impl Mode {
             Err(Problem::Parts { what, found: indices.len() as u64, allowed: allowed.into() })
         };
         match self {
-            Self::List if indices.len() % 3 != 0 => wrong("a multiple of 3 is needed"),
+            Self::List if !indices.len().is_multiple_of(3) => wrong("a multiple of 3 is needed"),
             Self::Strip | Self::Fan if indices.len() < 3 => wrong("at least 3 are needed"),
             Self::List => Ok(Box::new(indices.as_chunks::<3>().0.iter().copied())),
             Self::Strip => Ok(Box::new(indices.windows(3).enumerate().map(|(number, corners)| match number % 2 {

@@ -1,0 +1,50 @@
+//! Hammersley's points: few of them stand for an area.
+
+/// So many points of the unit square. Of n = 2^m points, every rectangle of area 1/n whose sides are powers of 1/2 holds exactly one
+/// (a (0, m, 2)-net), so that edges of any direction cut off about their share of them. One point is the centre.
+pub fn points(count: u32) -> Vec<[f64; 2]> {
+    let count = count.max(1);
+    let levels = count.next_power_of_two();
+    let place = |index: u32| {
+        let across = (f64::from(index) + 0.5) / f64::from(count);
+        // The bits of the index, mirrored at the binary point, and half of the last place.
+        let down = f64::from(index.reverse_bits()) / 4_294_967_296.0 + 0.5 / f64::from(levels);
+        [across, down]
+    };
+    (0..count).map(place).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_point_is_the_centre() {
+        assert_eq!(points(1), [[0.5, 0.5]]);
+    }
+
+    #[test]
+    fn the_points_are_spread_evenly_around_the_centre() {
+        for count in [2, 4, 5, 16, 100, 256] {
+            let points = points(count);
+            assert_eq!(points.len(), count as usize);
+            for axis in [0, 1] {
+                let mean = points.iter().map(|place| place[axis]).sum::<f64>() / f64::from(count);
+                assert!((mean - 0.5).abs() < 0.5 / f64::from(count), "{count}: {mean}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_rectangle_of_powers_of_two_holds_one_point() {
+        let points = points(64);
+        for columns in [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0_f64] {
+            let mut seen = std::collections::HashSet::new();
+            for [across, down] in &points {
+                #[expect(clippy::cast_possible_truncation, reason = "small whole numbers")]
+                seen.insert(((across * columns).floor() as i32, (down * 64.0 / columns).floor() as i32));
+            }
+            assert_eq!(seen.len(), 64, "{columns} columns");
+        }
+    }
+}

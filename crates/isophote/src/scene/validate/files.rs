@@ -1,0 +1,141 @@
+//! Shapes that are read from files of their own.
+
+use std::sync::Arc;
+
+use super::shapes::Written;
+use super::{Validator, limits};
+use crate::import::{self, ImportError, MaterialSlots, TriangleMesh};
+use crate::scene::document::Path;
+use crate::scene::read::short;
+use crate::scene::source::{MeshSource, ShadowSource, SpheresSource};
+use crate::shape::{Geometry, Mesh, MeshData, MeshPlacing, Sphere, Spheres};
+use crate::vector::Vector;
+
+impl Written for MeshSource {
+    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
+        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    }
+
+    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        let placing = validator.mesh_placing(path, self);
+        let mesh = validator.imported(path, self.file.as_deref(), import::read_mesh)?;
+        let TriangleMesh { vertices, triangles, normals, materials, degenerate } = mesh;
+        if degenerate > 0 {
+            let message = format!("{degenerate} triangles of `{path}` have no area and were left out");
+            validator.warn(&path.key("file"), message, "mend the file if they were meant to be seen");
+        }
+        let (slots, materials) = validator.slots(path, materials, self.material.is_some())?;
+        let normals = normals.filter(|_| self.smooth.unwrap_or(true));
+        let data = MeshData { vertices, triangles, normals, slots, materials };
+        match Mesh::new(data, &placing?) {
+            Ok(mesh) => Some(Geometry::Mesh(Arc::new(mesh))),
+            Err(error) => {
+                validator.wrong(
+                    &path.key("file"),
+                    format!("`{path}` is no mesh: {error}"),
+                    "mend the file or the scale",
+                );
+                None
+            }
+        }
+    }
+}
+
+impl Written for SpheresSource {
+    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
+        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    }
+
+    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        let list = validator.imported(path, self.file.as_deref(), import::read_spheres)?;
+        let length = validator.length;
+        let mut spheres = Vec::with_capacity(list.radii.len());
+        for (center, radius) in list.centers.into_iter().zip(list.radii) {
+            let center = Vector::from(center.map(|coordinate| length.to_metres(coordinate)));
+            let radius = length.to_metres(radius);
+            let is_near = center.to_array().iter().all(|coordinate| coordinate.abs() <= limits::COORDINATE);
+            if !is_near || !(limits::SMALLEST..=limits::COORDINATE).contains(&radius) {
+                let message = format!("sphere {} of `{path}` is too far away, too small or too large", spheres.len());
+                let bounds = [limits::SMALLEST, limits::COORDINATE].map(|bound| length.from_metres(bound));
+                let help =
+                    format!("allowed: radii from {:e} to {:e}, coordinates to {:e}", bounds[0], bounds[1], bounds[1]);
+                validator.wrong(&path.key("file"), message, &help);
+                return None;
+            }
+            spheres.push(Sphere { center, radius });
+        }
+        let (slots, materials) = validator.slots(path, list.materials, self.material.is_some())?;
+        // A slot without a material was refused, as no other is given.
+        let materials = slots.into_iter().filter_map(|slot| materials[usize::from(slot)]).collect();
+        Some(Geometry::Spheres(Arc::new(Spheres::new(spheres, materials))))
+    }
+}
+
+impl Validator {
+    /// What a file holds; a relative path starts at the scene file.
+    fn imported<T>(
+        &mut self,
+        path: &Path,
+        file: Option<&str>,
+        read: impl FnOnce(&std::path::Path) -> Result<T, ImportError>,
+    ) -> Option<T> {
+        let Some(file) = file else {
+            self.problems.missing(path, "file", "write `file = \"…\"`, a path that starts at the scene file");
+            return None;
+        };
+        match read(&self.directory.join(file)) {
+            Ok(content) => Some(content),
+            Err(error) => {
+                self.wrong(&path.key("file"), error.to_string(), "a relative path starts at the scene file");
+                None
+            }
+        }
+    }
+
+    /// The slot of each part and the scene's material of each slot; none of both where one material is given for all.
+    fn slots(
+        &mut self,
+        path: &Path,
+        written: Option<MaterialSlots>,
+        has_one_for_all: bool,
+    ) -> Option<(Vec<u16>, Vec<Option<u32>>)> {
+        let Some(MaterialSlots { names, slots }) =
+            written.filter(|_| !has_one_for_all && self.convention.uses_material())
+        else {
+            return Some((Vec::new(), Vec::new()));
+        };
+        let mut materials = Vec::with_capacity(names.len());
+        for name in names {
+            let index = name.as_ref().and_then(|name| self.materials.iter().position(|material| material == name));
+            if index.is_none() {
+                let message = match &name {
+                    Some(name) => {
+                        format!("the file names the material \"{}\", which the scene does not have", short(name))
+                    }
+                    None => "the file names a material for some of its parts only".into(),
+                };
+                let help = format!("write a table [material.NAME] for it, or `{path}.material` for all parts");
+                self.wrong(&path.key("file"), message, &help);
+                return None;
+            }
+            materials.push(index.and_then(|index| u32::try_from(index).ok()));
+        }
+        Some((slots, materials))
+    }
+
+    fn mesh_placing(&mut self, path: &Path, mesh: &MeshSource) -> Option<MeshPlacing> {
+        let factors = mesh.scale.unwrap_or([1.0; 3]);
+        let mut all_allowed = true;
+        for (index, factor) in factors.into_iter().enumerate() {
+            if !(1e-12..=1e12).contains(&factor) {
+                let place = path.key("scale").index(index);
+                self.wrong(&place, format!("`{place}` is {factor}"), "allowed: 1e-12 to 1e12");
+                all_allowed = false;
+            }
+        }
+        let rotation = self.rotation(path, mesh.rotation);
+        let position = self.point(&path.key("position"), mesh.position.unwrap_or_default());
+        let scale = Vector::from(factors.map(|factor| self.length.to_metres(factor)));
+        all_allowed.then_some(MeshPlacing { scale, rotation: rotation?, position: position? })
+    }
+}

@@ -1,0 +1,179 @@
+//! Lights, each for itself.
+
+use super::things::Names;
+use super::{Checked, Validator, limits};
+use crate::light::{Ambient, Emission, Light, LightKind, ParallelLight, PointLight, Spot};
+use crate::scene::document::Path;
+use crate::scene::source::{EmissionName, LightSource, SceneSource};
+use crate::units::Choice;
+use crate::vector::Vector;
+
+impl Validator {
+    pub(super) fn lights(&mut self, source: &SceneSource) -> Checked<Light> {
+        if !self.few_enough("light", source.light.len(), limits::LIGHTS) {
+            return Vec::new();
+        }
+        let mut names = Names::new("light");
+        let check = |(index, light): (usize, &LightSource)| {
+            let path = Path::root().key("light").index(index);
+            let name = names.check(self, &path, light.name.as_deref());
+            if self.problems.has(&path.key("emission")) {
+                // Which keys it needs is not known.
+                return None;
+            }
+            let emission = light.emission.unwrap_or(EmissionName::Isotropic);
+            self.refuse_keys_without_meaning(&path, light, emission);
+            let kind = match emission {
+                EmissionName::Parallel => self.parallel_light(&path, light).map(LightKind::Parallel),
+                _ => self.point_light(&path, light, emission).map(LightKind::Point),
+            };
+            Some(Light { name: name?, kind: kind?, casts_shadows: light.casts_shadows.unwrap_or(true) })
+        };
+        source.light.iter().enumerate().map(check).collect()
+    }
+
+    pub(super) fn ambient(&mut self, source: &SceneSource) -> Option<Ambient> {
+        let ambient = source.ambient.as_ref()?;
+        let path = Path::root().key("ambient");
+        let Some(radiance) = ambient.radiance else {
+            self.problems.missing(&path, "radiance", "write `radiance = …`, in W/(m²·sr) or cd/m²");
+            return None;
+        };
+        let radiance = self.strength(&path.key("radiance"), radiance);
+        let samples = match ambient.samples {
+            Some(samples) => self.samples(&path, samples),
+            None => Some(Ambient::SAMPLES),
+        };
+        let is_obstructed = ambient.obstructed.unwrap_or(false);
+        if !is_obstructed && ambient.samples.is_some() {
+            let message = "`ambient.samples` means nothing where ambient light is not obstructed";
+            self.wrong(&path.key("samples"), message.into(), "leave it out, or write `obstructed = true`");
+        }
+        Some(Ambient { radiance: radiance?, obstruction: samples.filter(|_| is_obstructed) })
+    }
+
+    fn point_light(&mut self, path: &Path, light: &LightSource, emission: EmissionName) -> Option<PointLight> {
+        let position = self.required_point(path, "position", light.position);
+        let emission = match emission {
+            EmissionName::Isotropic | EmissionName::Parallel => Some(Emission::Isotropic),
+            EmissionName::Lambertian => self.axis(path, light, position).map(|axis| Emission::Lambertian { axis }),
+            EmissionName::Spot => {
+                let axis = self.axis(path, light, position);
+                let angles = self.cones(path, light);
+                axis.zip(angles).map(|(axis, [inner, outer])| Emission::Spot(Spot::new(axis, inner, outer)))
+            }
+        };
+        let intensity = self.intensity(path, light, emission);
+        Some(PointLight { position: position?, intensity: intensity?, emission: emission? })
+    }
+
+    fn axis(&mut self, path: &Path, light: &LightSource, position: Option<Vector>) -> Option<Vector> {
+        let axis = self.direction_or_target(path, position, ("axis", light.axis), light.target)?;
+        Some(axis.normalized())
+    }
+
+    /// The half angles of a spot's cones, in radians.
+    fn cones(&mut self, path: &Path, light: &LightSource) -> Option<[f64; 2]> {
+        let mut angle = |key: &str, angle: Option<f64>, what: &str| {
+            let Some(angle) = angle else {
+                self.problems.missing(path, key, format!("write `{key} = …`, in degrees from the axis: {what}"));
+                return None;
+            };
+            if (0.0..=90.0).contains(&angle) {
+                return Some(angle);
+            }
+            let message = format!("`{path}.{key}` is {angle}");
+            self.wrong(&path.key(key), message, "allowed: 0 to 90 degrees, from the axis to the edge of the cone");
+            None
+        };
+        let inner = angle("inner_angle", light.inner_angle, "inside, the spot has its full intensity");
+        let outer = angle("outer_angle", light.outer_angle, "outside, the spot sends nothing");
+        let [inner, outer] = [inner?, outer?];
+        // So that a difference that is written as half a degree is one.
+        if outer.to_radians() - inner.to_radians() < Spot::SHARPEST * (1.0 - 1e-9) {
+            let message = format!("`{path}` has cones from {inner} to {outer} degrees");
+            let help = "allowed: `outer_angle` at least 0.5 degrees more than `inner_angle`";
+            self.wrong(&path.key("outer_angle"), message, help);
+            return None;
+        }
+        Some([inner.to_radians(), outer.to_radians()])
+    }
+
+    fn intensity(&mut self, path: &Path, light: &LightSource, emission: Option<Emission>) -> Option<f64> {
+        let (key, value) = match (light.intensity, light.power) {
+            (Some(intensity), None) => ("intensity", intensity),
+            (None, Some(power)) => ("power", power),
+            (Some(_), Some(_)) => {
+                let message = format!("`{path}` has both `intensity` and `power`");
+                self.wrong(&path.key("power"), message, "allowed: one of the two");
+                return None;
+            }
+            (None, None) => {
+                let help = "write `intensity` (W/sr or cd), or `power` (W or lm) instead";
+                self.problems.missing(path, "intensity", help);
+                return None;
+            }
+        };
+        let value = self.strength(&path.key(key), value)?;
+        if key == "power" { Some(value / emission?.solid_angle()) } else { Some(value) }
+    }
+
+    fn parallel_light(&mut self, path: &Path, light: &LightSource) -> Option<ParallelLight> {
+        let direction = if let Some(direction) = light.direction {
+            self.direction(&path.key("direction"), direction)
+        } else {
+            let help = "write `direction = [x, y, z]`, the way that the light travels";
+            self.problems.missing(path, "direction", help);
+            None
+        };
+        let irradiance = if let Some(irradiance) = light.irradiance {
+            self.strength(&path.key("irradiance"), irradiance)
+        } else {
+            let help = "write `irradiance = …`, in W/m² or lx on a plane at right angles to the light";
+            self.problems.missing(path, "irradiance", help);
+            None
+        };
+        Some(ParallelLight { direction: direction?.normalized(), irradiance: irradiance? })
+    }
+
+    fn strength(&mut self, path: &Path, value: f64) -> Option<f64> {
+        if (0.0..=limits::INTENSITY).contains(&value) {
+            return Some(value);
+        }
+        let help = format!("allowed: 0 to {:e}", limits::INTENSITY);
+        self.wrong(path, format!("`{path}` is {value}"), &help);
+        None
+    }
+
+    /// A key that belongs to lights of another emission.
+    fn refuse_keys_without_meaning(&mut self, path: &Path, light: &LightSource, emission: EmissionName) {
+        use EmissionName::{Isotropic, Lambertian, Parallel, Spot};
+        const POINT: &[EmissionName] = &[Isotropic, Lambertian, Spot];
+        const AIMED: &[EmissionName] = &[Lambertian, Spot];
+        let keys = [
+            ("position", light.position.is_some(), POINT),
+            ("intensity", light.intensity.is_some(), POINT),
+            ("power", light.power.is_some(), POINT),
+            ("axis", light.axis.is_some(), AIMED),
+            ("target", light.target.is_some(), AIMED),
+            ("inner_angle", light.inner_angle.is_some(), &[Spot]),
+            ("outer_angle", light.outer_angle.is_some(), &[Spot]),
+            ("direction", light.direction.is_some(), &[Parallel]),
+            ("irradiance", light.irradiance.is_some(), &[Parallel]),
+        ];
+        for (key, is_written, emissions) in keys {
+            if is_written && !emissions.contains(&emission) {
+                let message = format!("`{path}.{key}` means nothing for {} light", with_article(emission));
+                let names: Vec<String> =
+                    emissions.iter().map(|emission| format!("`emission = \"{}\"`", emission.name())).collect();
+                let help = format!("leave it out, or write {}", names.join(" or "));
+                self.wrong(&path.key(key), message, &help);
+            }
+        }
+    }
+}
+
+fn with_article(emission: EmissionName) -> String {
+    let article = if emission == EmissionName::Isotropic { "an" } else { "a" };
+    format!("{article} {}", emission.name())
+}

@@ -1,0 +1,170 @@
+//! Shadows against closed forms, and without artefacts at any scale.
+
+use isophote::analysis::probe::Place;
+use isophote::lanes::Precision;
+use isophote::map::{Map, Quantity};
+use isophote::prepare::PreparedScene;
+use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
+use isophote::scene::{Scene, Syntax};
+use isophote::vector::Vector;
+
+fn prepared(text: &str) -> PreparedScene {
+    PreparedScene::new(&Scene::from_text("test", text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}\n{text}")))
+}
+
+fn map(scene: &PreparedScene) -> Map {
+    let quantities = vec![Quantity::Brightness, Quantity::Irradiance];
+    let settings = RenderSettings { quantities, ..RenderSettings::default() };
+    Lanes::new(Precision::Double, None).render(scene, &settings).expect("it renders")
+}
+
+fn brightness(map: &Map) -> Vec<u64> {
+    map.scalar(&Quantity::Brightness).expect("it was asked for").iter().map(f64::to_bits).collect()
+}
+
+/// A ball between a lamp and a floor, seen from the side.
+fn ball_over_floor(settings: &str) -> PreparedScene {
+    prepared(&format!(
+        "version = 1\nlength = \"m\"\nconvention = \"irradiance\"\n{settings}
+        [camera]\neye = [0, 6, -12]\ntarget = [0, 0, 0]\nresolution = [64, 48]
+        screen = {{ distance = 1, x = [-0.4, 0.4], y = [-0.3, 0.3] }}
+        [[sphere]]\nname = \"ball\"\ncenter = [0, 1, 0]\nradius = 0.5
+        [[rectangle]]\nname = \"floor\"\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nup = [0, 0, 1]\nwidth = 20\nheight = 20
+        [[light]]\nname = \"lamp\"\nposition = [0, 3, 0]\nintensity = 90"
+    ))
+}
+
+/// The cone from the lamp (height 3) that touches the ball (radius 0.5, 2 below the lamp) has sin α = 0.25; it meets the
+/// floor in a circle of radius 3 tan α.
+const EDGE: f64 = 3.0 * 0.258_198_889_747_161_1;
+
+fn irradiance(scene: &PreparedScene, x: f64, z: f64) -> f64 {
+    scene.probe(&Place::Point(Vector::new(x, 0.0, z))).expect("it is on the floor").shading.irradiance
+}
+
+#[test]
+fn the_shadow_of_a_ball_is_the_cone_that_touches_it() {
+    let scene = ball_over_floor("shadows = true");
+    for turn in 0..16 {
+        let (sine, cosine) = (f64::from(turn) * 0.39).sin_cos();
+        for (part, is_lit) in [(0.1, false), (0.999_999_999, false), (1.000_000_001, true), (1.5, true)] {
+            let distance = EDGE * part;
+            let found = irradiance(&scene, distance * cosine, distance * sine);
+            // (3.1): I cosθ/r², cosθ = h/r.
+            let expected = 90.0 * 3.0 / (distance * distance + 9.0).powf(1.5);
+            let expected = if is_lit { expected } else { 0.0 };
+            assert!((found - expected).abs() <= 1e-12 * expected, "{part} at {turn}: {found} instead of {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_blocker_is_named() {
+    let scene = ball_over_floor("shadows = true");
+    let reading = scene.probe(&Place::Point(Vector::new(0.1, 0.0, 0.1))).expect("it is on the floor");
+    let blocker = reading.blockers[0].expect("the ball is before the lamp");
+    assert_eq!(scene.scene().name_of(blocker), "ball");
+    assert_eq!(scene.probe(&Place::Point(Vector::new(3.0, 0.0, 0.0))).expect("likewise").blockers, [None]);
+    assert!(reading.explain(&scene, "P").contains("\"ball\" stands between"));
+}
+
+#[test]
+fn what_casts_or_receives_no_shadow_is_lit() {
+    let text = |scene: &str, ball: &str, floor: &str, lamp: &str| {
+        let text = ball_over_floor(scene).source_text().to_owned();
+        let text = text.replace("name = \"ball\"", &format!("name = \"ball\"\n{ball}"));
+        let text = text.replace("name = \"floor\"", &format!("name = \"floor\"\n{floor}"));
+        prepared(&text.replace("name = \"lamp\"", &format!("name = \"lamp\"\n{lamp}")))
+    };
+    let on = "shadows = true";
+    assert_eq!(irradiance(&text(on, "", "", ""), 0.0, 0.0), 0.0);
+    for scene in [
+        text("shadows = false", "", "", ""),
+        text(on, "casts_shadow = false", "", ""),
+        text(on, "", "receives_shadow = false", ""),
+        text(on, "", "", "casts_shadows = false"),
+    ] {
+        assert!((irradiance(&scene, 0.0, 0.0) - 10.0).abs() < 1e-14, "90 W/sr at 3 m");
+    }
+}
+
+/// One sphere alone, seen under grazing light as well.
+fn lone_sphere(size: f64, offset: f64, shadows: bool, more: &str) -> PreparedScene {
+    let at =
+        |x: f64, y: f64, z: f64| format!("[{:?}, {:?}, {:?}]", x * size + offset, y * size + offset, z * size + offset);
+    prepared(&format!(
+        "version = 1\nlength = \"m\"\nconvention = \"lab\"\nshadows = {shadows}
+        [camera]\neye = {}\ntarget = {}\nresolution = [64, 48]
+        screen = {{ distance = {:?}, x = [{:?}, {:?}], y = [{:?}, {:?}] }}
+        [material.clay]\ndiffuse = 0.7\nspecular = 0.3\nshininess = 20
+        [[sphere]]\ncenter = {}\nradius = {size:?}\nmaterial = \"clay\"
+        [[light]]\nposition = {}\nintensity = {:?}\n{more}",
+        at(0.0, 0.0, -5.0),
+        at(0.0, 0.0, 0.0),
+        5.0 * size,
+        -1.6 * size,
+        1.6 * size,
+        -1.2 * size,
+        1.2 * size,
+        at(0.0, 0.0, 0.0),
+        at(4.0, 1.0, 0.3),
+        50.0 * size * size,
+    ))
+}
+
+#[test]
+fn a_lone_convex_shape_never_shadows_itself() {
+    for (size, offset) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e6), (1e-3, -1e5)] {
+        let [with, without] = [true, false].map(|shadows| map(&lone_sphere(size, offset, shadows, "")));
+        assert_eq!(brightness(&with), brightness(&without), "size {size}, offset {offset}");
+        // The same where every pixel is traced and shaded by itself.
+        let scene = lone_sphere(size, offset, true, "");
+        let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
+        let reference = Reference.render(&scene, &settings).expect("it renders");
+        let peak = reference.scalar(&Quantity::Brightness).expect("asked for").iter().fold(0.0, f64::max);
+        let pairs = reference.scalar(&Quantity::Brightness).expect("asked for").iter();
+        let of_lanes: Vec<f64> = without.scalar(&Quantity::Brightness).expect("asked for").iter().collect();
+        for (traced, lanes) in pairs.zip(of_lanes) {
+            assert!((traced - lanes).abs() <= 1e-12 * peak, "{traced} {lanes}");
+        }
+    }
+}
+
+#[test]
+fn a_light_inside_a_sphere_lights_its_inside() {
+    let scene = prepared(
+        "version = 1\nlength = \"m\"\nconvention = \"irradiance\"\nshadows = true
+        [camera]\neye = [0, 0, 0.5]\nforward = [0, 0, 1]\nresolution = [32, 24]
+        screen = { distance = 1, x = [-4, 4], y = [-3, 3] }
+        [[sphere]]\ncenter = [0, 0, 0]\nradius = 2
+        [[light]]\nposition = [0, 0, 0]\nintensity = 12",
+    );
+    let map = map(&scene);
+    assert_eq!(map.mask().visible(), 32 * 24, "the wall is everywhere");
+    // From the centre every ray meets the wall at right angles: E = I/R².
+    for value in map.scalar(&Quantity::Irradiance).expect("it was asked for").iter() {
+        assert!((value - 3.0).abs() < 1e-12, "{value}");
+    }
+}
+
+/// Two spheres in a row with the lamp: the far one is dark where the near one hides the lamp, and only there.
+#[test]
+fn shadows_take_light_away_and_never_add_any() {
+    let more = "[[sphere]]\ncenter = [2.5, 0.7, 0.2]\nradius = 0.4\nmaterial = \"clay\"";
+    let [with, without] = [true, false].map(|shadows| lone_sphere(1.0, 0.0, shadows, more));
+    let (with_map, without_map) = (map(&with), map(&without));
+    let values = |map: &Map| map.scalar(&Quantity::Irradiance).expect("asked for").iter().collect::<Vec<_>>();
+    let (mut darker, mut same) = (0, 0);
+    for (index, (with_shadow, without_shadow)) in values(&with_map).into_iter().zip(values(&without_map)).enumerate() {
+        let is_hidden =
+            with.trace_pixel(with_map.pixel(index)).is_some_and(|hit| with.blocking(&hit, 0).blocker.is_some());
+        if is_hidden {
+            assert_eq!(with_shadow, 0.0);
+            darker += usize::from(without_shadow > 0.0);
+        } else {
+            assert!((with_shadow - without_shadow).abs() <= 1e-12 * without_shadow, "{with_shadow} {without_shadow}");
+            same += usize::from(without_shadow > 0.0);
+        }
+    }
+    assert!(darker > 20 && same > 200, "{darker} darker, {same} the same");
+}
