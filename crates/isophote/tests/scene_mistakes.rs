@@ -149,7 +149,7 @@ macro_rules! mistakes_of_shapes {
 
 mistakes_of_shapes! {
     two_radii_of_an_ellipsoid_are_wrong: "radii = [1, 2, 3]" => "radii = [1, 0, -3]", 2;
-    an_ellipsoid_with_one_radius: "radii = [1, 2, 3]" => "radius = 1", 2;
+    an_ellipsoid_with_one_radius: "radii = [1, 2, 3]" => "radius = 1", 1;
     a_rotation_about_no_axis: "axis = [1, 1, 0]" => "axis = [0, 0, 0]", 1;
     a_rotation_by_nothing: ", degrees = 30" => "", 1;
     a_rotation_in_radians: "degrees = 30" => "radians = 0.5", 2;

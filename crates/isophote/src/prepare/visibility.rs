@@ -70,19 +70,23 @@ impl PreparedScene {
         let bounds = distance.map(bounds);
         let mut nearest: Option<(T, Primitive)> = None;
         let mut doubtful_from: Option<T> = None;
-        let casting =
-            |primitive: &Primitive| !own.contains(primitive) && self.scene.shapes[primitive.shape].casts_shadow;
         let is_neighbour = |primitive: Primitive, at: T| {
             let least = |own: &Primitive| self.shapes[own.shape].geometry.least_shadow_distance(own.part);
             own.iter().any(|own| own.shape == primitive.shape && at.is_less(T::from_f64(least(own))))
         };
-        for primitive in self.primitives().filter(casting) {
+        let farthest = distance.map_or(f64::INFINITY, T::rounded);
+        self.along_ray(ray, farthest, |primitive| {
+            // Beyond a certain blocker nothing matters, and neither does what is behind the light.
+            let limit = |nearest: Option<(T, Primitive)>| nearest.map_or(farthest, |(at, _)| at.rounded());
+            if own.contains(&primitive) || !self.scene.shapes[primitive.shape].casts_shadow {
+                return limit(nearest);
+            }
             let meeting = self.shapes[primitive.shape].geometry.meet(primitive.part, ray, Accuracy::OF_VISIBILITY);
             let is_before_light = |at: &T| bounds.is_none_or(|[_, _, last]| at.is_less(last));
             doubtful_from = super::least(doubtful_from, meeting.doubtful_from.filter(is_before_light));
-            let Some(at) = meeting.hit.map(|hit| hit.distance) else { continue };
+            let Some(at) = meeting.hit.map(|hit| hit.distance) else { return limit(nearest) };
             if is_neighbour(primitive, at) || bounds.is_some_and(|[_, distance, _]| !at.is_less(distance)) {
-                continue;
+                return limit(nearest);
             }
             if bounds.is_some_and(|[first, ..]| first.is_less(at)) {
                 doubtful_from = super::least(doubtful_from, Some(at));
@@ -90,7 +94,8 @@ impl PreparedScene {
             if nearest.is_none_or(|(nearest, _)| at.is_less(nearest)) {
                 nearest = Some((at, primitive));
             }
-        }
+            limit(nearest)
+        });
         // Beyond a certain blocker, doubt does not matter.
         let blocks_for_sure = |from: T| nearest.is_some_and(|(at, _)| at.is_less(from));
         let is_doubtful = doubtful_from.is_some_and(|from| !blocks_for_sure(from));

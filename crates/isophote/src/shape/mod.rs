@@ -27,6 +27,7 @@ pub use disk::Disk;
 pub use ellipsoid::Ellipsoid;
 pub use locate::{Located, Miss, surface_at};
 pub use mesh::{Mesh, MeshData, MeshError, MeshPlacing};
+pub(crate) use outline::{BEFORE_THE_EYE, Grid};
 pub use outline::{Ellipse, Outline, PlaceInRow, PointInRow, RowOfEllipse};
 pub use placement::{LocalRay, Placement, Rotation};
 pub use plane::Plane;
