@@ -232,6 +232,23 @@ fn all_mistakes_of_a_file_are_reported_in_one_run() {
     assert!(lines.is_sorted(), "in the order of the file");
 }
 
+/// Each grid of this scene has a mistake of its own, but for the first.
+#[test]
+fn a_grid_is_a_rectangle_with_a_place_and_points() {
+    let rest = [
+        "center = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 0, 1]\npoints = [3, 4]\nside = \"back\"",
+        "center = [0, 0, 0]\ncorner = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 0, 1]\npoints = [3, 4]",
+        "u = [1, 0, 0]\nv = [0, 0, 1]\npoints = [3, 4]",
+        "corner = [0, 0, 0]\nu = [1, 0, 0]\nv = [1, 0, 1]\npoints = [3, 4]",
+        "corner = [0, 0, 0]\nu = [0, 0, 0]\npoints = [3]",
+        "corner = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 0, 1]\npoints = [0, 4]",
+        "corner = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 0, 1]\npoints = [60000, 60000]",
+        "corner = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 0, 1]\nside = \"left\"\npoints = [1, 1]\nname = \"grid[0]\"",
+    ];
+    let text = rest.iter().fold(LAB.to_owned(), |text, grid| text + "\n[[grid]]\n" + grid + "\n");
+    insta::assert_snapshot!(refused("lab.toml", &text, Syntax::Toml).report(false));
+}
+
 #[test]
 fn json_has_the_same_keys_and_the_same_messages() {
     let text = "{\n  \"version\": 1,\n  \"length\": \"m\",\n  \"sphere\": [\n    { \"center\": [0, 0, 5], \"radius\": -1, \"radius\": 2, \"colour\": null }\n  ]\n}\n";

@@ -1,5 +1,6 @@
 //! A scene laid out for tracing and shading. It chooses no renderer.
 
+mod bare;
 mod obstruction;
 mod visibility;
 
@@ -424,20 +425,12 @@ fn least<T: Scalar>(first: Option<T>, second: Option<T>) -> Option<T> {
 impl<T: Scalar> Hit<T> {
     /// The same hit in another number type.
     fn map<U: Scalar>(self, convert: impl Fn(T) -> U) -> Hit<U> {
-        let vector = |vector: Vector<T>| vector.map(&convert);
-        let point = self.point;
         Hit {
             primitive: self.primitive,
             distance: convert(self.distance),
-            point: SurfacePoint {
-                anchor: point.anchor,
-                offset: vector(point.offset),
-                normal: vector(point.normal),
-                view: vector(point.view),
-                cos_theta_o: convert(point.cos_theta_o),
-            },
+            point: self.point.map(&convert),
             from_inside: self.from_inside,
-            lift: vector(self.lift),
+            lift: self.lift.map(&convert),
         }
     }
 }

@@ -13,6 +13,7 @@ mod placement;
 mod plane;
 mod ray;
 mod rectangle;
+mod side;
 mod span;
 mod sphere;
 mod spheres;
@@ -32,6 +33,7 @@ pub use placement::{LocalRay, Placement, Rotation};
 pub use plane::Plane;
 pub use ray::{Accuracy, Intersection, Meeting, Ray, SurfacePoint, TracingError};
 pub use rectangle::Rectangle;
+pub use side::Side;
 pub use sphere::Sphere;
 pub use spheres::Spheres;
 
