@@ -4,6 +4,8 @@ CARGO := cargo
 ISOPHOTE := $(CARGO) run --quiet --release --
 PYTHON_ENV := target/python
 GENERATED := target/generated
+# The scenes of docs/gallery.md that are rendered as they are.
+GALLERY := solids room mesh spheres shadows overcast spot sun orthographic fisheye panorama
 # gungraun refuses a runner of another version than its own.
 GUNGRAUN := 0.20.0
 GUNGRAUN_RUNNER := target/gungraun/bin/gungraun-runner
@@ -60,7 +62,7 @@ docs: generate ## Regenerate what is generated, and build the documentation of t
 	$(CARGO) doc --workspace --no-deps
 	@echo "guide: README.md and docs/; library: target/doc/isophote/index.html"
 
-generate: ## Make the generated files anew: schema/, docs/images/
+generate: ## Make the generated files anew: schema/, docs/images/ (the gallery too)
 	@$(MAKE) --no-print-directory $(GENERATED)
 	cp -r $(GENERATED)/. .
 
@@ -77,6 +79,13 @@ $(GENERATED):
 	$(CARGO) run --quiet -- render --quiet scenes/two-lights.toml --figure $@/docs/images/two-lights.png > /dev/null
 	$(CARGO) run --quiet -- section --quiet --row 300 -c brightness -c diffuse -c specular \
 		-o $@/docs/images/lab-section.png
+	@mkdir -p $@/docs/images/gallery
+	for scene in $(GALLERY); do \
+		$(CARGO) run --quiet -- render --quiet scenes/$$scene.toml --size 400x300 --figure $@/docs/images/gallery/$$scene.png \
+			> /dev/null || exit 1; \
+	done
+	$(CARGO) run --quiet -- surface --quiet scenes/surface.toml --figure $@/docs/images/gallery/surface.png > /dev/null
+	$(CARGO) run --quiet -- grid --quiet scenes/grid.toml --figure $@/docs/images/gallery/grid.png > /dev/null
 
 # NumPy, zarr and xarray read what we write for them. Without them two tests say that they are skipped, and all others run.
 .PHONY: python-env

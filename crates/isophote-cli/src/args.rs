@@ -5,12 +5,14 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
+use isophote::analysis::surface::Projection;
 use isophote::export::colormap::Colormap;
 use isophote::lanes::Precision;
 use isophote::map::{Pixel, Region, Resolution};
 use isophote::render::Filter;
 use isophote::scene::library::Starter;
 use isophote::scene::source::SamplingSource;
+use isophote::shape::Side;
 use isophote::units::Choice;
 use isophote_zarr::Part;
 
@@ -36,6 +38,10 @@ pub enum Command {
     Probe(ProbeArguments),
     /// Print or plot the values along a line of the picture
     Section(SectionArguments),
+    /// Print, write or plot a channel over a shape's own surface: its flux, mean and extremes, and its map
+    Surface(SurfaceArguments),
+    /// Print, write or plot the illuminances at the points of a grid, and how even they are
+    Grid(GridArguments),
     /// Put the parts of a .zarr store together: print its extremes and probes, or what is missing
     Merge(MergeArguments),
     /// Check a scene and print it as it is understood, in metres
@@ -279,6 +285,146 @@ pub struct LineArgument {
 }
 
 #[derive(Args)]
+pub struct SurfaceArguments {
+    #[command(flatten)]
+    pub scene: SceneArgument,
+
+    /// The shape: a sphere, a cylinder, a rectangle or a disk; not needed when there is only one
+    #[arg(long, value_name = "NAME")]
+    pub shape: Option<String>,
+
+    /// Which of the spheres that are one shape, from 0
+    #[arg(long, value_name = "NUMBER")]
+    pub part: Option<u32>,
+
+    /// Cells of the map (by default 360 columns, and as many rows as make cells about square)
+    #[arg(long, value_name = "COLUMNSxROWS", value_parser = numbers::size)]
+    pub size: Option<Resolution>,
+
+    /// Even steps of latitude or radius, or rows of equal area
+    #[arg(long, value_name = "NAME", default_value = "equirectangular", value_parser = choice::<Projection>())]
+    pub projection: Projection,
+
+    /// The direction in which the latitude of a sphere is 90° (by default 0,1,0)
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_direction)]
+    pub axis: Option<[f64; 3]>,
+
+    /// The same, by the light to which the axis leads
+    #[arg(long, value_name = "LIGHT", conflicts_with = "axis")]
+    pub towards: Option<String>,
+
+    /// Which side: the outside of a closed shape and the side of a flat one's normal, or the other
+    #[arg(long, value_name = "SIDE", default_value = "front", value_parser = choice::<Side>())]
+    pub side: Side,
+
+    /// Channel: irradiance, light.NAME, position, normal, or brightness, diffuse or specular as the eye sees them; may be
+    /// given several times. The first one is summed up and pictured (by default the irradiance)
+    #[arg(short, long, value_name = "NAME")]
+    pub channel: Vec<String>,
+
+    /// Write the map to FILE: .png, .exr, .npy, .npz or .csv; may be given several times
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+
+    /// Draw the map with axes, colour bar and isophotes into FILE: .svg or .png; may be given several times
+    #[arg(long, value_name = "FILE")]
+    pub figure: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub style: CellStyleArguments,
+
+    /// Print the results as JSON
+    #[arg(long)]
+    pub json: bool,
+
+    /// No notes: only results and errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// How maps of surfaces and grids are pictured.
+#[derive(Args)]
+pub struct CellStyleArguments {
+    /// Colours of pictures and figures (pictures are grey by default, figures viridis)
+    #[arg(long, value_name = "NAME", value_parser = choice::<Colormap>())]
+    pub colormap: Option<Colormap>,
+
+    /// The values that become the first and the last colour (by default 0 and the maximum; in figures the minimum and
+    /// the maximum)
+    #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = parse_range)]
+    pub range: Option<[f64; 2]>,
+
+    /// About how many isophotes a figure shows; 0 for none
+    #[arg(long, value_name = "COUNT", default_value_t = crate::commands::DEFAULT_ISOPHOTES, value_parser = clap::value_parser!(u8).range(0..=50))]
+    pub isophotes: u8,
+}
+
+#[derive(Args)]
+pub struct GridArguments {
+    #[command(flatten)]
+    pub scene: SceneArgument,
+
+    /// One of the scene's grids (by default all of them)
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["corner", "center", "u", "v", "points", "side"])]
+    pub name: Option<String>,
+
+    #[command(flatten)]
+    pub placed: PlacedGridArguments,
+
+    /// Channel: irradiance, light.NAME, position or normal; may be given several times. The first one is summed up and
+    /// pictured (by default the irradiance, which is the illuminance in a photometric scene)
+    #[arg(short, long, value_name = "NAME")]
+    pub channel: Vec<String>,
+
+    /// Write the values to FILE: .csv, .png, .exr, .npy or .npz; may be given several times
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+
+    /// Draw the grid with axes, colour bar and isolines into FILE: .svg or .png; may be given several times
+    #[arg(long, value_name = "FILE")]
+    pub figure: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub style: CellStyleArguments,
+
+    /// Print the results, with all values, as JSON
+    #[arg(long)]
+    pub json: bool,
+
+    /// No notes: only results and errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// A grid in place of the scene's own.
+#[derive(Args)]
+pub struct PlacedGridArguments {
+    /// A grid in place of the scene's own: the corner where both edges begin, in the scene's length unit
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, conflicts_with = "center", value_parser = parse_point)]
+    pub corner: Option<[f64; 3]>,
+
+    /// The middle of the grid, instead of its corner
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_point)]
+    pub center: Option<[f64; 3]>,
+
+    /// One edge of the grid: where it leads and how long it is
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_point)]
+    pub u: Option<[f64; 3]>,
+
+    /// The other edge, at right angles to the first
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_point)]
+    pub v: Option<[f64; 3]>,
+
+    /// Points along u and along v, each in the middle of its cell
+    #[arg(long, value_name = "NxM", value_parser = numbers::size)]
+    pub points: Option<Resolution>,
+
+    /// The side that is lit: the one to which u × v leads (front), or the other
+    #[arg(long, value_name = "SIDE", value_parser = choice::<Side>())]
+    pub side: Option<Side>,
+}
+
+#[derive(Args)]
 pub struct CheckArguments {
     #[command(flatten)]
     pub scene: SceneArgument,
@@ -343,6 +489,12 @@ fn choice<C: Choice + Send + Sync>() -> impl TypedValueParser<Value = C> {
 
 fn parse_point(text: &str) -> Result<[f64; 3], String> {
     numbers::finite(text, "X,Y,Z, such as 0,0,4")
+}
+
+fn parse_direction(text: &str) -> Result<[f64; 3], String> {
+    let direction: [f64; 3] = numbers::finite(text, "X,Y,Z, such as 0,1,0")?;
+    let largest = direction.iter().fold(0.0_f64, |largest, component| largest.max(component.abs()));
+    if (1e-100..=1e100).contains(&largest) { Ok(direction) } else { Err("allowed: any direction with a length".into()) }
 }
 
 fn parse_angles(text: &str) -> Result<[f64; 2], String> {

@@ -72,7 +72,7 @@ pub fn is_store(path: &Path) -> bool {
 }
 
 /// The scene is valid: it is the argument that is wrong.
-fn wrong(options: &str, error: &SceneError) -> Usage {
+pub fn wrong(options: &str, error: &SceneError) -> Usage {
     let reasons = error.problems.iter().map(|problem| match &problem.help {
         Some(help) => format!("{}; {help}", problem.message),
         None => problem.message.clone(),

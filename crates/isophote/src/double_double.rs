@@ -7,22 +7,104 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::lanes::Lane;
 use crate::real::{Real, Scalar};
 
-/// A number of about 106 bits: `high + low`, with |low| at most half a unit in the last place of `high`.
+/// A number of about 106 bits: `high + low`, with |low| at most half a unit in the last place of `high`. Or a vector of
+/// such numbers, in two vectors of doubles.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub struct DoubleDouble {
-    high: f64,
-    low: f64,
+pub struct DoubleDouble<T = f64> {
+    high: T,
+    low: T,
 }
 
-impl DoubleDouble {
-    /// π.
-    pub const PI: Self = Self { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
+/// A number type whose products can be had exactly, as two numbers.
+///
+/// Pairs of vectors must be computed in place, for the instructions at hand; of pairs of doubles that would only make the
+/// program large. So each type says by itself how its operations are called.
+pub trait ExactProduct: Real {
+    /// self · factor − product, exactly, when `product` is the rounded self · factor.
+    #[must_use]
+    fn product_rest(self, factor: Self, product: Self) -> Self;
+
+    /// first + second.
+    #[must_use]
+    fn sum_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self>;
+
+    /// first · second.
+    #[must_use]
+    fn product_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self>;
+
+    /// first / second.
+    #[must_use]
+    fn quotient_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self>;
+}
+
+macro_rules! operations {
+    ($inline:meta) => {
+        #[$inline]
+        fn sum_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self> {
+            first.plus(second)
+        }
+
+        #[$inline]
+        fn product_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self> {
+            first.times(second)
+        }
+
+        #[$inline]
+        fn quotient_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self> {
+            first.over(second)
+        }
+    };
+}
+
+impl ExactProduct for f64 {
+    #[inline(always)]
+    fn product_rest(self, factor: Self, product: Self) -> Self {
+        self.mul_add(factor, -product)
+    }
+
+    operations!(inline);
+}
+
+impl<V: Lane<Element = f64>> ExactProduct for V {
+    #[inline(always)]
+    fn product_rest(self, factor: Self, product: Self) -> Self {
+        Lane::product_rest(self, factor, product)
+    }
+
+    operations!(inline(always));
+}
+
+impl<T> DoubleDouble<T> {
+    /// The same number in another type: `convert` must be exact.
+    #[must_use]
+    #[inline(always)]
+    pub fn map<U>(self, convert: impl Fn(T) -> U) -> DoubleDouble<U> {
+        DoubleDouble { high: convert(self.high), low: convert(self.low) }
+    }
+}
+
+impl<T: ExactProduct> DoubleDouble<T> {
+    /// A number of half the digits, exactly.
+    #[must_use]
+    #[inline(always)]
+    pub fn exactly(high: T) -> Self {
+        Self { high, low: high.constant(0.0) }
+    }
+
+    /// The nearest number of half the digits.
+    #[must_use]
+    #[inline(always)]
+    pub fn nearest(self) -> T {
+        self.high
+    }
 
     /// a + b, exactly.
     #[must_use]
-    pub fn sum_of(a: f64, b: f64) -> Self {
+    #[inline(always)]
+    pub fn sum_of(a: T, b: T) -> Self {
         let high = a + b;
         let b_kept = high - a;
         Self { high, low: (a - (high - b_kept)) + (b - b_kept) }
@@ -30,16 +112,23 @@ impl DoubleDouble {
 
     /// a · b, exactly (but for underflow).
     #[must_use]
-    pub fn product_of(a: f64, b: f64) -> Self {
+    #[inline(always)]
+    pub fn product_of(a: T, b: T) -> Self {
         let high = a * b;
-        Self { high, low: a.mul_add(b, -high) }
+        Self { high, low: a.product_rest(b, high) }
     }
 
     /// high + low, when |high| ≥ |low|.
-    fn normalized(high: f64, low: f64) -> Self {
+    #[inline(always)]
+    fn normalized(high: T, low: T) -> Self {
         let sum = high + low;
         Self { high: sum, low: low - (sum - high) }
     }
+}
+
+impl DoubleDouble {
+    /// π.
+    pub const PI: Self = Self { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
 
     /// eˣ, to about 30 digits, for x in −700…700.
     #[must_use]
@@ -126,29 +215,35 @@ impl DoubleDouble {
     }
 }
 
-impl Real for DoubleDouble {
-    type Mask = bool;
+impl<T: ExactProduct> Real for DoubleDouble<T> {
+    type Mask = T::Mask;
     const NEGLIGIBLE_SQUARE: f64 = 1e-64;
 
+    #[inline(always)]
     fn constant(self, value: f64) -> Self {
-        Self { high: value, low: 0.0 }
+        Self::exactly(self.high.constant(value))
     }
 
+    #[inline(always)]
     fn sqrt(self) -> Self {
-        if self.high <= 0.0 {
-            return Self::zero();
-        }
-        let root = self.high.sqrt();
+        let zero = self.high.constant(0.0);
+        let root = self.high.max(zero).sqrt();
         let rest = self - Self::product_of(root, root);
-        Self::normalized(root, rest.high / (2.0 * root))
+        let is_positive = zero.is_less(root);
+        let low = rest.high / (root + T::select(is_positive, root, root.constant(1.0)));
+        Self::normalized(root, T::select(is_positive, low, zero))
     }
 
-    fn is_less(self, other: Self) -> bool {
-        self < other
+    #[inline(always)]
+    fn is_less(self, other: Self) -> T::Mask {
+        // The difference of two such numbers is never rounded to the other sign.
+        let difference = self - other;
+        difference.high.is_less(difference.high.constant(0.0))
     }
 
-    fn select(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
+    #[inline(always)]
+    fn select(mask: T::Mask, yes: Self, no: Self) -> Self {
+        Self { high: T::select(mask, yes.high, no.high), low: T::select(mask, yes.low, no.low) }
     }
 }
 
@@ -178,54 +273,76 @@ impl Scalar for DoubleDouble {
     }
 }
 
-impl Add for DoubleDouble {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
+impl<T: ExactProduct> DoubleDouble<T> {
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
         let high = Self::sum_of(self.high, other.high);
         let low = Self::sum_of(self.low, other.low);
         let carried = Self::normalized(high.high, high.low + low.high);
         Self::normalized(carried.high, carried.low + low.low)
     }
+
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        let product = Self::product_of(self.high, other.high);
+        let across = self.high * other.low + self.low * other.high;
+        Self::normalized(product.high, product.low + across)
+    }
+
+    /// Long division, three digits of 53 bits.
+    #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        let first = self.high / other.high;
+        let rest = self - other * Self::exactly(first);
+        let second = rest.high / other.high;
+        let rest = rest - other * Self::exactly(second);
+        let third = rest.high / other.high;
+        Self::sum_of(first, second) + Self::exactly(third)
+    }
 }
 
-impl Sub for DoubleDouble {
+impl<T: ExactProduct> Add for DoubleDouble<T> {
     type Output = Self;
 
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        T::sum_of_pairs(self, other)
+    }
+}
+
+impl<T: ExactProduct> Sub for DoubleDouble<T> {
+    type Output = Self;
+
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
 }
 
-impl Neg for DoubleDouble {
+impl<T: ExactProduct> Neg for DoubleDouble<T> {
     type Output = Self;
 
+    #[inline(always)]
     fn neg(self) -> Self {
         Self { high: -self.high, low: -self.low }
     }
 }
 
-impl Mul for DoubleDouble {
+impl<T: ExactProduct> Mul for DoubleDouble<T> {
     type Output = Self;
 
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        let product = Self::product_of(self.high, other.high);
-        let across = self.high * other.low + self.low * other.high;
-        Self::normalized(product.high, product.low + across)
+        T::product_of_pairs(self, other)
     }
 }
 
-impl Div for DoubleDouble {
+impl<T: ExactProduct> Div for DoubleDouble<T> {
     type Output = Self;
 
-    /// Long division, three digits of 53 bits.
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
-        let first = self.high / other.high;
-        let rest = self - other * Self::from_f64(first);
-        let second = rest.high / other.high;
-        let rest = rest - other * Self::from_f64(second);
-        let third = rest.high / other.high;
-        Self::sum_of(first, second) + Self::from_f64(third)
+        T::quotient_of_pairs(self, other)
     }
 }
 

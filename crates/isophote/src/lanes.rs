@@ -22,15 +22,34 @@ pub trait Lane: Real {
     type Kind: Copy;
     /// How many numbers there are.
     const COUNT: usize;
+    /// The vector of 16 singles or 8 doubles, where this one is two of them.
+    type Narrow: Lane<Element = Self::Element, Kind = Self::Kind>;
 
     /// The same number in every lane.
     fn splat(kind: Self::Kind, element: Self::Element) -> Self;
+
+    /// Reads the numbers; the slice has [`COUNT`](Self::COUNT) of them at least.
+    fn load(kind: Self::Kind, numbers: &[Self::Element]) -> Self;
+
+    /// Reads doubles and rounds them; the slice has [`COUNT`](Self::COUNT) of them at least.
+    fn load_doubles(kind: Self::Kind, numbers: &[f64]) -> Self;
+
+    /// Bit i tells whether the mask is set in lane i.
+    fn bits(mask: Self::Mask) -> u32;
+
+    /// The smaller of two numbers.
+    #[must_use]
+    fn min(self, other: Self) -> Self;
 
     /// For lane i the distance (first + i) − origin, computed in double precision and then rounded. `first` is whole.
     fn distances(kind: Self::Kind, first: f64, origin: f64) -> Self;
 
     /// Writes the numbers; the slice has room for [`COUNT`](Self::COUNT).
     fn store(self, out: &mut [Self::Element]);
+
+    /// self · factor − product, exactly, when `product` is the rounded self · factor.
+    #[must_use]
+    fn product_rest(self, factor: Self, product: Self) -> Self;
 
     /// k of x = m·2ᵏ with 1 ≤ m < 2, for a positive normal x.
     #[must_use]
@@ -193,8 +212,15 @@ impl Instructions {
 
     /// Whether a product is added without being rounded first: such machines agree in every bit.
     #[must_use]
+    #[inline(always)]
     pub fn fuse(self) -> bool {
-        ["avx2", "avx512", "neon"].contains(&self.name())
+        match self.0 {
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx2(_) | Level::Avx512(_) => true,
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(_) => true,
+            _ => false,
+        }
     }
 
     /// Runs a job with vectors for these instructions.
@@ -227,7 +253,7 @@ fn run_with<S: Simd, J: LaneJob>(simd: S, job: J) -> J::Output {
 }
 
 macro_rules! lane {
-    ($vector:ident, $mask:ident, $bits:ident, $element:ty, $max:ident, negligible: $negligible:expr,
+    ($vector:ident, $mask:ident, $bits:ident, $element:ty, $max:ident, $min:ident, half: $half:expr, negligible: $negligible:expr,
      mantissa bits: $width:expr, whole: $whole:expr, bias: $bias:expr) => {
         impl<S: Simd> Real for $vector<S> {
             type Mask = $mask<S>;
@@ -268,10 +294,32 @@ macro_rules! lane {
             type Element = $element;
             type Kind = S;
             const COUNT: usize = <Self as SimdBase<S>>::LEN;
+            type Narrow = Self;
 
             #[inline(always)]
             fn splat(kind: S, element: $element) -> Self {
                 SimdBase::splat(kind, element)
+            }
+
+            #[inline(always)]
+            fn load(kind: S, numbers: &[$element]) -> Self {
+                SimdBase::from_slice(kind, &numbers[..Self::COUNT])
+            }
+
+            #[inline(always)]
+            fn load_doubles(kind: S, numbers: &[f64]) -> Self {
+                doubles::$vector(kind, numbers)
+            }
+
+            #[inline(always)]
+            #[expect(clippy::cast_possible_truncation, reason = "at most 16 lanes")]
+            fn bits(mask: $mask<S>) -> u32 {
+                SimdMask::to_bitmask(mask) as u32
+            }
+
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                self.simd.$min(self, other)
             }
 
             #[inline(always)]
@@ -282,6 +330,21 @@ macro_rules! lane {
             #[inline(always)]
             fn store(self, out: &mut [$element]) {
                 self.store_slice(&mut out[..Self::COUNT]);
+            }
+
+            #[inline(always)]
+            fn product_rest(self, factor: Self, product: Self) -> Self {
+                if Instructions(self.simd.level()).fuse() {
+                    return self.mul_add(factor, -product);
+                }
+                // Dekker's way: numbers of half the digits, whose products are exact.
+                let halves = |whole: Self| {
+                    let shifted = whole * $half;
+                    let upper = shifted - (shifted - whole);
+                    (upper, whole - upper)
+                };
+                let ((a, b), (c, d)) = (halves(self), halves(factor));
+                b * d - (((product - a * c) - b * c) - a * d)
             }
 
             #[inline(always)]
@@ -309,10 +372,24 @@ macro_rules! lane {
     };
 }
 
-lane!(f32x16, mask32x16, u32x16, f32, max_f32x16, negligible: 1e-14,
+lane!(f32x16, mask32x16, u32x16, f32, max_f32x16, min_f32x16, half: 4097.0, negligible: 1e-14,
     mantissa bits: 23, whole: 8_388_608.0, bias: 127.0);
-lane!(f64x8, mask64x8, u64x8, f64, max_f64x8, negligible: 1e-32,
+lane!(f64x8, mask64x8, u64x8, f64, max_f64x8, min_f64x8, half: 134_217_729.0, negligible: 1e-32,
     mantissa bits: 52, whole: 4_503_599_627_370_496.0, bias: 1023.0);
+
+mod doubles {
+    use super::{Simd, SimdBase, SimdNarrow, f32x16, f64x8};
+
+    #[inline(always)]
+    pub fn f64x8<S: Simd>(kind: S, numbers: &[f64]) -> f64x8<S> {
+        f64x8::from_slice(kind, &numbers[..8])
+    }
+
+    #[inline(always)]
+    pub fn f32x16<S: Simd>(kind: S, numbers: &[f64]) -> f32x16<S> {
+        f64x8(kind, numbers).narrow(f64x8(kind, &numbers[8..]))
+    }
+}
 
 mod distances {
     use super::{Simd, SimdBase, SimdNarrow, f32x16, f64x8};
@@ -400,11 +477,32 @@ impl<V: Lane> Lane for Pair<V> {
     type Element = V::Element;
     type Kind = V::Kind;
     const COUNT: usize = 2 * V::COUNT;
+    type Narrow = V;
 
     #[inline(always)]
     fn splat(kind: V::Kind, element: V::Element) -> Self {
         let splat = V::splat(kind, element);
         Self(splat, splat)
+    }
+
+    #[inline(always)]
+    fn load(kind: V::Kind, numbers: &[V::Element]) -> Self {
+        Self(V::load(kind, numbers), V::load(kind, &numbers[V::COUNT..]))
+    }
+
+    #[inline(always)]
+    fn load_doubles(kind: V::Kind, numbers: &[f64]) -> Self {
+        Self(V::load_doubles(kind, numbers), V::load_doubles(kind, &numbers[V::COUNT..]))
+    }
+
+    #[inline(always)]
+    fn bits(mask: Self::Mask) -> u32 {
+        V::bits(mask.0) | (V::bits(mask.1) << V::COUNT)
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0), self.1.min(other.1))
     }
 
     #[inline(always)]
@@ -417,6 +515,11 @@ impl<V: Lane> Lane for Pair<V> {
     fn store(self, out: &mut [V::Element]) {
         self.0.store(out);
         self.1.store(&mut out[V::COUNT..]);
+    }
+
+    #[inline(always)]
+    fn product_rest(self, factor: Self, product: Self) -> Self {
+        Self(self.0.product_rest(factor.0, product.0), self.1.product_rest(factor.1, product.1))
     }
 
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! Isophote computes the brightness of surfaces lit by point lights, with units and a formula number on every value.
 
+pub mod accelerate;
 pub mod analysis;
 pub mod camera;
 pub mod conformance;

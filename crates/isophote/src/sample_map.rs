@@ -1,6 +1,6 @@
 //! Maps of given functions, for tests of what reads maps.
 
-use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Values, Window};
+use crate::map::{Channel, Coordinates, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Values, Window};
 use crate::units::LengthUnit;
 
 /// What a sample map shows at one pixel.
@@ -13,7 +13,8 @@ pub(crate) struct Seen {
 /// A map of brightness over the window −half..half in both directions, in metres; `seen` is asked at pixel centres.
 pub(crate) fn square_map(pixels: u32, half: f64, seen: impl Fn(f64, f64) -> Option<Seen>) -> Map {
     let size = Resolution { width: pixels, height: pixels };
-    let window = Window { x: [-half, half], y: [-half, half], length: LengthUnit::Metre, in_degrees: false };
+    let window =
+        Window { x: [-half, half], y: [-half, half], length: LengthUnit::Metre, coordinates: Coordinates::Screen };
     map_over(size, window, seen)
 }
 

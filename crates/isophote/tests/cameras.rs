@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use isophote::analysis::probe::{Place, SeenFromEye};
-use isophote::map::{Map, Quantity};
+use isophote::map::{Coordinates, Map, Quantity};
 use isophote::prepare::PreparedScene;
 use isophote::render::{Reference, RenderSettings, Renderer};
 use isophote::scene::source::{CameraSource, ProjectionName, ScreenSource, SphereSource, WindowSource};
@@ -103,7 +103,7 @@ fn a_panorama_shows_the_solid_angle_of_a_sphere() {
         let found: f64 = map.mask().indices().map(area).sum();
         let expected = 2.0 * PI * (1.0 - (1.0 - 1.0 / (2.5 * 2.5_f64)).sqrt());
         assert!((found / expected - 1.0).abs() < 5e-3, "{forward:?}: {found} {expected}");
-        assert!(map.window.in_degrees && map.window.x == [-180.0, 180.0]);
+        assert!(map.window.coordinates == Coordinates::ScreenAngles && map.window.x == [-180.0, 180.0]);
     }
 }
 

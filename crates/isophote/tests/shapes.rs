@@ -356,6 +356,28 @@ fn silhouettes_are_where_the_closed_forms_have_them() {
     assert!(below(2.0 - 1e-12) && !below(2.0 + 1e-12) && !below(-1e-12) && below(1e-12), "the flat ends");
 }
 
+/// A ray along a plane, but for rounding, sees nothing of it however far it goes.
+#[test]
+fn a_plane_ends_at_its_horizon() {
+    let normal = Vector::new(0.48, 0.6, 0.64);
+    let plane = Geometry::Plane(Arc::new(Plane::new(Vector::default(), normal)));
+    for along in [Vector::new(0.8, 0.0, -0.6), Vector::new(0.36, -0.8, 0.48), Vector::new(0.6, -0.48, 0.0)] {
+        let eye = normal * 2.0;
+        let exact = Vector::<DoubleDouble>::from_f64(along) - plane_part(along, &plane);
+        let ray = Ray { direction: exact.normalized(), ..ray(eye, along) };
+        assert!(plane.meet(0, &ray, Accuracy::OF_VISIBILITY).hit.is_none());
+        let rounded = Ray { direction: rounded(exact.normalized()), ..self::ray::<f64>(eye, along) };
+        assert!(plane.meet(0, &rounded, Accuracy::OF_VISIBILITY).doubtful_from.is_some());
+    }
+}
+
+/// The part of a vector across a plane, with 32 digits.
+fn plane_part(vector: Vector, plane: &Geometry) -> Vector<DoubleDouble> {
+    let start = ray::<DoubleDouble>(Vector::new(1.0, 2.0, 3.0), Vector::new(-0.3, -2.0, -1.0));
+    let normal = plane.meet(0, &start, Accuracy::OF_VISIBILITY).hit.expect("it is there").point.normal;
+    normal * normal.dot(Vector::from_f64(vector))
+}
+
 /// Along the axis, exactly: through the apex, through flat ends, and nothing is NaN.
 #[test]
 fn rays_along_an_axis_meet_the_ends() {

@@ -1,6 +1,8 @@
 //! One file per command: raw arguments become a job, the job runs and gives the text for standard output.
 
+mod cells;
 mod check;
+mod grid;
 mod new;
 mod output;
 mod probe;
@@ -9,6 +11,7 @@ mod section;
 mod show;
 mod store;
 mod summary;
+mod surface;
 
 use anyhow::Result;
 use clap::CommandFactory;
@@ -24,6 +27,8 @@ pub fn run(arguments: Arguments) -> Result<String> {
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Probe(arguments)) => probe::run(&arguments),
         Some(Command::Section(arguments)) => section::run(&arguments),
+        Some(Command::Surface(arguments)) => surface::run(&arguments),
+        Some(Command::Grid(arguments)) => grid::run(&arguments),
         Some(Command::Merge(arguments)) => store::merge(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments),
         Some(Command::New(arguments)) => new::run(&arguments),

@@ -38,7 +38,11 @@ fn to_text(metadata: &FileMetadata) -> String {
     }
     let [left, right] = window.x.map(|x| significant(x, 9));
     let [bottom, top] = window.y.map(|y| significant(y, 9));
-    row("window", format!("x {left} to {right}, y {bottom} to {top} {}", window.unit().name()));
+    let [x, y] =
+        window.coordinates.axes(window.length).map(|axis| if axis.unit == "1" { "no unit" } else { axis.unit });
+    let [across, up] = window.coordinates.axes(window.length).map(|axis| axis.title);
+    let unit_of_x = if x == y { String::new() } else { format!(" {x}") };
+    row("window", format!("{across} {left} to {right}{unit_of_x}, {up} {bottom} to {top} {y}"));
     for channel in &metadata.channels {
         let unit = if channel.unit.is_empty() { "no unit" } else { &channel.unit };
         let stored_as = match channel.stored_as.join(", ") {

@@ -2,8 +2,8 @@
 
 use crate::common::Folder;
 
-const COMMANDS: [&str; 10] =
-    ["render", "probe", "section", "merge", "check", "new", "show", "schema", "completions", "man"];
+const COMMANDS: [&str; 12] =
+    ["render", "probe", "section", "surface", "grid", "merge", "check", "new", "show", "schema", "completions", "man"];
 
 /// The long options that the help of a command lists.
 fn options(folder: &Folder, command: &str) -> Vec<String> {

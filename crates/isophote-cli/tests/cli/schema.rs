@@ -76,6 +76,7 @@ fn the_reader_knows_exactly_the_keys_of_the_schema() {
         ("/light/*", "[[light]]\nzzz = 1"),
         ("/ambient", "[ambient]\nzzz = 1"),
         ("/probe/*", "[[probe]]\nzzz = 1"),
+        ("/grid/*", "[[grid]]\nzzz = 1"),
     ];
     for (path, scene) in tables {
         let table = path.split('/').skip(1).fold(&schema, |outer, step| {

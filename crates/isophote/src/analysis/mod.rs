@@ -1,9 +1,12 @@
 //! What is asked of a map or of a prepared scene: statistics, isophotes, values at points and along lines.
 
+mod cells;
 mod explain;
 mod grid;
 pub mod isophotes;
 pub(crate) mod levels;
+pub mod measuring_grid;
 pub mod probe;
 pub mod section;
 pub mod statistics;
+pub mod surface;

@@ -12,7 +12,7 @@ pub use projection::{Extent, Projection, Screen};
 
 use serde::{Deserialize, Serialize};
 
-use crate::map::{Pixel, Region, Resolution, Window};
+use crate::map::{Coordinates, Pixel, Region, Resolution, Window};
 use crate::units::{Choice, LengthUnit, ScreenUnit};
 use crate::vector::Vector;
 
@@ -94,7 +94,7 @@ impl Camera {
             x: [x(corner.column), x(corner.column + size.width)],
             y: [y(corner.row + size.height), y(corner.row)],
             length,
-            in_degrees,
+            coordinates: if in_degrees { Coordinates::ScreenAngles } else { Coordinates::Screen },
         }
     }
 }

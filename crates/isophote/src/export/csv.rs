@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{ExportError, FileMetadata, names, one_line, read::LONGEST_JSON};
-use crate::map::{Channel, Map, Quantity, Values};
+use crate::map::{Channel, CoordinateAxis, Coordinates, Map, Quantity, Values};
 
 /// Which pixels become rows of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +30,16 @@ pub fn write(map: &Map, rows: Rows, out: &mut impl Write) -> Result<u64, ExportE
     let columns = column_names(map);
     write_comments(map, &columns, out)?;
     let names: Vec<_> = columns.iter().flatten().map(String::as_str).collect();
-    writeln!(out, "column,row,x,y,shape{}{}", if names.is_empty() { "" } else { "," }, names.join(","))?;
+    let [x, y] = map.window.coordinates.axes(map.window.length);
+    let shape = if has_shapes(map) { ",shape" } else { "" };
+    writeln!(
+        out,
+        "column,row,{},{}{shape}{}{}",
+        x.name,
+        y.name,
+        if names.is_empty() { "" } else { "," },
+        names.join(",")
+    )?;
     let mut written = 0;
     for (index, shape) in map.mask().shapes().into_iter().enumerate() {
         if rows == Rows::All || shape >= 0 {
@@ -61,9 +70,11 @@ fn write_comments(map: &Map, columns: &[Vec<String>], out: &mut impl Write) -> R
             "column, row: pixel of the full image, {} × {}, from 0 at the top left",
             map.full.width, map.full.height
         ),
-        format!("x, y: centre of the pixel on the screen, {}", map.window.unit().name()),
-        "shape: index of the shape that is seen, -1 where none is".into(),
+        places(map),
     ];
+    if has_shapes(map) {
+        lines.push("shape: index of the shape that is seen, -1 where none is".into());
+    }
     for (channel, names) in map.channels().iter().zip(columns).filter(|(_, names)| !names.is_empty()) {
         let unit = if channel.unit == "1" { "no unit" } else { &channel.unit };
         lines.push(format!("{}: {unit}", names.join(", ")));
@@ -79,6 +90,21 @@ fn write_comments(map: &Map, columns: &[Vec<String>], out: &mut impl Write) -> R
     Ok(())
 }
 
+/// What the two coordinates of a row are.
+fn places(map: &Map) -> String {
+    let [x, y] = map.window.coordinates.axes(map.window.length);
+    if map.window.coordinates.is_screen() {
+        return format!("x, y: centre of the pixel on the screen, {}", x.unit);
+    }
+    let of_one = |axis: CoordinateAxis| if axis.unit == "1" { "no unit" } else { axis.unit };
+    format!("{}, {}: centre of the cell on the surface, {}, {}", x.name, y.name, of_one(x), of_one(y))
+}
+
+/// A grid is no shape, whatever is beneath it.
+fn has_shapes(map: &Map) -> bool {
+    map.window.coordinates != Coordinates::Grid
+}
+
 const KEY: &str = "isophote: ";
 
 fn write_row(map: &Map, index: usize, shape: i32, out: &mut impl Write) -> Result<(), ExportError> {
@@ -88,7 +114,10 @@ fn write_row(map: &Map, index: usize, shape: i32, out: &mut impl Write) -> Resul
     let x = centre(window.x, column, width);
     let y = centre([window.y[1], window.y[0]], row, region.size.height as usize);
     let (full_column, full_row) = (region.corner.column as usize + column, region.corner.row as usize + row);
-    write!(out, "{full_column},{full_row},{},{},{}", Number(x), Number(y), shape)?;
+    write!(out, "{full_column},{full_row},{},{}", Number(x), Number(y))?;
+    if has_shapes(map) {
+        write!(out, ",{shape}")?;
+    }
     for channel in map.channels().iter().filter(|channel| channel.quantity != Quantity::Shape) {
         match &channel.values {
             Values::Scalar(values) => write!(out, ",{}", Number(values[index]))?,

@@ -48,10 +48,28 @@ impl SlotBook {
         self.slots.push(slot);
     }
 
-    /// Nothing if no element has a named material.
+    /// Nothing if no element has a named material. Names that no element has are dropped: nobody needs to know them.
     pub fn finish(self) -> Option<MaterialSlots> {
-        let Self { names, slots, .. } = self;
-        let is_named = names.iter().any(Option::is_some) && !slots.is_empty();
-        is_named.then_some(MaterialSlots { names, slots })
+        let Self { names, mut slots, .. } = self;
+        let mut is_used = vec![false; names.len()];
+        for slot in &slots {
+            is_used[usize::from(*slot)] = true;
+        }
+        // It can only wrap after the last of 65536.
+        let mut count = 0_u16;
+        let new_slots: Vec<u16> = is_used
+            .iter()
+            .map(|is_used| {
+                let slot = count;
+                count = count.wrapping_add(u16::from(*is_used));
+                slot
+            })
+            .collect();
+        for slot in &mut slots {
+            *slot = new_slots[usize::from(*slot)];
+        }
+        let names: Vec<_> =
+            names.into_iter().zip(is_used).filter_map(|(name, is_used)| is_used.then_some(name)).collect();
+        names.iter().any(Option::is_some).then_some(MaterialSlots { names, slots })
     }
 }

@@ -1,8 +1,10 @@
 //! The result of a render: named channels of linear values with units, and what made them.
 
+mod coordinates;
 mod mask;
 mod values;
 
+pub use coordinates::{CoordinateAxis, Coordinates};
 pub use mask::{Mask, Run};
 pub use values::{Scalars, Values};
 
@@ -57,25 +59,25 @@ pub struct Region {
     pub size: Resolution,
 }
 
-/// A rectangle on the screen.
+/// A rectangle on the screen, or on a surface, in the units of its coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Window {
     /// Left and right edge.
     pub x: [f64; 2],
     /// Lower and upper edge.
     pub y: [f64; 2],
-    /// The unit of lengths in the map, and of both where they are lengths.
+    /// The scene's unit of length: that of both, unless the coordinates say otherwise.
     pub length: LengthUnit,
-    /// Whether both are angles in degrees, as those of a fisheye are.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub in_degrees: bool,
+    /// What x and y are.
+    #[serde(default, skip_serializing_if = "Coordinates::is_default")]
+    pub coordinates: Coordinates,
 }
 
 impl Window {
-    /// The unit of the edges.
+    /// The unit of the edges on a screen.
     #[must_use]
     pub fn unit(&self) -> ScreenUnit {
-        ScreenUnit::of(self.length, self.in_degrees)
+        ScreenUnit::of(self.length, self.coordinates == Coordinates::ScreenAngles)
     }
 }
 

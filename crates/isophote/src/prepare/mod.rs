@@ -1,15 +1,17 @@
 //! A scene laid out for tracing and shading. It chooses no renderer.
 
+mod bare;
 mod obstruction;
 mod visibility;
 
 use std::cell::OnceCell;
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 pub use obstruction::AmbientIrradiance;
 pub use visibility::Blocking;
 
+use crate::accelerate::Accelerator;
 use crate::camera::{CameraFrame, ScreenPosition, Sight};
 use crate::double_double::DoubleDouble;
 use crate::light::Light;
@@ -18,7 +20,7 @@ use crate::real::Scalar;
 use crate::reflectance::{BrightnessFormula, Reflectance};
 use crate::scene::Scene;
 use crate::shade::{LightTerm, Shading, shade};
-use crate::shape::{Accuracy, Geometry, Located, Outline, Primitive, Ray, SurfacePoint, TracingError};
+use crate::shape::{Accuracy, Geometry, Located, Outline, Primitive, Ray, Sphere, SurfacePoint, TracingError};
 use crate::vector::Vector;
 
 /// A scene with everything computed that does not depend on the pixel.
@@ -30,6 +32,12 @@ pub struct PreparedScene {
     shapes: Vec<PreparedShape>,
     /// The convention applied to each material, and last to what has none.
     formulas: Vec<PreparedFormula>,
+    /// The number of the first primitive of each shape, and last how many there are.
+    first_primitives: Vec<u32>,
+    /// With so many primitives, or fewer, rays try each of them.
+    tried_one_by_one: u32,
+    /// Over all primitives; with so few that each is tried, built only when a renderer asks for it.
+    accelerator: Arc<OnceLock<Accelerator>>,
     /// Written when the first map asks for it.
     source_text: OnceLock<String>,
 }
@@ -86,14 +94,33 @@ impl PreparedScene {
             formula: shape.material.unwrap_or(scene.materials.len()),
             outline: OnceLock::new(),
         });
-        Self {
+        let shapes: Vec<PreparedShape> = shapes.collect();
+        let mut first_primitives = vec![0];
+        first_primitives.extend(shapes.iter().scan(0, |count, shape| {
+            *count += shape.geometry.parts();
+            Some(*count)
+        }));
+        let prepared = Self {
+            first_primitives,
+            tried_one_by_one: HANDFUL,
+            accelerator: Arc::default(),
             frame: CameraFrame::new(&scene.camera),
             precise_frame: CameraFrame::new(&scene.camera),
-            shapes: shapes.collect(),
+            shapes,
             formulas: formulas.collect(),
             source_text: OnceLock::new(),
             scene: scene.clone(),
+        };
+        if prepared.primitive_count() > HANDFUL {
+            prepared.accelerator();
         }
+        prepared
+    }
+
+    /// The same scene without a tree: every ray tries every primitive. This is what the tree is held to.
+    #[must_use]
+    pub fn by_brute_force(self) -> Self {
+        Self { tried_one_by_one: u32::MAX, ..self }
     }
 
     /// The same scene seen with another number of pixels.
@@ -126,20 +153,25 @@ impl PreparedScene {
         &self.frame
     }
 
+    /// The same with 32 digits.
+    pub(crate) fn precise_frame(&self) -> &CameraFrame<DoubleDouble> {
+        &self.precise_frame
+    }
+
     /// What the ray through a place on the screen meets first (2.1), (2.2).
     ///
     /// cosθ_o of a double has an error that grows without bound towards the silhouette; rays that come near it are
     /// traced again with 32 digits, so that the bound on the error holds at every visible pixel.
     #[must_use]
     pub fn trace(&self, position: ScreenPosition) -> Option<Hit> {
-        let Traced { hit, is_doubtful } = self.nearest(&self.frame.ray(position)?, self.primitives());
+        let Traced { hit, is_doubtful } = self.nearest(&self.frame.ray(position)?);
         if is_doubtful { self.trace_precisely(position).map(Hit::rounded) } else { hit }
     }
 
     /// What the ray through a place on the screen meets first, with 32 digits.
     #[must_use]
     pub fn trace_precisely(&self, position: ScreenPosition) -> Option<Hit<DoubleDouble>> {
-        self.trace_precisely_among(position, self.primitives())
+        self.nearest(&self.precise_frame.ray(position)?).hit
     }
 
     /// The same, when it can only be one of these.
@@ -148,7 +180,7 @@ impl PreparedScene {
         position: ScreenPosition,
         primitives: impl Iterator<Item = Primitive>,
     ) -> Option<Hit<DoubleDouble>> {
-        self.nearest(&self.precise_frame.ray(position)?, primitives).hit
+        self.nearest_among(&self.precise_frame.ray(position)?, primitives).hit
     }
 
     /// Where a shape appears on the screen.
@@ -163,6 +195,11 @@ impl PreparedScene {
         &self.formulas[self.shapes[shape].formula].doubtful_in_outline
     }
 
+    /// The same for a primitive.
+    pub(crate) fn doubtful_in_outline_of(&self, primitive: Primitive) -> &Range<f64> {
+        &self.prepared_formula(primitive).doubtful_in_outline
+    }
+
     /// What is seen at a pixel of the full image.
     #[must_use]
     pub fn trace_pixel(&self, pixel: Pixel) -> Option<Hit> {
@@ -174,7 +211,7 @@ impl PreparedScene {
     pub fn first_towards(&self, point: Vector) -> Option<Primitive> {
         let Sight { start, view, .. } = self.frame.sight(point, Vector::default());
         let ray = Ray { anchor: start, offset: Vector::default(), direction: -view };
-        self.nearest(&ray, self.primitives()).hit.map(|hit| hit.primitive)
+        self.nearest(&ray).hit.map(|hit| hit.primitive)
     }
 
     /// Whether a shape may stand in another one's light.
@@ -187,6 +224,48 @@ impl PreparedScene {
         self.primitives().nth(1).is_some()
     }
 
+    /// How many primitives there are.
+    pub(crate) fn primitive_count(&self) -> u32 {
+        self.first_primitives.last().copied().unwrap_or(0)
+    }
+
+    /// The primitive of a number: they are counted through all shapes.
+    pub(crate) fn primitive(&self, number: u32) -> Primitive {
+        let shape = self.first_primitives.partition_point(|first| *first <= number) - 1;
+        Primitive { shape, part: number - self.first_primitives[shape] }
+    }
+
+    /// The sphere that a primitive is, if it is one.
+    pub(crate) fn sphere(&self, primitive: Primitive) -> Option<&Sphere> {
+        match &self.shapes[primitive.shape].geometry {
+            Geometry::Sphere(sphere) => Some(sphere),
+            Geometry::Spheres(cloud) => Some(&cloud.spheres[primitive.part as usize]),
+            _ => None,
+        }
+    }
+
+    /// The tree over all primitives, by their numbers.
+    pub(crate) fn accelerator(&self) -> &Accelerator {
+        self.accelerator.get_or_init(|| {
+            let bounds = |primitive: Primitive| self.shapes[primitive.shape].geometry.bounds(primitive.part);
+            Accelerator::new(&self.primitives().map(bounds).collect::<Vec<_>>())
+        })
+    }
+
+    /// Goes through the primitives that a ray may meet, the nearer ones first more or less; `test` says up to which
+    /// distance to go on. With a handful of primitives that is all of them.
+    fn along_ray<T: Scalar>(&self, ray: &Ray<T>, limit: f64, mut test: impl FnMut(Primitive) -> f64) {
+        if self.primitive_count() <= self.tried_one_by_one {
+            self.primitives().for_each(|primitive| {
+                test(primitive);
+            });
+            return;
+        }
+        let vector = |vector: Vector<T>| vector.map(T::rounded);
+        let start = vector(ray.anchor) + vector(ray.offset);
+        self.accelerator().along_ray(start, vector(ray.direction), limit, |number| test(self.primitive(number)));
+    }
+
     /// All that can be hit.
     fn primitives(&self) -> impl Iterator<Item = Primitive> {
         let parts = |(shape, prepared): (usize, &PreparedShape)| {
@@ -195,27 +274,19 @@ impl PreparedScene {
         self.shapes.iter().enumerate().flat_map(parts)
     }
 
-    fn nearest<T: Scalar>(&self, ray: &Ray<T>, primitives: impl Iterator<Item = Primitive>) -> Traced<T> {
-        let mut nearest: Option<Hit<T>> = None;
-        let mut doubtful_from: Option<T> = None;
+    fn nearest<T: Scalar>(&self, ray: &Ray<T>) -> Traced<T> {
+        let mut search = Search::new(self, ray);
+        self.along_ray(ray, f64::INFINITY, |primitive| search.test(primitive));
+        search.finish()
+    }
+
+    /// The same among some primitives, tried one by one.
+    fn nearest_among<T: Scalar>(&self, ray: &Ray<T>, primitives: impl Iterator<Item = Primitive>) -> Traced<T> {
+        let mut search = Search::new(self, ray);
         for primitive in primitives {
-            let accuracy = self.prepared_formula(primitive).accuracy;
-            let meeting = self.shapes[primitive.shape].geometry.meet(primitive.part, ray, accuracy);
-            doubtful_from = least(doubtful_from, meeting.doubtful_from);
-            let Some(hit) = meeting.hit else { continue };
-            let ahead_by = nearest.map(|nearest| nearest.distance - hit.distance);
-            // Where surfaces cross, the order of their distances is as uncertain as the distances.
-            let uncertain = T::from_f64(ERROR_OF_DISTANCE) * hit.distance;
-            if ahead_by.is_some_and(|by| by.is_less(uncertain) && (-uncertain).is_less(by)) {
-                doubtful_from = least(doubtful_from, Some(hit.distance - uncertain));
-            }
-            if ahead_by.is_none_or(|by| T::zero().is_less(by)) {
-                let crate::shape::Intersection { distance, point, from_inside, lift } = hit;
-                nearest = Some(Hit { primitive, distance, point, from_inside, lift });
-            }
+            search.test(primitive);
         }
-        let is_beyond = |from: T| nearest.is_some_and(|hit| hit.distance.is_less(from));
-        Traced { hit: nearest, is_doubtful: doubtful_from.is_some_and(|from| !is_beyond(from)) }
+        search.finish()
     }
 
     /// The brightness of a hit by the scene's convention, summed over the lights; `each` sees every light's own term.
@@ -287,11 +358,58 @@ impl PreparedScene {
     }
 }
 
+/// A search for the nearest primitive; in which order they are tested does not matter.
+struct Search<'s, T> {
+    scene: &'s PreparedScene,
+    ray: &'s Ray<T>,
+    nearest: Option<Hit<T>>,
+    doubtful_from: Option<T>,
+}
+
+impl<'s, T: Scalar> Search<'s, T> {
+    fn new(scene: &'s PreparedScene, ray: &'s Ray<T>) -> Self {
+        Self { scene, ray, nearest: None, doubtful_from: None }
+    }
+
+    /// Tests a primitive; returns the distance beyond which nothing matters any more.
+    fn test(&mut self, primitive: Primitive) -> f64 {
+        let accuracy = self.scene.prepared_formula(primitive).accuracy;
+        let meeting = self.scene.shapes[primitive.shape].geometry.meet(primitive.part, self.ray, accuracy);
+        self.doubtful_from = least(self.doubtful_from, meeting.doubtful_from);
+        if let Some(hit) = meeting.hit {
+            let ahead_by = self.nearest.map(|nearest| (nearest.distance - hit.distance, nearest.primitive));
+            // Where surfaces cross, the order of their distances is as uncertain as the distances.
+            let uncertain = T::from_f64(ERROR_OF_DISTANCE) * hit.distance;
+            if ahead_by.is_some_and(|(by, _)| by.is_less(uncertain) && (-uncertain).is_less(by)) {
+                self.doubtful_from = least(self.doubtful_from, Some(hit.distance - uncertain));
+            }
+            // Of surfaces in the same place the first in the scene is seen.
+            let is_nearer = |(by, other): (T, Primitive)| {
+                T::zero().is_less(by)
+                    || !by.is_less(T::zero()) && (primitive.shape, primitive.part) < (other.shape, other.part)
+            };
+            if ahead_by.is_none_or(is_nearer) {
+                let crate::shape::Intersection { distance, point, from_inside, lift } = hit;
+                self.nearest = Some(Hit { primitive, distance, point, from_inside, lift });
+            }
+        }
+        self.nearest.map_or(f64::INFINITY, |hit| hit.distance.rounded())
+    }
+
+    fn finish(self) -> Traced<T> {
+        let is_beyond = |from: T| self.nearest.is_some_and(|hit| hit.distance.is_less(from));
+        Traced { hit: self.nearest, is_doubtful: self.doubtful_from.is_some_and(|from| !is_beyond(from)) }
+    }
+}
+
 /// What a search for the nearest shape found, and whether the number type was good enough for it.
 struct Traced<T> {
     hit: Option<Hit<T>>,
     is_doubtful: bool,
 }
+
+/// So many primitives are tried one by one.
+const HANDFUL: u32 = 8;
 
 /// Distances that differ by less, relatively, are told apart with 32 digits.
 pub(crate) const ERROR_OF_DISTANCE: f64 = 1e-12;
@@ -307,20 +425,12 @@ fn least<T: Scalar>(first: Option<T>, second: Option<T>) -> Option<T> {
 impl<T: Scalar> Hit<T> {
     /// The same hit in another number type.
     fn map<U: Scalar>(self, convert: impl Fn(T) -> U) -> Hit<U> {
-        let vector = |vector: Vector<T>| vector.map(&convert);
-        let point = self.point;
         Hit {
             primitive: self.primitive,
             distance: convert(self.distance),
-            point: SurfacePoint {
-                anchor: point.anchor,
-                offset: vector(point.offset),
-                normal: vector(point.normal),
-                view: vector(point.view),
-                cos_theta_o: convert(point.cos_theta_o),
-            },
+            point: self.point.map(&convert),
             from_inside: self.from_inside,
-            lift: vector(self.lift),
+            lift: self.lift.map(&convert),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Hit, PreparedScene};
 use crate::hammersley::points;
+use crate::light::Ambient;
 use crate::shape::Ray;
 use crate::vector::Vector;
 
@@ -27,33 +28,42 @@ impl PreparedScene {
     #[must_use]
     pub fn ambient_irradiance(&self, hit: &Hit) -> AmbientIrradiance {
         let Some(ambient) = &self.scene.ambient else { return AmbientIrradiance::default() };
-        let whole = ambient.unobstructed_irradiance();
         let is_walled_in = hit.from_inside && ambient.obstruction.is_some();
         if is_walled_in {
             return AmbientIrradiance::default();
         }
-        let Some(samples) = ambient.obstruction.filter(|_| self.has_shapes_beside_one()) else {
-            return AmbientIrradiance { irradiance: whole, standard_error: 0.0 };
-        };
-        let free = points(samples).into_iter().filter(|point| self.sees_the_environment(hit, *point)).count();
-        #[expect(clippy::cast_precision_loss, reason = "there are few")]
-        let share = free as f64 / f64::from(samples);
-        let standard_error = whole * (share * (1.0 - share) / f64::from(samples)).sqrt();
-        AmbientIrradiance { irradiance: whole * share, standard_error }
+        let samples = ambient.obstruction.filter(|_| self.has_shapes_beside_one());
+        sampled(ambient, samples, hit.point.normal, |direction| {
+            let ray = Ray { anchor: hit.point.anchor, offset: hit.point.offset + hit.lift, direction };
+            self.nearest_blocker(&[hit.primitive], &ray, None).blocker.is_none()
+        })
     }
+}
 
-    /// Whether nothing stands in one of the directions about the normal: that of a point of the unit square.
-    fn sees_the_environment(&self, hit: &Hit, [across, around]: [f64; 2]) -> bool {
-        let normal = hit.point.normal;
-        let [first, second] = perpendiculars(normal);
-        let angle = std::f64::consts::TAU * around;
-        let ring = first * libm::cos(angle) + second * libm::sin(angle);
-        // Points of a disc, spread evenly, under the hemisphere: their density on it goes as the cosine.
-        let direction = ring * across.sqrt() + normal * (1.0 - across).sqrt();
-        let anchor = hit.point.anchor;
-        let ray = Ray { anchor, offset: hit.point.offset + hit.lift, direction: direction.normalized() };
-        self.nearest_blocker(hit.primitive, &ray, None).blocker.is_none()
-    }
+/// E_a on the side of a normal: all of it, or the part of so many samples that see the environment.
+pub(super) fn sampled(
+    ambient: &Ambient,
+    samples: Option<u32>,
+    normal: Vector,
+    sees_the_environment: impl Fn(Vector) -> bool,
+) -> AmbientIrradiance {
+    let whole = ambient.unobstructed_irradiance();
+    let Some(samples) = samples else { return AmbientIrradiance { irradiance: whole, standard_error: 0.0 } };
+    let direction = |point: &[f64; 2]| direction_about(normal, *point);
+    let free = points(samples).iter().filter(|point| sees_the_environment(direction(point))).count();
+    #[expect(clippy::cast_precision_loss, reason = "there are few")]
+    let share = free as f64 / f64::from(samples);
+    let standard_error = whole * (share * (1.0 - share) / f64::from(samples)).sqrt();
+    AmbientIrradiance { irradiance: whole * share, standard_error }
+}
+
+/// One of the directions about a normal: that of a point of the unit square.
+fn direction_about(normal: Vector, [across, around]: [f64; 2]) -> Vector {
+    let [first, second] = perpendiculars(normal);
+    let angle = std::f64::consts::TAU * around;
+    let ring = first * libm::cos(angle) + second * libm::sin(angle);
+    // Points of a disc, spread evenly, under the hemisphere: their density on it goes as the cosine.
+    (ring * across.sqrt() + normal * (1.0 - across).sqrt()).normalized()
 }
 
 /// Two unit vectors at right angles to a unit vector and to each other. (Duff et al., "Building an orthonormal basis,

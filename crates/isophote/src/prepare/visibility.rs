@@ -2,7 +2,7 @@
 
 use super::{ERROR_OF_DISTANCE, Hit, PreparedScene};
 use crate::real::Scalar;
-use crate::shape::{Accuracy, Primitive, Ray};
+use crate::shape::{Accuracy, Primitive, Ray, SurfacePoint};
 use crate::vector::Vector;
 
 /// What stands between a surface point and a light.
@@ -15,7 +15,7 @@ pub struct Blocking {
 }
 
 impl Blocking {
-    const NONE: Self = Self { blocker: None, is_doubtful: false };
+    pub(super) const NONE: Self = Self { blocker: None, is_doubtful: false };
 }
 
 impl PreparedScene {
@@ -36,20 +36,32 @@ impl PreparedScene {
         if !self.scene.casts_shadows(own.shape, light) {
             return Blocking::NONE;
         }
-        let start = hit.point.offset + hit.lift;
-        let to_light = source.from_place(hit.point.anchor, start);
-        if !T::zero().is_less(hit.point.normal.dot(to_light)) {
+        self.blocking_from(&[own], &hit.point, hit.lift, light)
+    }
+
+    /// What stands between a point and a light but for its `own` primitives, on which it lies.
+    pub(super) fn blocking_from<T: Scalar>(
+        &self,
+        own: &[Primitive],
+        point: &SurfacePoint<T>,
+        lift: Vector<T>,
+        light: usize,
+    ) -> Blocking {
+        let source = &self.scene.lights[light];
+        let start = point.offset + lift;
+        let to_light = source.from_place(point.anchor, start);
+        if !T::zero().is_less(point.normal.dot(to_light)) {
             return Blocking::NONE;
         }
         let distance = to_light.length();
         let direction = to_light * (T::from_f64(1.0) / distance);
-        let ray = Ray { anchor: Vector::from_f64(hit.point.anchor), offset: start, direction };
+        let ray = Ray { anchor: Vector::from_f64(point.anchor), offset: start, direction };
         self.nearest_blocker(own, &ray, source.position().map(|_| distance))
     }
 
-    /// What stands between the start of a ray and a light at this distance, or at none: a parallel light is beyond all.
-    pub(super) fn nearest_blocker<T: Scalar>(&self, own: Primitive, ray: &Ray<T>, distance: Option<T>) -> Blocking {
-        let least = T::from_f64(self.shapes[own.shape].geometry.least_shadow_distance(own.part));
+    /// What stands between the start of a ray on its `own` primitives and a light at this distance, or at none: a
+    /// parallel light is beyond all.
+    pub(super) fn nearest_blocker<T: Scalar>(&self, own: &[Primitive], ray: &Ray<T>, distance: Option<T>) -> Blocking {
         // What is nearer to the light than this may as well be behind it.
         let bounds = |distance: T| {
             let uncertain = distance * T::from_f64(ERROR_OF_DISTANCE);
@@ -58,15 +70,23 @@ impl PreparedScene {
         let bounds = distance.map(bounds);
         let mut nearest: Option<(T, Primitive)> = None;
         let mut doubtful_from: Option<T> = None;
-        let casting = |primitive: &Primitive| *primitive != own && self.scene.shapes[primitive.shape].casts_shadow;
-        for primitive in self.primitives().filter(casting) {
+        let is_neighbour = |primitive: Primitive, at: T| {
+            let least = |own: &Primitive| self.shapes[own.shape].geometry.least_shadow_distance(own.part);
+            own.iter().any(|own| own.shape == primitive.shape && at.is_less(T::from_f64(least(own))))
+        };
+        let farthest = distance.map_or(f64::INFINITY, T::rounded);
+        self.along_ray(ray, farthest, |primitive| {
+            // Beyond a certain blocker nothing matters, and neither does what is behind the light.
+            let limit = |nearest: Option<(T, Primitive)>| nearest.map_or(farthest, |(at, _)| at.rounded());
+            if own.contains(&primitive) || !self.scene.shapes[primitive.shape].casts_shadow {
+                return limit(nearest);
+            }
             let meeting = self.shapes[primitive.shape].geometry.meet(primitive.part, ray, Accuracy::OF_VISIBILITY);
             let is_before_light = |at: &T| bounds.is_none_or(|[_, _, last]| at.is_less(last));
             doubtful_from = super::least(doubtful_from, meeting.doubtful_from.filter(is_before_light));
-            let Some(at) = meeting.hit.map(|hit| hit.distance) else { continue };
-            let is_own_neighbour = primitive.shape == own.shape && at.is_less(least);
-            if is_own_neighbour || bounds.is_some_and(|[_, distance, _]| !at.is_less(distance)) {
-                continue;
+            let Some(at) = meeting.hit.map(|hit| hit.distance) else { return limit(nearest) };
+            if is_neighbour(primitive, at) || bounds.is_some_and(|[_, distance, _]| !at.is_less(distance)) {
+                return limit(nearest);
             }
             if bounds.is_some_and(|[first, ..]| first.is_less(at)) {
                 doubtful_from = super::least(doubtful_from, Some(at));
@@ -74,7 +94,8 @@ impl PreparedScene {
             if nearest.is_none_or(|(nearest, _)| at.is_less(nearest)) {
                 nearest = Some((at, primitive));
             }
-        }
+            limit(nearest)
+        });
         // Beyond a certain blocker, doubt does not matter.
         let blocks_for_sure = |from: T| nearest.is_some_and(|(at, _)| at.is_less(from));
         let is_doubtful = doubtful_from.is_some_and(|from| !blocks_for_sure(from));

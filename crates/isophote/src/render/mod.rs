@@ -4,6 +4,7 @@ mod band;
 mod lanes;
 mod reference;
 mod sampling;
+mod tiles;
 
 use std::ops::ControlFlow;
 

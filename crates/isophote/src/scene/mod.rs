@@ -13,7 +13,7 @@ use std::path::Path as FilePath;
 pub use document::Syntax;
 pub use error::{Place, Problem, ProblemKind, SceneError};
 pub use source::SceneSource;
-use source::{SamplingSource, ShadowSource};
+use source::{GridSource, SamplingSource, ShadowSource};
 pub use validate::limits;
 
 use crate::camera::Camera;
@@ -21,7 +21,7 @@ use crate::light::{Ambient, Light};
 use crate::map::Resolution;
 use crate::reflectance::{Convention, Reflectance};
 use crate::render::Sampling;
-use crate::shape::{Geometry, Primitive};
+use crate::shape::{Geometry, Primitive, Side};
 use crate::units::{LengthUnit, Quantities, ScreenUnit};
 use crate::vector::Vector;
 use document::Document;
@@ -43,6 +43,7 @@ pub struct Scene {
     pub(crate) lights: Vec<Light>,
     pub(crate) ambient: Option<Ambient>,
     pub(crate) probes: Vec<Probe>,
+    pub(crate) grids: Vec<Grid>,
     pub(crate) warnings: Vec<Problem>,
     pub(crate) source: SceneSource,
 }
@@ -88,6 +89,23 @@ pub struct Probe {
     pub at: Vector,
     /// A value that somebody published for this point, in the unit of the brightness.
     pub published: Option<f64>,
+}
+
+/// Points on a rectangle at which the irradiance is computed. Lengths in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// Its name, unique among the grids.
+    pub name: String,
+    /// Where both edges begin.
+    pub corner: Vector,
+    /// One edge.
+    pub u: Vector,
+    /// The other one, at right angles to the first.
+    pub v: Vector,
+    /// Points along u and along v.
+    pub points: Resolution,
+    /// The side that is lit: u × v leads to the front.
+    pub side: Side,
 }
 
 impl Scene {
@@ -204,6 +222,15 @@ impl Scene {
         Self::try_from(self.source)
     }
 
+    /// The scene with this grid in place of its own.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the grid.
+    pub fn with_grid(mut self, grid: GridSource) -> Result<Self, SceneError> {
+        self.source.grid = vec![grid];
+        Self::try_from(self.source)
+    }
+
     /// A line that says what the scene is; may be empty.
     #[must_use]
     pub fn title(&self) -> &str {
@@ -300,6 +327,12 @@ impl Scene {
     #[must_use]
     pub fn probes(&self) -> &[Probe] {
         &self.probes
+    }
+
+    /// The grids, in the order of the file.
+    #[must_use]
+    pub fn grids(&self) -> &[Grid] {
+        &self.grids
     }
 
     /// What is allowed but deserves a word.

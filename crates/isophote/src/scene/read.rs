@@ -10,8 +10,8 @@ use std::path::PathBuf;
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
-    AmbientSource, CameraSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource,
-    ShadowSource, SphereSource, WindowSource,
+    AmbientSource, CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource,
+    ScreenSource, ShadowSource, SphereSource, WindowSource,
 };
 use crate::units::Choice;
 
@@ -52,6 +52,7 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         light: table.tables("light", read_light),
         ambient: table.table("ambient", read_ambient),
         probe: table.tables("probe", read_probe),
+        grid: table.tables("grid", read_grid),
     }
 }
 
@@ -136,6 +137,18 @@ fn read_ambient(table: &mut Table<'_>) -> AmbientSource {
 
 fn read_probe(table: &mut Table<'_>) -> ProbeSource {
     ProbeSource { name: table.text("name"), at: table.numbers("at"), published: table.number("published") }
+}
+
+fn read_grid(table: &mut Table<'_>) -> GridSource {
+    GridSource {
+        name: table.text("name"),
+        corner: table.numbers("corner"),
+        center: table.numbers("center"),
+        u: table.numbers("u"),
+        v: table.numbers("v"),
+        points: table.counts("points"),
+        side: table.choice("side"),
+    }
 }
 
 /// Problems as they are found, each place at most once.

@@ -1,12 +1,14 @@
 //! A scene exactly as it is written: nothing checked, nothing filled in. The schema is generated from here.
 
 mod files;
+mod grid;
 mod shapes;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 pub use files::{MeshSource, SpheresSource};
+pub use grid::GridSource;
 use schemars::{JsonSchema, Schema, transform::RecursiveTransform, transform::Transform};
 use serde::Serialize;
 pub use shapes::{
@@ -117,6 +119,10 @@ pub struct SceneSource {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(default, extend("default" = []))]
     pub probe: Vec<ProbeSource>,
+    /// Grids of points at which the irradiance is computed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default, extend("default" = []))]
+    pub grid: Vec<GridSource>,
 }
 
 /// The observer.

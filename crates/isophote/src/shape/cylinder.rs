@@ -35,6 +35,18 @@ impl Cylinder {
         self.body.nearest(point)
     }
 
+    /// The middles of its two ends.
+    #[must_use]
+    pub fn ends(&self) -> [Vector; 2] {
+        self.body.ends()
+    }
+
+    /// R, in metres.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.body.radii()[0]
+    }
+
     /// The box around it with sides along the scene's axes.
     #[must_use]
     pub fn bounds(&self) -> Bounds {

@@ -54,6 +54,18 @@ impl Disk {
         Bounds::of_disk(self.placement.origin, self.placement.axis(2), self.radius)
     }
 
+    /// Its middle, in metres.
+    #[must_use]
+    pub fn center(&self) -> Vector {
+        self.placement.origin
+    }
+
+    /// Its unit normal.
+    #[must_use]
+    pub fn normal(&self) -> Vector {
+        self.placement.axis(2)
+    }
+
     /// R, in metres.
     #[must_use]
     pub fn size(&self) -> f64 {

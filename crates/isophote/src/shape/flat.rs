@@ -23,9 +23,9 @@ pub fn meet<T: Scalar>(
         return Meeting::MISS;
     }
     let slope = local.direction.z;
-    // A plane seen edge-on has no area.
-    if slope.rounded() == 0.0 {
-        return Meeting::MISS;
+    // Seen edge-on it has no area; what is left of such a slope is rounding, which more digits tell.
+    if (slope * slope).rounded() < 1e4 * T::NEGLIGIBLE_SQUARE {
+        return Meeting { hit: None, doubtful_from: Some(T::zero()) };
     }
     let at = -(local.nearest.z / slope);
     let distance = local.along + at;

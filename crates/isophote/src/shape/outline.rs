@@ -2,7 +2,8 @@
 
 use super::{Sphere, SurfacePoint};
 use crate::camera::{CameraFrame, Projection, Screen, between};
-use crate::double_double::DoubleDouble;
+use crate::double_double::{DoubleDouble, ExactProduct};
+use crate::map::Resolution;
 use crate::real::{Real, Scalar};
 use crate::vector::Vector;
 
@@ -32,32 +33,32 @@ pub enum Outline {
 /// that a double loses no digit by a great distance, nor to a small outline far from the axis. What is left is the
 /// rounding of the roots themselves, a few ε of the clearance anywhere.
 #[derive(Clone, Copy, Debug)]
-pub struct Ellipse {
+pub struct Ellipse<T = f64> {
     /// The pixel from which columns and rows are counted: whole numbers, not always within the image.
-    pub column: f64,
+    pub column: T,
     /// See [`column`](Self::column).
-    pub row: f64,
+    pub row: T,
     /// The rows where the outline begins and ends, counted from `row`.
-    pub rows: [f64; 2],
+    pub rows: [T; 2],
     /// m, counted from `column`, in the row `row` and its growth from row to row.
-    middle: [f64; 2],
+    pub middle: [T; 2],
     /// w² over (v − v_a)(v_b − v), in pixels.
-    width_squared: f64,
+    pub width_squared: T,
     /// cos²θ_o ‖d‖² over (u − u_a)(u_b − u), in pixels.
-    clearance: f64,
+    pub clearance: T,
     /// d at the pixel from which is counted, and its growth from column to column and row to row.
-    direction: [Vector; 3],
+    pub direction: [Vector<T>; 3],
     /// d × c likewise.
-    moment: [Vector; 3],
+    pub moment: [Vector<T>; 3],
     /// From the eye to the centre, in radii.
-    center: Vector,
+    pub center: Vector<T>,
 }
 
 /// A row of an outline, in any number type. u is a column, counted from [`Ellipse::column`].
 #[derive(Clone, Copy, Debug)]
 pub struct RowOfEllipse<T = f64> {
     /// Where the outline begins and ends; the same twice where the row misses it.
-    pub roots: [f64; 2],
+    pub roots: [T; 2],
     /// cos²θ_o ‖d‖² over (u − u_a)(u − u_b): negative.
     pub clearance: T,
     /// d at u = 0.
@@ -98,7 +99,7 @@ impl<T: Copy> RowOfEllipse<T> {
     #[inline(always)]
     pub fn map<U>(&self, convert: impl Fn(T) -> U) -> RowOfEllipse<U> {
         RowOfEllipse {
-            roots: self.roots,
+            roots: [convert(self.roots[0]), convert(self.roots[1])],
             clearance: convert(self.clearance),
             direction: self.direction.map(&convert),
             direction_step: self.direction_step.map(&convert),
@@ -141,77 +142,31 @@ impl<T: Real> RowOfEllipse<T> {
 }
 
 /// How far before the eye, in radii, the nearest point of a sphere must be for an ellipse to be trusted.
-const BEFORE_THE_EYE: f64 = 1e-3;
+pub(crate) const BEFORE_THE_EYE: f64 = 1e-3;
 
 impl Ellipse {
     /// The outline of a sphere.
     pub(super) fn of_sphere(sphere: &Sphere, frame: &CameraFrame<DoubleDouble>) -> Outline {
-        let Projection::Perspective(window) = frame.projection else { return Outline::Unknown };
-        let exact = DoubleDouble::from_f64;
-        let one = exact(1.0);
-        let per_radius = one / exact(sphere.radius);
-        let from_eye = (Vector::from_f64(sphere.center) - frame.eye) * per_radius;
-        let [x, y, z] = [frame.right, frame.up, frame.forward].map(|axis| axis.dot(from_eye));
-        if z.rounded() <= -1.0 {
+        let Projection::Perspective(window) = &frame.projection else { return Outline::Unknown };
+        let grid = Grid::new(frame, window);
+        let from_eye = grid.from_eye(Vector::from_f64(sphere.center), DoubleDouble::from_f64(sphere.radius));
+        let in_camera = grid.in_camera(from_eye);
+        let z = in_camera.z.rounded();
+        if z <= -1.0 {
             return Outline::Unseen;
         }
-        if z.rounded() < 1.0 + BEFORE_THE_EYE {
-            let is_outside = is_beside_the_window([x, y, z].map(DoubleDouble::rounded), &window);
+        if z < 1.0 + BEFORE_THE_EYE {
+            let is_outside = is_beside_the_window(in_camera.map(DoubleDouble::rounded).to_array(), window);
             return if is_outside { Outline::Unseen } else { Outline::Unknown };
         }
-        let a = y * y + z * z - one;
-        let z_part = z * z - one;
-        let root = a.sqrt();
-        let screen = Pixels::new(frame, window);
-        let y_roots = [(y * z - root) / z_part, (y * z + root) / z_part];
-        let y_middle = y * z / z_part;
-        let row = screen.row(y_middle);
-        let y_of_row = screen.y(row);
-        let middle = |y_screen: DoubleDouble| x * (y_screen * y + z) / a;
-        let column = screen.column(middle(y_middle));
-        let x_of_column = screen.x(column);
-        let [first, last] = y_roots.map(|root| ((root - y_of_row) / screen.row_step).rounded());
-        let per_column = one / screen.column_step;
-        let gap_squared = x * x + y * y + z_part;
-        let rows_over_columns = screen.row_step * per_column;
-        let direction = frame.forward + frame.right * x_of_column + frame.up * y_of_row;
-        let column_growth = frame.right * screen.column_step;
-        let row_growth = frame.up * screen.row_step;
-        let directions = [direction, column_growth, row_growth];
-        Outline::Ellipse(Box::new(Self {
-            column,
-            row,
-            rows: [first.min(last), first.max(last)],
-            middle: [
-                ((middle(y_of_row) - x_of_column) * per_column).rounded(),
-                (x * y / a * rows_over_columns).rounded(),
-            ],
-            width_squared: (gap_squared * z_part * rows_over_columns * rows_over_columns / (a * a)).rounded(),
-            clearance: (a * screen.column_step * screen.column_step).rounded(),
-            direction: directions.map(|vector| vector.map(DoubleDouble::rounded)),
-            moment: directions.map(|vector| vector.cross(from_eye).map(DoubleDouble::rounded)),
-            center: from_eye.map(DoubleDouble::rounded),
-        }))
+        Outline::Ellipse(Box::new(Self::new(from_eye, in_camera, &grid)))
     }
 
     /// A row of the image.
     #[must_use]
     #[inline(always)]
     pub fn in_row(&self, row: u32) -> RowOfEllipse {
-        let v = f64::from(row) - self.row;
-        let width_squared = self.width_squared * ((v - self.rows[0]) * (self.rows[1] - v));
-        // Only a root that is nearly double needs to know how much it misses the row: the clearance tells.
-        let width = width_squared.max(0.0).sqrt();
-        let middle = self.middle[0] + self.middle[1] * v;
-        RowOfEllipse {
-            roots: [middle - width, middle + width],
-            clearance: -self.clearance,
-            direction: self.direction[0] + self.direction[2] * v,
-            direction_step: self.direction[1],
-            moment: self.moment[0] + self.moment[2] * v,
-            moment_step: self.moment[1],
-            center: self.center,
-        }
+        self.row_at(f64::from(row) - self.row)
     }
 
     /// Whether the numbers of its rows, and their squares and products, are within the range of single precision.
@@ -240,6 +195,99 @@ impl Ellipse {
     }
 }
 
+impl<T: ExactProduct> Ellipse<T> {
+    /// The outline of a sphere at least [`BEFORE_THE_EYE`], given by its centre in radii from the eye, in the axes of the
+    /// scene and in those of the camera.
+    #[inline(always)]
+    pub(crate) fn new(from_eye: Vector<DoubleDouble<T>>, in_camera: Vector<DoubleDouble<T>>, grid: &Grid<T>) -> Self {
+        let Vector { x, y, z } = in_camera;
+        let one = x.constant(1.0);
+        let a = y * y + z * z - one;
+        let z_part = z * z - one;
+        let root = a.sqrt();
+        let (per_a, per_z_part) = (one / a, one / z_part);
+        let y_middle = y * z * per_z_part;
+        let reach = root * per_z_part;
+        let row = nearest_whole((y_middle - grid.first_y) * grid.per_row);
+        let y_of_row = grid.first_y + grid.row_step * DoubleDouble::exactly(row);
+        let middle_there = x * (y_middle * y + z) * per_a;
+        let column = nearest_whole((middle_there - grid.first_x) * grid.per_column);
+        let x_of_column = grid.first_x + grid.column_step * DoubleDouble::exactly(column);
+        let first = ((y_middle - reach - y_of_row) * grid.per_row).nearest();
+        let last = ((y_middle + reach - y_of_row) * grid.per_row).nearest();
+        let is_upright = first.is_less(last);
+        let rows = [T::select(is_upright, first, last), T::select(is_upright, last, first)];
+        let gap_squared = x * x + y * y + z_part;
+        let stretch = grid.row_step * grid.per_column * per_a;
+        let direction = grid.forward + grid.right * x_of_column + grid.up * y_of_row;
+        let [by_column, by_row] = [grid.right * grid.column_step, grid.up * grid.row_step];
+        let middle = x * (y_of_row * y + z) * per_a;
+        Self {
+            column,
+            row,
+            rows,
+            middle: [((middle - x_of_column) * grid.per_column).nearest(), (x * y * stretch).nearest()],
+            width_squared: (gap_squared * z_part * stretch * stretch).nearest(),
+            clearance: (a * grid.column_step * grid.column_step).nearest(),
+            direction: [nearest(direction), nearest(by_column), nearest(by_row)],
+            moment: [
+                nearest(direction.cross(from_eye)),
+                nearest(by_column.cross(from_eye)),
+                nearest(by_row.cross(from_eye)),
+            ],
+            center: nearest(from_eye),
+        }
+    }
+}
+
+#[inline(always)]
+fn nearest<T: ExactProduct>(vector: Vector<DoubleDouble<T>>) -> Vector<T> {
+    Vector::new(vector.x.nearest(), vector.y.nearest(), vector.z.nearest())
+}
+
+impl<T: Copy> Ellipse<T> {
+    /// The same outline in another number type.
+    #[inline(always)]
+    pub fn map<U>(&self, convert: impl Fn(T) -> U) -> Ellipse<U> {
+        Ellipse {
+            column: convert(self.column),
+            row: convert(self.row),
+            rows: [convert(self.rows[0]), convert(self.rows[1])],
+            middle: [convert(self.middle[0]), convert(self.middle[1])],
+            width_squared: convert(self.width_squared),
+            clearance: convert(self.clearance),
+            direction: [
+                self.direction[0].map(&convert),
+                self.direction[1].map(&convert),
+                self.direction[2].map(&convert),
+            ],
+            moment: [self.moment[0].map(&convert), self.moment[1].map(&convert), self.moment[2].map(&convert)],
+            center: self.center.map(&convert),
+        }
+    }
+}
+
+impl<T: Real> Ellipse<T> {
+    /// A row, counted from [`row`](Self::row).
+    #[must_use]
+    #[inline(always)]
+    pub fn row_at(&self, v: T) -> RowOfEllipse<T> {
+        let width_squared = self.width_squared * ((v - self.rows[0]) * (self.rows[1] - v));
+        // Only a root that is nearly double needs to know how much it misses the row: the clearance tells.
+        let width = width_squared.or_zero().sqrt();
+        let middle = self.middle[0] + self.middle[1] * v;
+        RowOfEllipse {
+            roots: [middle - width, middle + width],
+            clearance: -self.clearance,
+            direction: self.direction[0] + self.direction[2] * v,
+            direction_step: self.direction[1],
+            moment: self.moment[0] + self.moment[2] * v,
+            moment_step: self.moment[1],
+            center: self.center,
+        }
+    }
+}
+
 /// Whether a sphere of radius 1 is wholly beyond one of the four planes through the eye and an edge of the window.
 fn is_beside_the_window([x, y, z]: [f64; 3], window: &Screen) -> bool {
     let beyond = |along: f64, [low, high]: [f64; 2]| {
@@ -251,51 +299,98 @@ fn is_beside_the_window([x, y, z]: [f64; 3], window: &Screen) -> bool {
     beyond(x, window.x) || beyond(y, window.y)
 }
 
-/// The grid of pixel centres on a screen at distance 1.
-struct Pixels<'f> {
-    frame: &'f CameraFrame<DoubleDouble>,
-    window: Screen,
-    per_distance: DoubleDouble,
-    column_step: DoubleDouble,
-    row_step: DoubleDouble,
+/// The grid of pixel centres on a screen at distance 1, and the axes of the camera.
+#[derive(Clone, Copy)]
+pub(crate) struct Grid<T = f64> {
+    eye: Vector<DoubleDouble<T>>,
+    right: Vector<DoubleDouble<T>>,
+    up: Vector<DoubleDouble<T>>,
+    forward: Vector<DoubleDouble<T>>,
+    /// x of column 0, y of row 0.
+    first_x: DoubleDouble<T>,
+    first_y: DoubleDouble<T>,
+    column_step: DoubleDouble<T>,
+    row_step: DoubleDouble<T>,
+    per_column: DoubleDouble<T>,
+    per_row: DoubleDouble<T>,
 }
 
-impl<'f> Pixels<'f> {
-    fn new(frame: &'f CameraFrame<DoubleDouble>, window: Screen) -> Self {
+impl Grid {
+    /// The grid of a camera.
+    pub fn new(frame: &CameraFrame<DoubleDouble>, window: &Screen) -> Self {
         let exact = DoubleDouble::from_f64;
         let per_distance = exact(1.0) / exact(window.distance);
         let step =
             |first: f64, last: f64, count: u32| (exact(last) - exact(first)) * per_distance / exact(f64::from(count));
+        let Resolution { width, height } = frame.resolution;
         let [left, right] = window.x;
         let [bottom, top] = window.y;
+        let (column_step, row_step) = (step(left, right, width), step(top, bottom, height));
         Self {
-            frame,
-            window,
-            per_distance,
-            column_step: step(left, right, frame.resolution.width),
-            row_step: step(top, bottom, frame.resolution.height),
+            eye: frame.eye,
+            right: frame.right,
+            up: frame.up,
+            forward: frame.forward,
+            first_x: between::<DoubleDouble>(left, right, 0.0, width) * per_distance,
+            first_y: between::<DoubleDouble>(top, bottom, 0.0, height) * per_distance,
+            column_step,
+            row_step,
+            per_column: exact(1.0) / column_step,
+            per_row: exact(1.0) / row_step,
         }
     }
 
-    fn x(&self, column: f64) -> DoubleDouble {
-        let [left, right] = self.window.x;
-        between::<DoubleDouble>(left, right, column, self.frame.resolution.width) * self.per_distance
+    /// x of column 0 and y of row 0, and their growth from pixel to pixel.
+    pub fn rounded(&self) -> ([f64; 2], [f64; 2]) {
+        ([self.first_x.rounded(), self.first_y.rounded()], [self.column_step.rounded(), self.row_step.rounded()])
     }
 
-    fn y(&self, row: f64) -> DoubleDouble {
-        let [bottom, top] = self.window.y;
-        between::<DoubleDouble>(top, bottom, row, self.frame.resolution.height) * self.per_distance
+    /// The same grid for vectors of doubles.
+    #[inline(always)]
+    pub fn map<U>(&self, convert: impl Fn(f64) -> U) -> Grid<U> {
+        Grid {
+            eye: vector_of(self.eye, &convert),
+            right: vector_of(self.right, &convert),
+            up: vector_of(self.up, &convert),
+            forward: vector_of(self.forward, &convert),
+            first_x: self.first_x.map(&convert),
+            first_y: self.first_y.map(&convert),
+            column_step: self.column_step.map(&convert),
+            row_step: self.row_step.map(&convert),
+            per_column: self.per_column.map(&convert),
+            per_row: self.per_row.map(&convert),
+        }
+    }
+}
+
+#[inline(always)]
+fn vector_of<U>(vector: Vector<DoubleDouble>, convert: &impl Fn(f64) -> U) -> Vector<DoubleDouble<U>> {
+    Vector { x: vector.x.map(convert), y: vector.y.map(convert), z: vector.z.map(convert) }
+}
+
+impl<T: ExactProduct> Grid<T> {
+    /// From the eye to a centre, in radii.
+    #[inline(always)]
+    pub fn from_eye(&self, center: Vector<DoubleDouble<T>>, radius: DoubleDouble<T>) -> Vector<DoubleDouble<T>> {
+        (center - self.eye) * (radius.constant(1.0) / radius)
     }
 
-    /// The column whose centre is nearest to x: a whole number.
-    fn column(&self, x: DoubleDouble) -> f64 {
-        ((x - self.x(0.0)) / self.column_step).rounded().round().clamp(-FARTHEST, FARTHEST)
+    /// The same in the axes of the camera: right, up, forward.
+    #[inline(always)]
+    pub fn in_camera(&self, from_eye: Vector<DoubleDouble<T>>) -> Vector<DoubleDouble<T>> {
+        Vector::new(self.right.dot(from_eye), self.up.dot(from_eye), self.forward.dot(from_eye))
     }
+}
 
-    /// The row whose centre is nearest to y: a whole number.
-    fn row(&self, y: DoubleDouble) -> f64 {
-        ((y - self.y(0.0)) / self.row_step).rounded().round().clamp(-FARTHEST, FARTHEST)
-    }
+/// The nearest whole number, up to [`FARTHEST`].
+#[inline(always)]
+fn nearest_whole<T: ExactProduct>(number: DoubleDouble<T>) -> T {
+    let number = number.nearest();
+    let farthest = number.constant(FARTHEST);
+    let bounded = -(-number.max(-farthest)).max(-farthest);
+    // Adding and subtracting 1.5·2⁵² drops the fraction.
+    let magic = number.constant(6_755_399_441_055_744.0);
+    (bounded + magic) - magic
 }
 
 /// Columns and rows are counted exactly up to here.

@@ -71,6 +71,18 @@ impl<T: Scalar> SurfacePoint<T> {
     pub fn position(&self) -> Vector<T> {
         Vector::from_f64(self.anchor) + self.offset
     }
+
+    /// The same point in another number type.
+    #[must_use]
+    pub fn map<U: Scalar>(&self, convert: impl Fn(T) -> U) -> SurfacePoint<U> {
+        SurfacePoint {
+            anchor: self.anchor,
+            offset: self.offset.map(&convert),
+            normal: self.normal.map(&convert),
+            view: self.view.map(&convert),
+            cos_theta_o: convert(self.cos_theta_o),
+        }
+    }
 }
 
 impl<T> Meeting<T> {

@@ -60,6 +60,24 @@ impl Rectangle {
         Bounds::around(self.placement.origin, half)
     }
 
+    /// Its middle, in metres.
+    #[must_use]
+    pub fn center(&self) -> Vector {
+        self.placement.origin
+    }
+
+    /// Unit vectors along its width and its height, and its normal.
+    #[must_use]
+    pub fn axes(&self) -> [Vector; 3] {
+        self.placement.axes()
+    }
+
+    /// Width and height, in metres.
+    #[must_use]
+    pub fn sides(&self) -> [f64; 2] {
+        [2.0 * self.half_width, 2.0 * self.half_height]
+    }
+
     /// Half its diagonal, in metres.
     #[must_use]
     pub fn size(&self) -> f64 {

@@ -10,9 +10,7 @@ use crate::export::figure::raster::{self, Scale};
 use crate::export::figure::svg::{Anchor, INK, Place, Rectangle, Svg, Text};
 use crate::export::figure::ticks::{self, Ticks};
 use crate::export::figure::{FigureError, level_lines, text};
-use crate::map::{Map, Quantity, Scalars};
-use crate::units::Choice;
-use crate::units::ScreenUnit;
+use crate::map::{CoordinateAxis, Map, Quantity, Scalars};
 
 /// Longer side of the picture in px.
 const PICTURE: f64 = 480.0;
@@ -36,6 +34,8 @@ pub struct FigureOptions {
     pub length_unit: Option<String>,
     /// Words for pixels without a surface.
     pub no_surface: String,
+    /// Width and height of what is shown, in any unit: the proportions of the picture. Those of the window by default.
+    pub proportions: Option<[f64; 2]>,
     /// From values to colours.
     pub colormap: Colormap,
     /// Values of the first and the last colour; `None` takes the least and the greatest value seen. Where values lie
@@ -58,6 +58,7 @@ impl FigureOptions {
             unit: None,
             length_unit: None,
             no_surface: "no surface".into(),
+            proportions: None,
             colormap: Colormap::default(),
             range: None,
             isophotes: 8,
@@ -66,8 +67,8 @@ impl FigureOptions {
     }
 }
 
-/// A map as an SVG figure with axes in the window's unit, equal scales in both directions, a colour bar, isophotes with
-/// their levels written on them, and marks.
+/// A map as an SVG figure with axes in the window's units, equal scales in both directions (unless the options have other
+/// proportions), a colour bar, isophotes with their levels written on them, and marks.
 ///
 /// Pixels without a surface are hatched, so that "nothing there" is not taken for "dark".
 ///
@@ -109,13 +110,15 @@ impl<'figure> Content<'figure> {
         let range = range(options.range, seen)?;
         let levels = nice_levels(range[0], range[1], options.isophotes);
         let window = &map.window;
-        let (width, height) = (window.x[1] - window.x[0], window.y[1] - window.y[0]);
+        let sides = [window.x[1] - window.x[0], window.y[1] - window.y[0]];
+        let [width, height] = options.proportions.unwrap_or(sides);
         let size = [width, height].map(|side| side * PICTURE / width.max(height));
-        let length = match window.unit() {
-            ScreenUnit::Length(length) => options.length_unit.as_deref().unwrap_or(length.name()),
-            ScreenUnit::Degree => ScreenUnit::Degree.name(),
+        let axis = |axis: CoordinateAxis, ticks: Ticks| {
+            let is_length = axis.unit != "1" && axis.unit != "°";
+            let unit = options.length_unit.as_deref().filter(|_| is_length).unwrap_or(axis.unit);
+            Axis { title: ticks::title(axis.title, unit, ticks.exponent), ticks }
         };
-        let axis = |name, ticks: Ticks| Axis { title: ticks::title(name, length, ticks.exponent), ticks };
+        let [x, y] = window.coordinates.axes(window.length);
         Ok(Self {
             map,
             options,
@@ -123,8 +126,14 @@ impl<'figure> Content<'figure> {
             isophotes: isophotes(map, &options.quantity, &levels)?,
             has_gaps: map.mask().visible() < map.region.size.pixels(),
             size,
-            x: axis("x", Ticks::side_by_side(window.x, size[0], TICK_SIZE)),
-            y: axis("y", Ticks::stacked(window.y, size[1])),
+            x: match x.unit {
+                "°" => axis(x, Ticks::of_degrees(window.x, size[0])),
+                _ => axis(x, Ticks::side_by_side(window.x, size[0], TICK_SIZE)),
+            },
+            y: match y.unit {
+                "°" => axis(y, Ticks::of_degrees(window.y, size[1])),
+                _ => axis(y, Ticks::stacked(window.y, size[1])),
+            },
             bar: color_bar(map, options, range, seen, levels, size[1]),
         })
     }

@@ -34,7 +34,21 @@ impl Ticks {
     pub(super) fn stacked(range: [f64; 2], length: f64) -> Self {
         Self::new(range, usize::max(count(length, 60.0), 2))
     }
+
+    /// Ticks of angles along `length` px: as many as leave room for numbers of three digits.
+    pub(super) fn of_degrees(range: [f64; 2], length: f64) -> Self {
+        let fits = |step: &&f64| **step / (range[1] - range[0]) * length >= 38.0;
+        let step = DEGREES.iter().find(fits).copied().unwrap_or(360.0);
+        let (first, last) = ((range[0] / step).ceil(), (range[1] / step).floor());
+        let several =
+            std::iter::successors(Some(first), |number| Some(number + 1.0)).take_while(|number| *number <= last);
+        let values: Vec<f64> = several.map(|number| number * step).collect();
+        Self { labels: written(&values, 0), values, exponent: 0 }
+    }
 }
+
+/// Steps between ticks that divide a right angle.
+const DEGREES: [f64; 9] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0];
 
 /// Numbers as they stand in the figure, divided by 10^exponent: all with the same decimals, as few as tell them all.
 pub(super) fn written(values: &[f64], exponent: i32) -> Vec<String> {

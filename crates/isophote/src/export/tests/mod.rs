@@ -12,7 +12,7 @@ use std::io::{self, Cursor, Seek, SeekFrom, Write};
 
 use super::{ExportError, Format, csv, npy, npz, png::PictureOptions};
 use crate::{
-    map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Values, Window},
+    map::{Channel, Coordinates, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Values, Window},
     units::{Choice, LengthUnit},
 };
 
@@ -34,7 +34,12 @@ fn sample() -> Map {
     Map {
         full: Resolution { width: 5, height: 4 },
         region: Region { corner: Pixel { column: 1, row: 2 }, size: Resolution { width: 3, height: 2 } },
-        window: Window { x: [-1.5, 1.5], y: [-2.0, 0.0], length: LengthUnit::Millimetre, in_degrees: false },
+        window: Window {
+            x: [-1.5, 1.5],
+            y: [-2.0, 0.0],
+            length: LengthUnit::Millimetre,
+            coordinates: Coordinates::Screen,
+        },
         provenance: Provenance {
             program: "isophote 0.1.0".into(),
             title: "Сфера, \"пример\" # 1\nвторая строка".into(),

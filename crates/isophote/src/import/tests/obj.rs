@@ -36,7 +36,8 @@ fn materials_are_slots_by_name() {
     let materials = read(&text).materials.expect("some are named");
     assert_eq!(materials.names, [None, Some("red paint".to_owned()), Some("b".to_owned())]);
     assert_eq!(materials.slots, [0, 1, 2, 2, 1]);
-    let all_named = read("usemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3").materials.expect("all are named");
+    let all_named =
+        read("usemtl none has this\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3").materials.expect("all are named");
     assert_eq!(all_named.names, [Some("a".to_owned())]);
 }
 

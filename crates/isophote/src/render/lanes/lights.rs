@@ -93,7 +93,8 @@ impl ShapeShading {
     }
 }
 
-fn fits_single(lights: &[PlacedLight], ambient: f64, shininess: Option<f64>) -> bool {
+/// Whether single precision holds the lights as a shape sees them, and the lobe of a shininess.
+pub fn fits_single(lights: &[PlacedLight], ambient: f64, shininess: Option<f64>) -> bool {
     let fits = |light: &PlacedLight| {
         let distance = light.position.length();
         let is_near = distance < FARTHEST_IN_SINGLE && distance - 1.0 >= NEAREST_IN_SINGLE;

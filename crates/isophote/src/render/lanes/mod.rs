@@ -4,8 +4,8 @@
 //! pixels at a time. Pixels for which that is not exact enough are traced and summed one by one, as the reference does.
 
 mod kernel;
-mod lights;
-mod power;
+pub(super) mod lights;
+pub(super) mod power;
 mod visible;
 
 use std::num::NonZeroUsize;
@@ -18,6 +18,7 @@ use self::kernel::BandJob;
 use self::visible::Candidate;
 use super::band::{self, Band};
 use super::sampling;
+use super::tiles::{self, TilesJob};
 use super::{RenderError, RenderSettings, Renderer};
 use crate::lanes::{Instructions, Precision};
 use crate::map::{Map, Run, Values};
@@ -84,6 +85,10 @@ impl Lanes {
         settings: &RenderSettings<'_>,
     ) -> Result<Map, RenderError> {
         let mut map = band::empty_map(scene, settings, self.name(), self.precision, memory)?;
+        if tiles::suit(scene) {
+            // Here, where all threads are free: those of the renderer would wait for each other.
+            scene.accelerator();
+        }
         let height = map.region.size.height;
         let order = lights::by_place(scene.scene().lights());
         let threads = self.threads;
@@ -92,7 +97,7 @@ impl Lanes {
             bands.map(|band| self.render_band(band, scene, &order, settings)).collect::<Result<Vec<_>, _>>()?
         } else {
             let parts = u32::try_from(threads).unwrap_or(u32::MAX).saturating_mul(BANDS_A_THREAD);
-            let rows = height.div_ceil(parts);
+            let rows = if tiles::suit(scene) { tiles::HEIGHT } else { height.div_ceil(parts) };
             let bands = band::split(&mut map, scene, rows);
             self.pool()?.install(|| {
                 let bands = bands.into_par_iter().with_max_len(1);
@@ -112,6 +117,10 @@ impl Lanes {
     ) -> Result<Vec<Run>, RenderError> {
         let observer = settings.observer;
         let rows = band.first.row..band.first.row + band.size.height;
+        if tiles::suit(scene) {
+            let job = TilesJob { scene, band, order, precision: self.precision, observer };
+            return self.instructions.run(job);
+        }
         match Candidate::all(scene, rows) {
             Some(candidates) => {
                 let job = BandJob { scene, band, candidates, order, precision: self.precision, observer };
@@ -132,6 +141,9 @@ const BANDS_A_THREAD: u32 = 8;
 fn estimated_time(scene: &PreparedScene, map: &Map) -> f64 {
     let region = map.region;
     let pixels = f64::from(region.size.width) * f64::from(region.size.height);
+    if tiles::suit(scene) {
+        return 50.0 * pixels;
+    }
     let covered = |shape| match scene.outline(shape) {
         Outline::Unseen => 0.0,
         Outline::Unknown => 20.0 * pixels,

@@ -2,6 +2,7 @@
 
 mod camera;
 mod files;
+mod grids;
 mod lights;
 mod numbers;
 mod places;
@@ -34,6 +35,8 @@ pub mod limits {
     pub const SHAPES: usize = 100_000;
     /// Probes in a scene.
     pub const PROBES: usize = 100_000;
+    /// Grids in a scene.
+    pub const GRIDS: usize = 1000;
     /// The largest coordinate, in metres: a tenth of a light year.
     pub const COORDINATE: f64 = 1e15;
     /// The smallest radius and screen, in metres.
@@ -68,6 +71,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     let lights = validator.lights(&source);
     let ambient = validator.ambient(&source);
     let probes = validator.probes(&source);
+    let grids = validator.grids(&source);
     validator.eye_against_shapes(camera.as_ref(), &shapes);
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
     validator.probes_against_shapes(&probes, &shapes);
@@ -87,6 +91,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
             lights: lights.into_iter().flatten().collect(),
             ambient,
             probes: probes.into_iter().flatten().collect(),
+            grids: grids.into_iter().flatten().collect(),
             warnings: warnings.into_list(),
             source,
         }),
@@ -152,7 +157,7 @@ impl Validator {
     fn words_of_advice(&mut self, source: &SceneSource, camera: Option<&Camera>) {
         let root = Path::root();
         let count = shapes::count(source);
-        if count == 0 {
+        if count == 0 && source.grid.is_empty() {
             let help = "write a table [[sphere]], [[box]] or of another shape";
             self.warn(&root.key("sphere"), "the scene has no shapes".into(), help);
         }

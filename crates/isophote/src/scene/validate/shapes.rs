@@ -180,6 +180,11 @@ impl Written for ConeSource {
         let radius = validator.required_size(path, "radius", self.radius);
         let apex_radius = match self.apex_radius {
             None | Some(0.0) => Some(0.0),
+            Some(negative) if negative < 0.0 => {
+                let message = format!("`{path}.apex_radius` is {negative}");
+                validator.wrong(&path.key("apex_radius"), message, "allowed: 0 for a pointed cone, or above");
+                None
+            }
             written => validator.required_size(path, "apex_radius", written),
         };
         let [base, apex] = ends?;

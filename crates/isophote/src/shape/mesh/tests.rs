@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{CornerNormals, Mesh, MeshData, MeshPlacing};
+use super::{Mesh, MeshData, MeshPlacing};
 use crate::conformance::conforms;
+use crate::import::CornerNormals;
 use crate::map::Quantity;
 use crate::prepare::PreparedScene;
 use crate::render::{Reference, RenderSettings, Renderer};

@@ -1,7 +1,7 @@
 use super::*;
 use crate::export::figure::read_back::{WrittenText, decode, images, page, texts};
 use crate::export::figure::svg_to_png;
-use crate::map::{Resolution, Window};
+use crate::map::{Coordinates, Resolution, Window};
 use crate::sample_map::{Seen, everywhere, map_over, square_map};
 use crate::units::LengthUnit;
 
@@ -22,7 +22,7 @@ fn ball(pixels: u32) -> Map {
 }
 
 fn wave(size: [u32; 2], x: [f64; 2], y: [f64; 2], amplitude: f64) -> Map {
-    let window = Window { x, y, length: LengthUnit::Millimetre, in_degrees: false };
+    let window = Window { x, y, length: LengthUnit::Millimetre, coordinates: Coordinates::Screen };
     let (wide, high) = (x[1] - x[0], y[1] - y[0]);
     map_over(
         Resolution { width: size[0], height: size[1] },

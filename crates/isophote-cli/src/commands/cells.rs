@@ -1,0 +1,110 @@
+//! Files of maps whose cells are no pixels: of surfaces and grids.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use isophote::export::FileMetadata;
+use isophote::export::csv::Rows;
+use isophote::export::figure::{self, FigureOptions};
+use isophote::export::png::Depth;
+use isophote::map::{CoordinateAxis, Map, Quantity};
+use isophote::scene::Scene;
+use isophote::text::significant;
+
+use super::output::{FigureFormat, MapFile, MapStyle, figure_format, refuse_twice, write_figure};
+use crate::args::CellStyleArguments;
+use crate::failure::{self, Usage};
+
+/// Files to be written, with their places checked.
+pub struct CellFiles<'a> {
+    files: Vec<MapFile>,
+    figures: Vec<(PathBuf, FigureFormat)>,
+    style: &'a CellStyleArguments,
+}
+
+impl<'a> CellFiles<'a> {
+    pub fn new(outputs: &[PathBuf], figures: &[PathBuf], style: &'a CellStyleArguments) -> Result<Self> {
+        refuse_twice(outputs.iter().chain(figures))?;
+        let files = outputs.iter().map(|path| MapFile::new(path)).collect::<Result<_>>()?;
+        let figures = figures.iter().map(|path| Ok((path.clone(), figure_format(path)?)));
+        Ok(Self { files, figures: figures.collect::<Result<_>>()?, style })
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.files.is_empty() && self.figures.is_empty()
+    }
+
+    /// Known before anything is computed.
+    pub fn refuse_impossible_pictures(&self, main: &Quantity) -> Result<(), Usage> {
+        let is_picture = !self.figures.is_empty() || self.files.iter().any(MapFile::is_picture);
+        if is_picture && matches!(main, Quantity::Position | Quantity::Normal | Quantity::Shape) {
+            let message = "cannot be a picture: it is not one quantity a cell; put another --channel first";
+            return Err(Usage(format!("the channel `{}` {message}", main.name())));
+        }
+        Ok(())
+    }
+
+    /// Writes everything, of which the options' channel is pictured.
+    pub fn write(&self, map: &Map, options: FigureOptions, scene: &Scene, quiet: bool) -> Result<()> {
+        let main = options.quantity.clone();
+        let svg = if self.figures.is_empty() { String::new() } else { self.draw(map, options, scene)? };
+        let style = MapStyle {
+            quantity: main.clone(),
+            range: self.style.range,
+            gamma: 1.0,
+            depth: Depth::Eight,
+            colormap: self.style.colormap,
+            rows: Rows::All,
+        };
+        crate::progress::end_in_order();
+        let mut notes = Vec::new();
+        for file in &self.files {
+            file.write(map, &style, &mut notes)?;
+        }
+        let metadata = map.channel(&main).map(|channel| FileMetadata::of_channel(map, channel));
+        for (path, format) in &self.figures {
+            write_figure(&svg, metadata.as_ref(), path, *format, &mut notes)?;
+        }
+        if !quiet {
+            for note in &notes {
+                failure::note(note);
+            }
+        }
+        Ok(())
+    }
+
+    fn draw(&self, map: &Map, options: FigureOptions, scene: &Scene) -> Result<String> {
+        /// A long thin map would leave no room for its numbers.
+        const MOST: f64 = 6.0;
+        let title = if options.title.is_empty() { scene.title().to_owned() } else { options.title };
+        let label = match options.quantity {
+            Quantity::Brightness => format!("{}, {}", options.label, map.provenance.convention),
+            _ => options.label,
+        };
+        let [width, height] =
+            options.proportions.unwrap_or([map.window.x, map.window.y].map(|[first, last]| last - first));
+        let options = FigureOptions {
+            title,
+            label,
+            colormap: self.style.colormap.unwrap_or_default(),
+            range: self.style.range,
+            isophotes: self.style.isophotes.into(),
+            proportions: Some([(width / height).clamp(1.0 / MOST, MOST), 1.0]),
+            ..options
+        };
+        Ok(figure::map_figure_svg(map, &options)?)
+    }
+}
+
+/// `longitude 12.5°, latitude −3°`.
+pub fn place_text(axes: [CoordinateAxis; 2], place: [f64; 2]) -> String {
+    let one = |(axis, value): (CoordinateAxis, f64)| {
+        let unit = match axis.unit {
+            "1" => String::new(),
+            "°" => "°".into(),
+            unit => format!(" {unit}"),
+        };
+        format!("{} {}{unit}", axis.title, significant(value, 6))
+    };
+    axes.into_iter().zip(place).map(one).collect::<Vec<_>>().join(", ")
+}

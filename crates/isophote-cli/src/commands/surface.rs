@@ -1,0 +1,253 @@
+//! `isophote surface`: the map of a channel over a shape's own surface.
+
+use std::fmt::Write as _;
+
+use anyhow::Result;
+use isophote::analysis::surface::{CellExtreme, Surface, SurfaceRequest, SurfaceTotals, depends_on_eye};
+use isophote::export::figure::FigureOptions;
+use isophote::map::{Coordinates, Map, Quantity};
+use isophote::prepare::PreparedScene;
+use isophote::scene::Scene;
+use isophote::shape::Primitive;
+use isophote::text::significant;
+use isophote::units::Choice;
+use isophote::vector::Vector;
+use serde::Serialize;
+
+use super::cells::{CellFiles, place_text};
+use super::render::{channels, unit};
+use crate::args::SurfaceArguments;
+use crate::failure::Usage;
+use crate::{load, numbers};
+
+/// Computes the map of a surface, writes it and prints its numbers.
+pub fn run(arguments: &SurfaceArguments) -> Result<String> {
+    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.quiet)?);
+    let files = CellFiles::new(&arguments.output, &arguments.figure, &arguments.style)?;
+    let mut wanted = channels(&arguments.channel, scene.scene())?;
+    let main = wanted.first().cloned().unwrap_or(Quantity::Irradiance);
+    if wanted.is_empty() {
+        wanted.extend([Quantity::Irradiance, Quantity::Position, Quantity::Normal]);
+    }
+    files.refuse_impossible_pictures(&main)?;
+    wanted.push(Quantity::Shape);
+    let request = request(arguments, scene.scene())?;
+    let surface = scene.surface(&request).map_err(|error| Usage(error.to_string()))?;
+    let map = surface.map(&wanted).map_err(|error| Usage(error.to_string()))?;
+    let options = FigureOptions {
+        proportions: Some(surface.proportions()),
+        no_surface: "turned away".into(),
+        ..FigureOptions::new(main.clone(), &main.name())
+    };
+    files.write(&map, options, scene.scene(), arguments.quiet)?;
+    let summary = Summary { scene: scene.scene(), totals: surface.totals(&map, &main), surface, request, main, map };
+    if arguments.json { numbers::json(&summary.to_json()) } else { Ok(summary.to_text()) }
+}
+
+fn request(arguments: &SurfaceArguments, scene: &Scene) -> Result<SurfaceRequest> {
+    let shape = shape(arguments.shape.as_deref(), scene)?;
+    let parts = scene.shapes()[shape].geometry.parts();
+    if parts > 1 && arguments.part.is_none() {
+        let message = format!("\"{}\" has {parts} parts; say which with --part, from 0", scene.shapes()[shape].name);
+        return Err(Usage(message).into());
+    }
+    let primitive = Primitive { shape, part: arguments.part.unwrap_or(0) };
+    let axis = match (&arguments.axis, &arguments.towards) {
+        (Some(axis), _) => Some(Vector::from(*axis)),
+        (None, Some(light)) => Some(towards(light, primitive, scene)?),
+        (None, None) => None,
+    };
+    let (projection, side) = (arguments.projection, arguments.side);
+    Ok(SurfaceRequest { primitive, projection, axis, side, size: arguments.size })
+}
+
+fn shape(name: Option<&str>, scene: &Scene) -> Result<usize> {
+    let names: Vec<&str> = scene.shapes().iter().map(|shape| shape.name.as_str()).collect();
+    let index = match (name, names.as_slice()) {
+        (None, [_]) => Some(0),
+        (None, _) => None,
+        (Some(name), _) => names.iter().position(|known| *known == name),
+    };
+    index.ok_or_else(|| {
+        let shown: Vec<&str> = names.iter().copied().take(20).collect();
+        let there_are =
+            if shown.is_empty() { "the scene has none".into() } else { format!("there are: {}", shown.join(", ")) };
+        Usage(format!("say which surface with --shape and the name of a shape; {there_are}")).into()
+    })
+}
+
+/// The direction from the middle of a sphere to a light.
+fn towards(name: &str, primitive: Primitive, scene: &Scene) -> Result<Vector> {
+    let light = scene.lights().iter().find(|light| light.name == name).ok_or_else(|| {
+        let names: Vec<&str> = scene.lights().iter().take(20).map(|light| light.name.as_str()).collect();
+        Usage(format!("--towards: there is no light \"{name}\"; there are: {}", names.join(", ")))
+    })?;
+    let bounds = scene.shapes()[primitive.shape].geometry.bounds(primitive.part).unwrap_or_default();
+    let middle = (bounds.least + bounds.greatest) * 0.5;
+    let direction: Vector = light.from_place(middle, Vector::default());
+    let is_somewhere = direction.length() > 0.0;
+    let nowhere = || Usage(format!("--towards: the light \"{name}\" stands in the middle of the shape")).into();
+    is_somewhere.then_some(direction).ok_or_else(nowhere)
+}
+
+struct Summary<'s> {
+    scene: &'s Scene,
+    surface: Surface<'s>,
+    request: SurfaceRequest,
+    main: Quantity,
+    map: Map,
+    totals: Option<SurfaceTotals>,
+}
+
+impl Summary<'_> {
+    fn to_text(&self) -> String {
+        let mut text = String::new();
+        if !self.scene.title().is_empty() {
+            // Writing to a text cannot fail.
+            let _ = writeln!(text, "{}\n", self.scene.title());
+        }
+        let mut row = |name: &str, value: String| {
+            let _ = writeln!(text, "  {name:<12}{value}");
+        };
+        let area = significant(self.surface.area(), 12);
+        let left_out = self.surface.left_out().map_or(String::new(), |what| format!(", without {what}"));
+        row("surface", format!("{} ({}), {}, {area} m²{left_out}", self.name(), self.kind(), self.request.side.name()));
+        row("cells", self.cells_text());
+        let unit = unit(&self.main, self.scene);
+        row("channel", if unit.is_empty() { self.main.name() } else { format!("{}, {unit}", self.main.name()) });
+        if depends_on_eye(&self.main) {
+            let convention = self.scene.convention();
+            row("convention", format!("{}: {}", convention.label(), convention.formula()));
+        }
+        let Some(totals) = &self.totals else {
+            let is_scalar = self.map.scalar(&self.main).is_some();
+            let reason = if is_scalar { "the eye sees nothing of this side" } else { "this channel is no quantity" };
+            row("", format!("no extremes: {reason}"));
+            return text;
+        };
+        if depends_on_eye(&self.main) {
+            row("turned to", format!("the eye: {} m², and over them", significant(totals.area, 12)));
+        } else {
+            let power = self.scene.quantities().power_unit();
+            row("flux", format!("{} {power} = ∫ E dA", significant(totals.integral, 12)));
+        }
+        row("mean", format!("{} {unit}", significant(totals.mean(), 12)));
+        row("maximum", self.extreme_text(&totals.max, &unit));
+        row("minimum", self.extreme_text(&totals.min, &unit));
+        text
+    }
+
+    fn name(&self) -> String {
+        self.scene.name_of(self.request.primitive)
+    }
+
+    fn kind(&self) -> &'static str {
+        match self.scene.shapes()[self.request.primitive.shape].geometry.kind() {
+            "spheres" => "a sphere of several",
+            kind => kind,
+        }
+    }
+
+    fn cells_text(&self) -> String {
+        let size = self.surface.size();
+        let [x, y] = self.map.window.coordinates.axes(self.scene.length());
+        let axis = self.surface.axis().map_or(String::new(), |axis| {
+            let [x, y, z] = axis.to_array().map(|component| significant(component, 6));
+            format!("; 90° latitude towards ({x}, {y}, {z})")
+        });
+        format!("{} × {}, {} × {}{axis}", size.width, size.height, x.title, y.title)
+    }
+
+    fn extreme_text(&self, extreme: &CellExtreme, unit: &str) -> String {
+        let axes = self.map.window.coordinates.axes(self.scene.length());
+        let place = place_text(axes, self.surface.coordinates(extreme.cell));
+        let [x, y, z] = self.point(extreme).map(|coordinate| significant(coordinate, 6));
+        let length = self.scene.length().name();
+        format!("{} {unit} at {place}, point ({x}, {y}, {z}) {length}", significant(extreme.value, 12))
+    }
+
+    /// In the scene's unit.
+    fn point(&self, extreme: &CellExtreme) -> [f64; 3] {
+        self.surface.point(extreme.cell).to_array().map(|metres| self.scene.length().from_metres(metres))
+    }
+
+    fn to_json(&self) -> SurfaceJson {
+        let size = self.surface.size();
+        let coordinates = self.map.window.coordinates;
+        let axes = coordinates.axes(self.scene.length());
+        let extreme = |extreme: &CellExtreme| ExtremeJson {
+            value: extreme.value,
+            cell: [extreme.cell.column, extreme.cell.row],
+            coordinates: self.surface.coordinates(extreme.cell),
+            point: self.point(extreme),
+        };
+        let totals = self.totals.as_ref();
+        let flux = totals.filter(|_| !depends_on_eye(&self.main)).map(|totals| totals.integral);
+        SurfaceJson {
+            title: self.scene.title().into(),
+            shape: self.name(),
+            kind: self.kind(),
+            side: self.request.side.name(),
+            size: [size.width, size.height],
+            coordinates,
+            axes: axes.map(|axis| AxisJson { name: axis.name, unit: axis.unit }),
+            axis: self.surface.axis().map(Vector::to_array),
+            length: self.scene.length().name(),
+            convention: self.scene.convention().name(),
+            channel: self.main.name(),
+            unit: unit(&self.main, self.scene),
+            area: totals.map_or(self.surface.area(), |totals| totals.area),
+            area_unit: "m²",
+            left_out: self.surface.left_out(),
+            flux_unit: flux.map(|_| self.scene.quantities().power_unit()),
+            flux,
+            mean: totals.map(SurfaceTotals::mean),
+            max: totals.map(|totals| extreme(&totals.max)),
+            min: totals.map(|totals| extreme(&totals.min)),
+        }
+    }
+}
+
+/// The numbers for programs; points in the scene's unit.
+#[derive(Serialize)]
+struct SurfaceJson {
+    title: String,
+    shape: String,
+    kind: &'static str,
+    side: &'static str,
+    size: [u32; 2],
+    coordinates: Coordinates,
+    axes: [AxisJson; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    axis: Option<[f64; 3]>,
+    length: &'static str,
+    convention: &'static str,
+    channel: String,
+    unit: String,
+    /// Of the cells that have a value.
+    area: f64,
+    area_unit: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    left_out: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flux: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flux_unit: Option<&'static str>,
+    mean: Option<f64>,
+    max: Option<ExtremeJson>,
+    min: Option<ExtremeJson>,
+}
+
+#[derive(Serialize)]
+struct AxisJson {
+    name: &'static str,
+    unit: &'static str,
+}
+
+#[derive(Serialize)]
+struct ExtremeJson {
+    value: f64,
+    cell: [u32; 2],
+    coordinates: [f64; 2],
+    point: [f64; 3],
+}

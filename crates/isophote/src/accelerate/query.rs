@@ -1,0 +1,185 @@
+//! What the tree can be asked for: the boxes in a tube along a ray, and those in a beam of rays from a point.
+
+use super::Unit;
+use super::node::{Node, WIDTH};
+use crate::lanes::{Instructions, Lane, LaneJob};
+use crate::vector::Vector;
+
+/// A question to the boxes of a node.
+pub trait Query {
+    /// For each box a depth, which no point of the box that counts is before; and which boxes are met.
+    fn meet<V: Lane<Element = f32>>(&self, kind: V::Kind, node: &Node) -> (V, u32);
+
+    /// The same with these instructions.
+    fn meet_with(&self, instructions: Instructions, node: &Node) -> ([f32; WIDTH], u32)
+    where
+        Self: Sized,
+    {
+        instructions.run(Meet { query: self, node })
+    }
+}
+
+struct Meet<'q, Q> {
+    query: &'q Q,
+    node: &'q Node,
+}
+
+impl<Q: Query> LaneJob for Meet<'_, Q> {
+    type Output = ([f32; WIDTH], u32);
+
+    #[inline(always)]
+    fn run<S, D>(self, kind: S::Kind) -> Self::Output
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        let (near, met) = self.query.meet::<S::Narrow>(kind, self.node);
+        let mut depths = [0.0; WIDTH];
+        near.store(&mut depths);
+        (depths, met)
+    }
+}
+
+/// What the rounding of single precision may come to in the tests below, where all places are within a few units of the
+/// middle: some ten roundings of 2⁻²⁴ of 8.
+pub(super) const SLACK: f64 = 4e-6;
+
+/// Farther from the middle than this, in units, a ray starts at a point nearer to it.
+const FAR: f64 = 4.0;
+
+/// All that a box meets that is drawn along a ray. Depths are distances from its start.
+#[derive(Clone, Copy, Debug)]
+pub struct Tube {
+    /// Where it starts, moved forwards or backwards along each axis: how boxes are widened.
+    starts: [[f32; 3]; 2],
+    inverse: [f32; 3],
+    /// Which side of a box comes first, by axis.
+    first: [usize; 3],
+    /// How much of the ray was skipped, in units.
+    skipped: f64,
+    /// Units in a length of the direction.
+    scale: f64,
+}
+
+impl Tube {
+    /// A tube in the unit frame; nothing where it passes all boxes.
+    #[expect(clippy::cast_possible_truncation, reason = "the slack covers the rounding")]
+    pub(super) fn new(unit: &Unit, start: Vector, direction: Vector, radius: Vector) -> Option<Self> {
+        let length = direction.length();
+        let direction = direction * (1.0 / length);
+        let start = unit.place(start);
+        let distance = start.length();
+        let slack = unit.slack + 64.0 * f64::EPSILON * distance;
+        let widening = radius.to_array().map(|radius| slack + radius * unit.scale);
+        let widest = widening.into_iter().fold(0.0, f64::max);
+        let middle = -start.dot(direction);
+        let skipped = if distance > FAR { (middle - FAR).max(0.0) } else { 0.0 };
+        let start = start + direction * skipped;
+        // What is still far away after that passes by, or leads away.
+        if start.length() - 2.0 * widest > 2.0 * FAR {
+            return None;
+        }
+        // Steeper than this, a ray does not leave its slack in the length of the scene.
+        let steepest = 1e-9;
+        let (direction, start) = (direction.to_array(), start.to_array());
+        let steep = direction.map(|d: f64| if d.abs() < steepest { steepest.copysign(d) } else { d });
+        let moved =
+            |side: f64| [0, 1, 2].map(|axis| (start[axis] + side * widening[axis].copysign(steep[axis])) as f32);
+        Some(Self {
+            starts: [moved(1.0), moved(-1.0)],
+            inverse: steep.map(|d| (1.0 / d) as f32),
+            first: steep.map(|d| usize::from(d < 0.0)),
+            skipped,
+            scale: unit.scale * length,
+        })
+    }
+
+    /// The depth of a distance, given in lengths of the direction; rounded up.
+    #[must_use]
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
+    pub fn depth_of(&self, distance: f64) -> f32 {
+        let depth = distance * self.scale - self.skipped;
+        (depth + 1e-6 * (depth.abs() + 1.0)) as f32
+    }
+}
+
+impl Query for Tube {
+    #[inline(always)]
+    fn meet<V: Lane<Element = f32>>(&self, kind: V::Kind, node: &Node) -> (V, u32) {
+        let mut near = V::splat(kind, 0.0);
+        let mut far = V::splat(kind, f32::MAX);
+        for axis in 0..3 {
+            let first = self.first[axis];
+            let inverse = V::splat(kind, self.inverse[axis]);
+            let [start, end] = [self.starts[0][axis], self.starts[1][axis]];
+            near = near.max((V::load(kind, &node.sides[first][axis]) - V::splat(kind, start)) * inverse);
+            far = far.min((V::load(kind, &node.sides[1 - first][axis]) - V::splat(kind, end)) * inverse);
+        }
+        (near, !V::bits(far.is_less(near)) & node.used)
+    }
+}
+
+/// All that rays from a point between four directions can meet. Depths are counted along `forward`, and never negative.
+#[derive(Clone, Copy, Debug)]
+pub struct Beam {
+    /// Its walls: unit normals that point inwards, and the distance of the origin, made larger by what rounding may do.
+    walls: [([f32; 3], f32); 4],
+    forward: ([f32; 3], f32),
+    /// Units in a metre.
+    scale: f64,
+}
+
+impl Beam {
+    /// A beam in the unit frame.
+    #[expect(clippy::cast_possible_truncation, reason = "the slack covers the rounding")]
+    pub(super) fn new(unit: &Unit, eye: Vector, corners: [Vector; 4], forward: Vector) -> Self {
+        let eye = unit.place(eye);
+        let middle = corners.into_iter().fold(Vector::default(), |sum, corner| sum + corner.normalized());
+        // Rounded normals err by 2⁻²⁴ of a place; the eye may be far.
+        let slack = unit.slack + 4e-7 * eye.length();
+        let plane = |normal: Vector| {
+            let offset = slack - normal.dot(eye);
+            (normal.to_array().map(|x| x as f32), offset as f32)
+        };
+        let wall = |index: usize| {
+            let normal = corners[index].cross(corners[(index + 1) % 4]).normalized();
+            plane(if normal.dot(middle) < 0.0 { -normal } else { normal })
+        };
+        Self { walls: [0, 1, 2, 3].map(wall), forward: plane(-forward), scale: unit.scale }
+    }
+
+    /// The depth of a distance along `forward`, in metres; rounded up.
+    #[must_use]
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
+    pub fn depth_of(&self, distance: f64) -> f32 {
+        let depth = distance * self.scale;
+        (depth + 1e-6 * (depth.abs() + 1.0)) as f32
+    }
+}
+
+/// The greatest of n·x + offset over each box.
+#[inline(always)]
+fn highest<V: Lane<Element = f32>>(kind: V::Kind, node: &Node, (normal, offset): &([f32; 3], f32)) -> V {
+    let mut sum = V::splat(kind, *offset);
+    for axis in 0..3 {
+        let side = usize::from(normal[axis] > 0.0);
+        sum = V::load(kind, &node.sides[side][axis]).times_plus(V::splat(kind, normal[axis]), sum);
+    }
+    sum
+}
+
+impl Query for Beam {
+    #[inline(always)]
+    fn meet<V: Lane<Element = f32>>(&self, kind: V::Kind, node: &Node) -> (V, u32) {
+        let zero = V::splat(kind, 0.0);
+        let mut inside = highest::<V>(kind, node, &self.walls[0]);
+        for wall in &self.walls[1..] {
+            inside = inside.min(highest(kind, node, wall));
+        }
+        // −n·x is greatest where the depth is least.
+        let depth = (-highest::<V>(kind, node, &self.forward)).max(zero);
+        (depth, !V::bits(inside.is_less(zero)) & node.used)
+    }
+}

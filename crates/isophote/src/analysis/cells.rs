@@ -1,0 +1,113 @@
+//! Maps whose cells are no pixels of a camera.
+
+use rayon::prelude::*;
+
+use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Values, Window};
+use crate::prepare::PreparedScene;
+use crate::shade::Shading;
+use crate::vector::Vector;
+
+/// What is computed at the centre of a cell.
+pub(super) struct Cell {
+    /// The point, in metres.
+    pub(super) position: Vector,
+    /// The unit normal on the side that is lit.
+    pub(super) normal: Vector,
+    pub(super) shading: Shading,
+    /// E_j of the lights that are asked for.
+    pub(super) lights: Vec<f64>,
+}
+
+/// Where a map of cells lies.
+pub(super) struct Layout {
+    pub(super) size: Resolution,
+    pub(super) window: Window,
+    /// What the map is of, and how it was computed.
+    pub(super) renderer: String,
+    /// Index of the shape that all cells are of.
+    pub(super) shape: u32,
+}
+
+/// The map of such cells. Cells of which nothing is known are left out of the mask.
+pub(super) fn map(
+    scene: &PreparedScene,
+    layout: Layout,
+    quantities: &[Quantity],
+    cell: impl Fn(Pixel) -> Option<Cell> + Sync,
+) -> Map {
+    let Layout { size, window, renderer, shape } = layout;
+    let description = scene.scene();
+    let mut channels: Vec<Channel> = Vec::new();
+    for quantity in quantities {
+        if channels.iter().all(|channel| channel.quantity != *quantity) {
+            let unit = quantity.unit(description.convention, description.quantities, description.length);
+            channels.push(Channel { quantity: quantity.clone(), unit: unit.into(), values: no_values(quantity) });
+        }
+    }
+    let mut shapes = Vec::with_capacity(size.pixels());
+    for row in 0..size.height {
+        let cells: Vec<Option<Cell>> =
+            (0..size.width).into_par_iter().map(|column| cell(Pixel { column, row })).collect();
+        let shape = shape.cast_signed();
+        shapes.extend(cells.iter().map(|cell| if cell.is_some() { shape } else { -1 }));
+        let mut lights = 0;
+        for channel in &mut channels {
+            push(channel, &cells, lights, shape, window);
+            lights += usize::from(matches!(channel.quantity, Quantity::Light(_)));
+        }
+    }
+    let provenance = Provenance {
+        program: concat!("isophote ", env!("CARGO_PKG_VERSION")).into(),
+        title: description.title.clone(),
+        scene: scene.source_text().to_owned(),
+        convention: description.convention.label(),
+        renderer,
+    };
+    let mask = Mask::of_shapes(size, &shapes);
+    Map { full: size, region: Region::all(size), window, provenance, mask, channels }
+}
+
+/// The indices of the lights among these quantities, in the order of [`Cell::lights`].
+///
+/// # Errors
+/// The name of a light that the scene does not have.
+pub(super) fn lights(scene: &PreparedScene, quantities: &[Quantity]) -> Result<Vec<usize>, String> {
+    let mut lights = Vec::new();
+    for quantity in quantities {
+        let Quantity::Light(name) = quantity else { continue };
+        let index = scene.scene().lights.iter().position(|light| light.name == *name).ok_or_else(|| name.clone())?;
+        if !lights.contains(&index) {
+            lights.push(index);
+        }
+    }
+    Ok(lights)
+}
+
+fn no_values(quantity: &Quantity) -> Values {
+    match quantity {
+        Quantity::Position | Quantity::Normal => Values::Vector(Vec::new()),
+        Quantity::Shape => Values::Index(Vec::new()),
+        _ => Values::Scalar(Vec::new()),
+    }
+}
+
+fn push(channel: &mut Channel, cells: &[Option<Cell>], light: usize, shape: i32, window: Window) {
+    let in_unit = |vector: Vector| vector.to_array().map(|metres| window.length.from_metres(metres));
+    let scalar = |cell: &Cell| match channel.quantity {
+        Quantity::Irradiance => cell.shading.irradiance,
+        Quantity::Ambient => cell.shading.ambient,
+        Quantity::Diffuse => cell.shading.diffuse,
+        Quantity::Specular => cell.shading.specular,
+        Quantity::Light(_) => cell.lights[light],
+        _ => cell.shading.brightness(),
+    };
+    let is_normal = channel.quantity == Quantity::Normal;
+    let vector = |cell: &Cell| if is_normal { cell.normal.to_array() } else { in_unit(cell.position) };
+    let known = |cell: &Option<Cell>| cell.is_some();
+    match &mut channel.values {
+        Values::Scalar(values) => values.extend(cells.iter().map(|cell| cell.as_ref().map_or(0.0, scalar))),
+        Values::Vector(values) => values.extend(cells.iter().map(|cell| cell.as_ref().map_or([0.0; 3], vector))),
+        Values::Index(values) => values.extend(cells.iter().map(|cell| if known(cell) { shape } else { -1 })),
+        Values::Single(_) => {}
+    }
+}

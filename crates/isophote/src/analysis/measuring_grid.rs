@@ -1,0 +1,133 @@
+//! Grids of points on a plane, as lighting work measures and calculates them.
+
+use crate::analysis::cells::{self, Cell, Layout};
+use crate::map::{Coordinates, Map, Pixel, Quantity, Resolution, Window};
+use crate::prepare::PreparedScene;
+use crate::scene::Grid;
+use crate::shape::SurfacePoint;
+use crate::vector::Vector;
+
+/// Why there is no map of a grid.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GridError {
+    /// Next to a point light the irradiance has no bound.
+    #[error(
+        "the light \"{light}\" stands at the point in column {}, row {} of the grid \"{grid}\"; move one of them",
+        cell.column, cell.row
+    )]
+    LightAtPoint {
+        /// The light.
+        light: String,
+        /// The grid.
+        grid: String,
+        /// The point.
+        cell: Pixel,
+    },
+    /// A channel that needs a surface.
+    #[error("a grid has no channel `{name}`; allowed: irradiance, ambient, position, normal, light.NAME")]
+    NoSuchChannel {
+        /// The channel.
+        name: String,
+    },
+    /// A channel of a light that the scene does not have.
+    #[error("the scene has no light named \"{name}\"")]
+    NoSuchLight {
+        /// What was asked for.
+        name: String,
+    },
+}
+
+impl PreparedScene {
+    /// What arrives (3.1), (3.9) at each point of a grid, with the scene's shadows. A point stands at the centre of its cell;
+    /// row 0 is the one that is farthest along v, column 0 the nearest along u.
+    ///
+    /// # Errors
+    /// A light at one of the points, or a channel that grids do not have.
+    pub fn grid(&self, grid: &Grid, quantities: &[Quantity]) -> Result<Map, GridError> {
+        let is_known = |quantity: &Quantity| {
+            let is_place = matches!(quantity, Quantity::Position | Quantity::Normal);
+            is_place || matches!(quantity, Quantity::Irradiance | Quantity::Ambient | Quantity::Light(_))
+        };
+        if let Some(quantity) = quantities.iter().find(|quantity| !is_known(quantity)) {
+            return Err(GridError::NoSuchChannel { name: quantity.name() });
+        }
+        for light in self.scene().lights() {
+            if let Some(cell) = light.position().and_then(|position| grid.point_at(position)) {
+                return Err(GridError::LightAtPoint { light: light.name.clone(), grid: grid.name.clone(), cell });
+            }
+        }
+        let lights = cells::lights(self, quantities).map_err(|name| GridError::NoSuchLight { name })?;
+        let length = self.scene().length();
+        let edge = |edge: Vector| [0.0, length.from_metres(edge.length())];
+        let layout = Layout {
+            size: grid.points,
+            window: Window { x: edge(grid.u), y: edge(grid.v), length, coordinates: Coordinates::Grid },
+            renderer: format!("grid {}, double", grid.name),
+            shape: 0,
+        };
+        Ok(cells::map(self, layout, quantities, |cell| {
+            let point = grid.surface_point(cell);
+            let mut terms = vec![0.0; lights.len()];
+            let shading = self.illuminate(&point, |light, term| {
+                if let Some(wanted) = lights.iter().position(|wanted| *wanted == light) {
+                    terms[wanted] = term.irradiance;
+                }
+            });
+            Some(Cell { position: point.position(), normal: point.normal, shading, lights: terms })
+        }))
+    }
+}
+
+impl Grid {
+    /// The unit normal on the side that is lit.
+    #[must_use]
+    pub fn normal(&self) -> Vector {
+        self.u.cross(self.v).normalized() * self.side.sign()
+    }
+
+    /// The point of a cell, in metres.
+    #[must_use]
+    pub fn point(&self, cell: Pixel) -> Vector {
+        self.corner + self.offset(cell)
+    }
+
+    /// How far a point is along the edges, in metres.
+    #[must_use]
+    pub fn coordinates(&self, cell: Pixel) -> [f64; 2] {
+        let [along_u, along_v] = self.parts(cell);
+        [self.u.length() * along_u, self.v.length() * along_v]
+    }
+
+    fn parts(&self, cell: Pixel) -> [f64; 2] {
+        let Resolution { width, height } = self.points;
+        let part = |index: u32, count: u32| (f64::from(index) + 0.5) / f64::from(count);
+        [part(cell.column, width), part(height - 1 - cell.row, height)]
+    }
+
+    fn offset(&self, cell: Pixel) -> Vector {
+        let [along_u, along_v] = self.parts(cell);
+        self.u * along_u + self.v * along_v
+    }
+
+    fn surface_point(&self, cell: Pixel) -> SurfacePoint {
+        let normal = self.normal();
+        SurfacePoint { anchor: self.corner, offset: self.offset(cell), normal, view: normal, cos_theta_o: 1.0 }
+    }
+
+    /// The point of the grid at a place, to a billionth of the grid's size.
+    fn point_at(&self, place: Vector) -> Option<Pixel> {
+        let from_corner = place - self.corner;
+        let Resolution { width, height } = self.points;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the grid")]
+        let index = |edge: Vector, count: u32| {
+            let part = from_corner.dot(edge) / edge.dot(edge);
+            (part * f64::from(count)).floor().clamp(0.0, f64::from(count - 1)) as u32
+        };
+        let nearest = Pixel { column: index(self.u, width), row: height - 1 - index(self.v, height) };
+        let distance = (from_corner - self.offset(nearest)).length();
+        (distance <= 1e-9 * (self.u + self.v).length()).then_some(nearest)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,287 @@
+//! Maps over a shape's own surface: the distribution of light over a sphere, free of any camera.
+
+mod chart;
+mod cylinder;
+mod disk;
+mod rectangle;
+mod sphere;
+#[cfg(test)]
+mod tests;
+mod totals;
+
+use crate::analysis::cells::{self, Cell, Layout};
+use crate::camera::between;
+use crate::map::{Map, Pixel, Quantity, Resolution, Window};
+use crate::prepare::{Hit, PreparedScene};
+use crate::shape::{Primitive, Side, SurfacePoint};
+use crate::units::Choice;
+use crate::vector::Vector;
+use chart::{Chart, ChartPoint};
+pub use totals::{CellExtreme, SurfaceTotals};
+
+/// Which surface, and how it is cut into cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceRequest {
+    /// What has the surface.
+    pub primitive: Primitive,
+    /// Which cells are equal.
+    pub projection: Projection,
+    /// Where the latitude of a sphere is 90°: a direction of any length but zero; +y by default.
+    pub axis: Option<Vector>,
+    /// Which side is looked at.
+    pub side: Side,
+    /// Columns and rows; by default 360 columns, and as many rows as make cells about square.
+    pub size: Option<Resolution>,
+}
+
+/// Which cells of a map are equal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projection {
+    /// Steps of latitude, of radius: the coordinates as a person reads them.
+    #[default]
+    Equirectangular,
+    /// Areas: rows are steps of the sine of the latitude, of the square of the radius.
+    EqualArea,
+}
+
+impl Choice for Projection {
+    const ALL: &'static [Self] = &[Self::Equirectangular, Self::EqualArea];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Equirectangular => "equirectangular",
+            Self::EqualArea => "equal-area",
+        }
+    }
+}
+
+/// Why there is no map of a surface.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SurfaceError {
+    /// A shape whose surface has no coordinates here.
+    #[error("the surface of a {kind} has no coordinates; allowed: a sphere, a rectangle, a disk, a cylinder")]
+    NoCoordinates {
+        /// What the shape is.
+        kind: &'static str,
+    },
+    /// There is no such shape, or it has no such part.
+    #[error("there is no part {part}: the shape has {parts}, counted from 0")]
+    NoSuchPart {
+        /// What was asked for.
+        part: u32,
+        /// How many it has.
+        parts: u32,
+    },
+    /// Only spheres have an axis to be chosen.
+    #[error("an axis is chosen for a sphere only: a {kind} has its own")]
+    AxisOfItsOwn {
+        /// What the shape is.
+        kind: &'static str,
+    },
+    /// No cells, or too many.
+    #[error("a map of {}×{} cells cannot be held in memory; allowed: sides of 1 to {}, together at most {} cells",
+        size.width, size.height, Resolution::LONGEST_IN_MEMORY, Resolution::MOST_IN_MEMORY)]
+    Size {
+        /// What was asked for.
+        size: Resolution,
+    },
+    /// A channel that belongs to a camera's rays.
+    #[error("a surface has no channel `{name}`: it belongs to a camera's map")]
+    ChannelOfCamera {
+        /// The channel.
+        name: String,
+    },
+    /// A channel of a light that the scene does not have.
+    #[error("the scene has no light named \"{name}\"")]
+    NoSuchLight {
+        /// What was asked for.
+        name: String,
+    },
+}
+
+/// A surface cut into cells, each of an exactly known area.
+#[derive(Debug)]
+pub struct Surface<'s> {
+    scene: &'s PreparedScene,
+    request: SurfaceRequest,
+    chart: Chart,
+    size: Resolution,
+}
+
+impl PreparedScene {
+    /// A surface cut into cells.
+    ///
+    /// # Errors
+    /// A shape without coordinates, no such part, an axis where none can be chosen, or a size out of bounds.
+    pub fn surface(&self, request: &SurfaceRequest) -> Result<Surface<'_>, SurfaceError> {
+        let Primitive { shape, part } = request.primitive;
+        let geometry = self.scene().shapes().get(shape).map(|shape| &shape.geometry);
+        let parts = geometry.map_or(0, crate::shape::Geometry::parts);
+        let geometry = geometry.filter(|_| part < parts).ok_or(SurfaceError::NoSuchPart { part, parts })?;
+        let chart = Chart::new(geometry, part, request.projection, request.axis)?;
+        let size = request.size.unwrap_or_else(|| default_size(&chart));
+        if size.pixels() == 0 || !size.fits_memory() {
+            return Err(SurfaceError::Size { size });
+        }
+        Ok(Surface { scene: self, request: *request, chart, size })
+    }
+}
+
+/// Columns of a map that is not told its size.
+const DEFAULT_COLUMNS: u32 = 360;
+
+fn default_size(chart: &Chart) -> Resolution {
+    let [width, height] = chart.proportions();
+    let rows = (f64::from(DEFAULT_COLUMNS) * height / width).round().clamp(2.0, 4.0 * f64::from(DEFAULT_COLUMNS));
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let height = rows as u32;
+    Resolution { width: DEFAULT_COLUMNS, height }
+}
+
+impl Surface<'_> {
+    /// The values at the centres of the cells, in double precision: row 0 has the greatest latitude or height, column 0
+    /// the least longitude or angle, −180°.
+    ///
+    /// Irradiance and the parts of single lights are those of (3.1) and (3.9), with the scene's shadows. Brightness and its two
+    /// parts are what the scene's eye would see if nothing stood before it: with one of them among the channels, cells
+    /// that are turned away from the eye (θ_o ≥ 90°) are left out.
+    ///
+    /// # Errors
+    /// A channel of a camera, or of a light that there is not.
+    pub fn map(&self, quantities: &[Quantity]) -> Result<Map, SurfaceError> {
+        let of_camera = |quantity: &&Quantity| {
+            matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage | Quantity::AmbientError)
+        };
+        if let Some(quantity) = quantities.iter().find(of_camera) {
+            return Err(SurfaceError::ChannelOfCamera { name: quantity.name() });
+        }
+        let lights = cells::lights(self.scene, quantities).map_err(|name| SurfaceError::NoSuchLight { name })?;
+        let needs_eye = quantities.iter().any(depends_on_eye);
+        let layout = Layout {
+            size: self.size,
+            window: self.window(),
+            renderer: self.description(),
+            shape: u32::try_from(self.request.primitive.shape).unwrap_or(u32::MAX),
+        };
+        Ok(cells::map(self.scene, layout, quantities, |cell| {
+            let hit = self.hit(cell);
+            if needs_eye && hit.point.cos_theta_o <= 0.0 {
+                return None;
+            }
+            let mut terms = vec![0.0; lights.len()];
+            let shading = self.scene.shade(&hit, None, |light, term| {
+                if let Some(wanted) = lights.iter().position(|wanted| *wanted == light) {
+                    terms[wanted] = term.irradiance;
+                }
+            });
+            Some(Cell { position: hit.point.position(), normal: hit.point.normal, shading, lights: terms })
+        }))
+    }
+
+    /// How many columns and rows there are.
+    #[must_use]
+    pub fn size(&self) -> Resolution {
+        self.size
+    }
+
+    /// Width and height of the map if it were unrolled from its shape, in metres.
+    #[must_use]
+    pub fn proportions(&self) -> [f64; 2] {
+        self.chart.proportions()
+    }
+
+    /// The area that the map covers, in m².
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        let [x, y] = self.chart.ranges();
+        self.chart.area(x, y)
+    }
+
+    /// What belongs to the shape and not to the map.
+    #[must_use]
+    pub fn left_out(&self) -> Option<&'static str> {
+        self.chart.left_out()
+    }
+
+    /// The direction in which the latitude of a sphere is 90°, a unit vector.
+    #[must_use]
+    pub fn axis(&self) -> Option<Vector> {
+        self.chart.axis_of_sphere()
+    }
+
+    /// The coordinates of a cell's centre, in the units of the map's window.
+    #[must_use]
+    pub fn coordinates(&self, cell: Pixel) -> [f64; 2] {
+        let Window { x, y, .. } = self.window();
+        [centre(x, cell.column, self.size.width), centre([y[1], y[0]], cell.row, self.size.height)]
+    }
+
+    /// The centre of a cell, in metres.
+    #[must_use]
+    pub fn point(&self, cell: Pixel) -> Vector {
+        let ChartPoint { anchor, offset, .. } = self.chart_point(cell);
+        anchor + offset
+    }
+
+    /// The exact area of a cell, in m².
+    #[must_use]
+    pub fn cell_area(&self, cell: Pixel) -> f64 {
+        let [x, y] = self.chart.ranges();
+        let edge =
+            |[first, last]: [f64; 2], index: u32, count: u32| between(first, last, f64::from(index) - 0.5, count);
+        let Resolution { width, height } = self.size;
+        let (left, right) = (edge(x, cell.column, width), edge(x, cell.column + 1, width));
+        let (top, bottom) = (edge([y[1], y[0]], cell.row, height), edge([y[1], y[0]], cell.row + 1, height));
+        self.chart.area([left, right], [bottom, top])
+    }
+
+    fn chart_point(&self, cell: Pixel) -> ChartPoint {
+        let [x, y] = self.chart.ranges();
+        let Resolution { width, height } = self.size;
+        self.chart.point([centre(x, cell.column, width), centre([y[1], y[0]], cell.row, height)])
+    }
+
+    /// The centre of a cell as a hit from the side that is asked for.
+    fn hit(&self, cell: Pixel) -> Hit {
+        let ChartPoint { anchor, offset, normal } = self.chart_point(cell);
+        let normal = normal * self.request.side.sign();
+        let to_eye = (self.scene.frame().eye - anchor) - offset;
+        let distance = to_eye.length();
+        let view = to_eye * (1.0 / distance);
+        let point = SurfacePoint { anchor, offset, normal, view, cos_theta_o: normal.dot(view) };
+        let geometry = &self.scene.scene().shapes()[self.request.primitive.shape].geometry;
+        let from_inside = geometry.is_closed() && self.request.side == Side::Back;
+        Hit { primitive: self.request.primitive, distance, point, from_inside, lift: Vector::default() }
+    }
+
+    fn window(&self) -> Window {
+        let length = self.scene.scene().length();
+        let coordinates = self.chart.coordinates();
+        let units = coordinates.axes(length).map(|axis| axis.unit);
+        let [x, y] = self.chart.ranges();
+        let in_unit = |edges: [f64; 2], unit: &str| {
+            if unit == length.name() { edges.map(|metres| length.from_metres(metres)) } else { edges }
+        };
+        Window { x: in_unit(x, units[0]), y: in_unit(y, units[1]), length, coordinates }
+    }
+
+    fn description(&self) -> String {
+        let name = self.scene.scene().name_of(self.request.primitive);
+        let axis = self.axis().map_or(String::new(), |axis| {
+            let [x, y, z] = axis.to_array().map(|component| crate::text::significant(component, 6));
+            format!(", axis ({x}, {y}, {z})")
+        });
+        let (side, projection) = (self.request.side.name(), self.request.projection.name());
+        format!("surface of {name}, {side}, {projection}{axis}, double")
+    }
+}
+
+/// Whether a quantity is what an eye sees.
+#[must_use]
+pub fn depends_on_eye(quantity: &Quantity) -> bool {
+    matches!(quantity, Quantity::Brightness | Quantity::Diffuse | Quantity::Specular)
+}
+
+fn centre([first, last]: [f64; 2], index: u32, count: u32) -> f64 {
+    between(first, last, f64::from(index), count)
+}

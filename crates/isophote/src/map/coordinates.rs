@@ -1,0 +1,71 @@
+//! What the columns and rows of a map run along.
+
+use serde::{Deserialize, Serialize};
+
+use crate::units::{Choice, LengthUnit};
+
+/// What x and y of a [`Window`](super::Window) are: places on the screen, or on a surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Coordinates {
+    /// x and y on the camera's screen.
+    #[default]
+    Screen,
+    /// The same in degrees, as the screens of a fisheye and of a panorama have them.
+    ScreenAngles,
+    /// Longitude and latitude on a sphere.
+    LongitudeLatitude,
+    /// Longitude and the sine of the latitude on a sphere: equal areas are equal (Lambert's cylindrical projection).
+    LongitudeSine,
+    /// The angle about a cylinder's axis, and the height along it.
+    AngleHeight,
+    /// The angle about a disk's normal, and the distance from its centre.
+    AngleRadius,
+    /// The angle about a disk's normal, and the square of the distance from its centre, as a part of R².
+    AngleSquare,
+    /// Along the width and the height of a rectangle, from its centre.
+    Sides,
+    /// Along the edges u and v of a grid's rectangle, from its corner. The grid is no shape.
+    Grid,
+}
+
+/// One of the two directions of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CoordinateAxis {
+    /// Its name in tables.
+    pub name: &'static str,
+    /// Its name in figures.
+    pub title: &'static str,
+    /// Its unit; `"1"` for pure numbers.
+    pub unit: &'static str,
+}
+
+impl Coordinates {
+    /// What runs from left to right, and what runs from the lower to the upper edge.
+    #[must_use]
+    pub fn axes(self, length: LengthUnit) -> [CoordinateAxis; 2] {
+        let axis = |name, title, unit| CoordinateAxis { name, title, unit };
+        let named = |name, unit| axis(name, name, unit);
+        let length = length.name();
+        match self {
+            Self::Screen | Self::Sides => [named("x", length), named("y", length)],
+            Self::ScreenAngles => [named("x", "°"), named("y", "°")],
+            Self::LongitudeLatitude => [named("longitude", "°"), named("latitude", "°")],
+            Self::LongitudeSine => [named("longitude", "°"), axis("sin_latitude", "sine of the latitude", "1")],
+            Self::AngleHeight => [named("angle", "°"), named("height", length)],
+            Self::AngleRadius => [named("angle", "°"), named("radius", length)],
+            Self::AngleSquare => [named("angle", "°"), axis("radius_squared", "(r/R)²", "1")],
+            Self::Grid => [named("u", length), named("v", length)],
+        }
+    }
+
+    /// Whether a map's pixels are those of a camera.
+    #[must_use]
+    pub fn is_screen(&self) -> bool {
+        matches!(self, Self::Screen | Self::ScreenAngles)
+    }
+
+    pub(super) fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}

@@ -1,0 +1,92 @@
+//! Points of a plane that need not be a shape's, such as those of a grid.
+
+use std::cell::OnceCell;
+
+use super::obstruction::sampled;
+use super::{Blocking, PreparedScene};
+use crate::double_double::DoubleDouble;
+use crate::real::Scalar;
+use crate::shade::{LightTerm, Shading, shade};
+use crate::shape::{NearestPoint, Primitive, Ray, SurfacePoint};
+use crate::vector::Vector;
+
+/// The surfaces on which a bare point happens to lie: a grid may lie on a floor. They do not stand in its light, but for
+/// closed ones, which hide what is behind their surface and not inside them.
+struct Touched {
+    own: Vec<Primitive>,
+    /// Closed ones that cast shadows, and the normal there.
+    walls: Vec<(Primitive, NearestPoint)>,
+}
+
+impl PreparedScene {
+    /// What arrives from the lights (3.1) and the environment (3.9) at a point that has a side but is no shape's; `each`
+    /// sees every light's own term.
+    pub fn illuminate(&self, point: &SurfacePoint, each: impl FnMut(usize, &LightTerm)) -> Shading {
+        let touched = self.touched(point.position());
+        let precise = OnceCell::new();
+        let visibility = |light| {
+            let Blocking { mut blocker, is_doubtful } = self.blocking_of_bare(&touched, point, light);
+            if is_doubtful {
+                let precise = precise.get_or_init(|| point.map(DoubleDouble::from_f64));
+                blocker = self.blocking_of_bare(&touched, precise, light).blocker;
+            }
+            if blocker.is_some() { 0.0 } else { 1.0 }
+        };
+        let ambient = self.ambient_of_bare(&touched, point);
+        let without_material = &self.formulas[self.scene.materials.len()].formula;
+        shade(point, &self.scene.lights, without_material, ambient, visibility, each)
+    }
+
+    fn blocking_of_bare<T: Scalar>(&self, touched: &Touched, point: &SurfacePoint<T>, light: usize) -> Blocking {
+        let source = &self.scene.lights[light];
+        if !self.scene.shadows || !source.casts_shadows {
+            return Blocking::NONE;
+        }
+        let to_light = source.from_place(point.anchor, point.offset).map(T::rounded);
+        if let Some(wall) = self.wall_before(touched, to_light, source.position()) {
+            return Blocking { blocker: Some(wall), is_doubtful: false };
+        }
+        self.blocking_from(&touched.own, point, Vector::from_f64(Vector::default()), light)
+    }
+
+    fn ambient_of_bare(&self, touched: &Touched, point: &SurfacePoint) -> f64 {
+        let Some(ambient) = &self.scene.ambient else { return 0.0 };
+        let samples = ambient.obstruction.filter(|_| !self.shapes.is_empty());
+        let sees_the_environment = |direction: Vector| {
+            let ray = Ray { anchor: point.anchor, offset: point.offset, direction };
+            self.wall_before(touched, direction, None).is_none()
+                && self.nearest_blocker(&touched.own, &ray, None).blocker.is_none()
+        };
+        sampled(ambient, samples, point.normal, sees_the_environment).irradiance
+    }
+
+    /// The closed shape behind whose surface something is in a direction: something at a place, or without end.
+    fn wall_before(&self, touched: &Touched, direction: Vector, place: Option<Vector>) -> Option<Primitive> {
+        let hides = |(wall, nearest): &&(Primitive, NearestPoint)| {
+            let geometry = &self.shapes[wall.shape].geometry;
+            let is_inside = place.is_some_and(|place| geometry.part_encloses(wall.part, place));
+            nearest.outward_normal.dot(direction) <= 0.0 && !is_inside
+        };
+        touched.walls.iter().find(hides).map(|(wall, _)| *wall)
+    }
+
+    fn touched(&self, point: Vector) -> Touched {
+        let mut touched = Touched { own: Vec::new(), walls: Vec::new() };
+        let is_obstructed = self.scene.ambient.as_ref().is_some_and(|ambient| ambient.obstruction.is_some());
+        if !self.scene.shadows && !is_obstructed {
+            return touched;
+        }
+        for (shape, prepared) in self.shapes.iter().enumerate() {
+            let geometry = &prepared.geometry;
+            if geometry.signed_distance(point).abs() <= geometry.surface_tolerance(point) {
+                let nearest = geometry.nearest(point);
+                let primitive = Primitive { shape, part: nearest.part };
+                touched.own.push(primitive);
+                if geometry.is_closed() && self.scene.shapes[shape].casts_shadow {
+                    touched.walls.push((primitive, nearest));
+                }
+            }
+        }
+        touched
+    }
+}

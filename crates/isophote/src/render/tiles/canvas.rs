@@ -1,0 +1,308 @@
+//! The depth buffer of a tile.
+
+use super::outlines::{Block, Outlines, View};
+use super::{HEIGHT, Tile, WIDTH};
+use crate::lanes::Lane;
+use crate::map::Pixel;
+use crate::prepare::ERROR_OF_DISTANCE;
+
+/// A row in memory: vectors may reach beyond the tile's edge.
+const STRIDE: usize = WIDTH as usize + 16;
+const PIXELS: usize = STRIDE * HEIGHT as usize;
+
+/// Parts of a tile whose farthest pixel is known.
+const PART: usize = 16;
+const PART_ROWS: usize = 8;
+const PARTS: usize = WIDTH as usize / PART;
+
+/// Which outline each pixel of a tile sees, and how far away.
+pub struct Canvas {
+    /// t‖d‖ of (2.1), where d is the direction to the pixel on a screen at distance 1: the root of a row's outline gives
+    /// it without another one.
+    depths: Vec<f64>,
+    /// Index of the outline; negative where nothing is seen.
+    outlines: Vec<f64>,
+    /// The farthest depth in each part.
+    farthest: [[f64; PARTS]; HEIGHT as usize / PART_ROWS],
+    doubts: Vec<Doubt>,
+}
+
+/// Something that may be seen at a pixel, or not.
+#[derive(Clone, Copy)]
+struct Doubt {
+    at: usize,
+    /// Not nearer than this.
+    from: f64,
+}
+
+/// No outline.
+const NONE: f64 = -1.0;
+
+/// A row of an outline that is drawn.
+struct RowOf {
+    roots: [f64; 2],
+    /// d·c at u = 0, and its growth.
+    depth: [f64; 2],
+}
+
+/// What does not depend on the row.
+struct Pen {
+    column: f64,
+    index: f64,
+    /// cos²θ_o ‖d‖² R² over (u − u_a)(u_b − u).
+    clearance: f64,
+    /// Clearances between these, times ‖d‖² R², are in doubt.
+    doubtful: [f64; 2],
+    /// How far depths may be off, for those that are nearly the same.
+    uncertain: f64,
+    /// The same at the edge, where the depth is that of the grazing ray.
+    uncertain_at_edge: f64,
+}
+
+impl Canvas {
+    /// An empty tile.
+    pub fn new() -> Self {
+        Self {
+            depths: vec![f64::INFINITY; PIXELS],
+            outlines: vec![NONE; PIXELS],
+            farthest: [[f64::INFINITY; PARTS]; HEIGHT as usize / PART_ROWS],
+            doubts: Vec::new(),
+        }
+    }
+
+    /// Makes it empty again.
+    pub fn clear(&mut self) {
+        self.depths.fill(f64::INFINITY);
+        self.outlines.fill(NONE);
+        self.farthest = [[f64::INFINITY; PARTS]; HEIGHT as usize / PART_ROWS];
+        self.doubts.clear();
+    }
+
+    /// No pixel is farther: t‖d‖, in metres.
+    pub fn farthest(&self) -> f64 {
+        self.farthest.iter().flatten().copied().fold(0.0, f64::max)
+    }
+
+    /// Finds out how far the pixels of each part are.
+    #[inline(always)]
+    pub fn measure<D: Lane<Element = f64>>(&mut self, kind: D::Kind, tile: Tile) {
+        for (row, parts) in self.farthest.iter_mut().enumerate() {
+            for (column, farthest) in parts.iter_mut().enumerate() {
+                let rows = (row * PART_ROWS)..((row + 1) * PART_ROWS).min(tile.height as usize);
+                let end = (tile.width as usize).saturating_sub(column * PART).min(PART);
+                *farthest = 0.0;
+                for row in rows {
+                    let at = row * STRIDE + column * PART;
+                    let part = &self.depths[at..at + PART];
+                    *farthest = if end == PART {
+                        greatest::<D>(kind, part).max(*farthest)
+                    } else {
+                        part[..end].iter().copied().fold(*farthest, f64::max)
+                    };
+                }
+            }
+        }
+    }
+
+    /// Draws a sphere by its outline, unless all that it covers is nearer.
+    #[inline(always)]
+    pub fn draw<D: Lane<Element = f64>>(
+        &mut self,
+        kind: D::Kind,
+        outlines: &Outlines,
+        index: u32,
+        tile: Tile,
+        least_length: f64,
+        view: &View,
+    ) {
+        let (block, lane) = outlines.place(index);
+        let ellipse = &block.ellipse;
+        let [first, last] = [ellipse.rows[0][lane], ellipse.rows[1][lane]];
+        let row = ellipse.row[lane];
+        let [top, left] = [f64::from(tile.first.row), f64::from(tile.first.column)];
+        let [bottom, right] = [top + f64::from(tile.height), left + f64::from(tile.width)];
+        // One row more on either side, for what is in doubt.
+        let rows = [(row + first).floor().max(top), ((row + last).ceil() + 1.0).min(bottom)];
+        if rows[0] >= rows[1] || self.is_hidden(block, lane, [rows[0] - top, rows[1] - top], left, least_length) {
+            return;
+        }
+        let pen = Pen::new(block, lane, index, view);
+        let [middle, slope] = [ellipse.middle[0][lane], ellipse.middle[1][lane]];
+        let width_squared = ellipse.width_squared[lane];
+        let mut at_row = rows[0];
+        while at_row < rows[1] {
+            let v = at_row - row;
+            let squared = width_squared * ((v - first) * (last - v));
+            let width = squared.max(0.0).sqrt();
+            let center = middle + slope * v;
+            let depth = block.depth[2][lane].mul_add(v, block.depth[0][lane]);
+            let row_of = RowOf { roots: [center - width, center + width], depth: [depth, block.depth[1][lane]] };
+            let start = (pen.column + row_of.roots[0]).floor().max(left);
+            let end = ((pen.column + row_of.roots[1]).ceil() + 1.0).min(right);
+            if start < end {
+                let at = whole(at_row - top) * STRIDE + whole(start - left);
+                if squared >= 0.0 {
+                    self.draw_row::<D>(kind, &pen, &row_of, start, end, at);
+                } else if pen.clearance * squared > pen.doubtful[0] {
+                    for offset in 0..whole(end - start) {
+                        self.doubts.push(Doubt { at: at + offset, from: 0.0 });
+                    }
+                }
+            }
+            at_row += 1.0;
+        }
+    }
+
+    #[inline(always)]
+    fn draw_row<D: Lane<Element = f64>>(
+        &mut self,
+        kind: D::Kind,
+        pen: &Pen,
+        row: &RowOf,
+        mut column: f64,
+        end: f64,
+        mut at: usize,
+    ) {
+        let (zero, beyond) = (D::splat(kind, 0.0), D::splat(kind, f64::INFINITY));
+        let [least, greatest] = [D::splat(kind, pen.doubtful[0]), D::splat(kind, pen.doubtful[1])];
+        while column < end {
+            let first = column - pen.column;
+            let u = D::distances(kind, first, 0.0);
+            let after_first = D::distances(kind, first, row.roots[0]);
+            let before_last = -D::distances(kind, first, row.roots[1]);
+            let clearance = D::splat(kind, pen.clearance) * after_first * before_last;
+            let along = u.times_plus(D::splat(kind, row.depth[1]), D::splat(kind, row.depth[0]));
+            let depth = D::select(zero.is_less(clearance), along - clearance.or_zero().sqrt(), beyond);
+            let before = D::load(kind, &self.depths[at..]);
+            let is_nearer = depth.is_less(before);
+            let apart = (depth - before).max(before - depth);
+            let at_edge = D::bits(least.is_less(clearance)) & D::bits(clearance.is_less(greatest));
+            let close = D::bits(apart.is_less(D::splat(kind, pen.uncertain)));
+            let here = bits_below(end - column);
+            if (at_edge | close) & here != 0 {
+                self.doubt(pen, [at_edge & here, close & here], &stored(along), &stored(clearance), &stored(depth), at);
+            }
+            D::select(is_nearer, depth, before).store(&mut self.depths[at..]);
+            let outlines = D::load(kind, &self.outlines[at..]);
+            D::select(is_nearer, D::splat(kind, pen.index), outlines).store(&mut self.outlines[at..]);
+            column += count_of::<D>();
+            at += D::COUNT;
+        }
+    }
+
+    /// Notes pixels at an edge, and those where two surfaces meet.
+    #[inline(never)]
+    fn doubt(
+        &mut self,
+        pen: &Pen,
+        [at_edge, close]: [u32; 2],
+        along: &[f64; 16],
+        clearance: &[f64; 16],
+        depth: &[f64; 16],
+        at: usize,
+    ) {
+        for lane in 0..16 {
+            if at_edge >> lane & 1 == 1 {
+                let from = along[lane] - clearance[lane].max(0.0).sqrt() - pen.uncertain_at_edge;
+                self.doubts.push(Doubt { at: at + lane, from });
+            }
+            if close >> lane & 1 == 1 {
+                let farther = depth[lane].max(self.depths[at + lane]);
+                self.doubts.push(Doubt { at: at + lane, from: farther - 0.25 * pen.uncertain });
+            }
+        }
+    }
+
+    /// Whether what a sphere covers, and a pixel around it, is nearer than the sphere.
+    #[inline(always)]
+    fn is_hidden(&self, block: &Block, lane: usize, rows: [f64; 2], left: f64, least_length: f64) -> bool {
+        let ellipse = &block.ellipse;
+        let [first, last] = [ellipse.rows[0][lane], ellipse.rows[1][lane]];
+        let half = 0.5 * (last - first);
+        let middle = ellipse.column[lane] + ellipse.middle[0][lane] + ellipse.middle[1][lane] * (first + half) - left;
+        let reach = (ellipse.width_squared[lane].sqrt() + ellipse.middle[1][lane].abs()) * half + 1.0;
+        let columns = [(middle - reach).max(0.0), (middle + reach).min(f64::from(WIDTH) - 1.0)];
+        let near = (block.distance[lane] - block.radius[lane]) * least_length * (1.0 - 1e-6);
+        if !(columns[0] <= columns[1]) {
+            return false;
+        }
+        let parts = whole(columns[0]) / PART..=whole(columns[1]) / PART;
+        let rows = whole(rows[0]) / PART_ROWS..=whole(rows[1] - 1.0) / PART_ROWS;
+        self.farthest[rows].iter().all(|row| row[parts.clone()].iter().all(|farthest| near > *farthest))
+    }
+
+    /// Takes out the pixels in doubt.
+    pub fn settle(&mut self, tile: Tile, doubtful: &mut Vec<Pixel>) {
+        for doubt in &self.doubts {
+            // Written so that NaN stays in doubt.
+            if !(doubt.from > self.depths[doubt.at]) && self.outlines[doubt.at] != DOUBTFUL {
+                self.outlines[doubt.at] = DOUBTFUL;
+                let [row, column] =
+                    [doubt.at / STRIDE, doubt.at % STRIDE].map(|count| u32::try_from(count).unwrap_or(0));
+                doubtful.push(Pixel { column: tile.first.column + column, row: tile.first.row + row });
+            }
+        }
+    }
+
+    /// The outlines that are seen in a row, negative where none is.
+    pub fn row(&self, row: u32, width: u32) -> &[f64] {
+        &self.outlines[row as usize * STRIDE..][..width as usize]
+    }
+}
+
+/// An outline that is seen or not.
+const DOUBTFUL: f64 = -2.0;
+
+impl Pen {
+    #[inline(always)]
+    fn new(block: &Block, lane: usize, index: u32, view: &View) -> Self {
+        let radius = block.radius[lane];
+        let length = view.greatest_length;
+        let squared = radius * radius;
+        let scale = length * length * squared;
+        let uncertain = 4.0 * ERROR_OF_DISTANCE * length * (block.distance[lane] + radius);
+        Self {
+            column: block.ellipse.column[lane],
+            index: index.into(),
+            clearance: block.ellipse.clearance[lane] * squared,
+            doubtful: [-128.0 * f64::EPSILON * scale, block.doubtful[lane] * scale],
+            uncertain,
+            uncertain_at_edge: uncertain + 1e-6 * radius * length,
+        }
+    }
+}
+
+#[inline(always)]
+fn greatest<D: Lane<Element = f64>>(kind: D::Kind, numbers: &[f64]) -> f64 {
+    let mut greatest = D::load(kind, numbers);
+    for numbers in numbers.chunks_exact(D::COUNT).skip(1) {
+        greatest = greatest.max(D::load(kind, numbers));
+    }
+    stored(greatest)[..D::COUNT].iter().copied().fold(0.0, f64::max)
+}
+
+#[inline(always)]
+fn stored<D: Lane<Element = f64>>(numbers: D) -> [f64; 16] {
+    let mut out = [0.0; 16];
+    numbers.store(&mut out);
+    out
+}
+
+/// The lanes before an end.
+#[inline(always)]
+fn bits_below(count: f64) -> u32 {
+    if count >= 16.0 { 0xffff } else { (1 << whole(count)) - 1 }
+}
+
+#[inline(always)]
+#[expect(clippy::cast_precision_loss, reason = "at most 16")]
+fn count_of<D: Lane>() -> f64 {
+    D::COUNT as f64
+}
+
+/// A count within a tile.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held within the tile")]
+fn whole(count: f64) -> usize {
+    count as usize
+}

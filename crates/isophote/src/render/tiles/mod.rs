@@ -1,0 +1,239 @@
+//! Clouds of spheres, and shadows between them: the screen tile by tile.
+//!
+//! What a tile sees is drawn into a depth buffer, sphere after sphere from near to far, by the [outlines](crate::shape::Ellipse)
+//! of the spheres in its beam. The pixels of a tile that see the same sphere are then a group: what may stand in their
+//! light is looked up once for all of them, in the tube from their part of the sphere to the light, and tested for
+//! several pixels at a time. Where a decision is too close for a double, the pixel is traced with 32 digits; and because
+//! each decision is a pixel's own, neither tiles nor groups nor the order of tests changes a bit.
+
+mod canvas;
+mod group;
+mod outlines;
+mod shading;
+mod shadow;
+
+use self::canvas::Canvas;
+use self::group::{Group, Groups};
+use self::outlines::{Outlines, View};
+use self::shading::Shader;
+use crate::accelerate::Walk;
+use crate::camera::{Projection, ScreenPosition};
+use crate::lanes::{Lane, LaneJob, Precision};
+use crate::map::{Pixel, Run};
+use crate::prepare::{Hit, PreparedScene};
+use crate::render::band::{self, Band};
+use crate::render::{Observer, RenderError};
+
+/// Columns of a tile.
+pub const WIDTH: u32 = 64;
+/// Rows of a tile: bands that have as many are drawn best.
+pub const HEIGHT: u32 = 32;
+
+/// Whether scenes like this are drawn by tiles: spheres only, and many of them or with shadows; seen in perspective, with
+/// lights that are somewhere, and ambient light that nothing keeps off.
+pub fn suit(scene: &PreparedScene) -> bool {
+    let description = scene.scene();
+    let is_round = description.shapes().iter().all(|shape| shape.geometry.is_round());
+    let all_are_somewhere = description.lights().iter().all(|light| light.position().is_some());
+    let is_obstructed = description.ambient().is_some_and(|ambient| ambient.obstruction.is_some());
+    let has_window = matches!(scene.frame().projection, Projection::Perspective(_));
+    has_window
+        && is_round
+        && all_are_somewhere
+        && !is_obstructed
+        && (scene.casts_shadows_between_shapes() || scene.primitive_count() > MANY)
+}
+
+/// With fewer spheres, and no shadows, going through the rows is faster.
+const MANY: u32 = 64;
+
+/// A band to be filled.
+pub struct TilesJob<'a, 'm> {
+    /// The scene.
+    pub scene: &'a PreparedScene,
+    /// The band.
+    pub band: Band<'m>,
+    /// The order in which lights are summed.
+    pub order: &'a [usize],
+    /// Of what is shaded.
+    pub precision: Precision,
+    /// Hears of the progress.
+    pub observer: Option<&'a dyn Observer>,
+}
+
+/// Pixels of the full image that are drawn together.
+#[derive(Clone, Copy, Debug)]
+pub struct Tile {
+    /// The top left pixel.
+    pub first: Pixel,
+    /// Columns, up to [`WIDTH`].
+    pub width: u32,
+    /// Rows, up to [`HEIGHT`].
+    pub height: u32,
+}
+
+impl LaneJob for TilesJob<'_, '_> {
+    type Output = Result<Vec<Run>, RenderError>;
+
+    #[inline(always)]
+    fn run<S, D>(mut self, kind: S::Kind) -> Self::Output
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        let Projection::Perspective(window) = &self.scene.frame().projection else {
+            unreachable!("`suit` refuses other cameras");
+        };
+        let view = View::new(self.scene, window);
+        let mut work = Work {
+            scene: self.scene,
+            view: &view,
+            outlines: Outlines::default(),
+            canvas: Canvas::new(),
+            groups: Groups::default(),
+            walk: Walk::default(),
+            shader: Shader::new(self.scene, self.order, self.precision),
+            seen: vec![NOTHING; self.band.size.pixels()],
+            doubtful: Vec::new(),
+        };
+        for tile in tiles(&self.band) {
+            work.tile::<S, D>(kind, tile, &mut self.band)?;
+            band::advance(self.observer, u64::from(tile.width) * u64::from(tile.height))?;
+        }
+        Ok(runs(&self.band, &work.seen))
+    }
+}
+
+/// The tiles of a band: their edges are the same for any region of the image.
+fn tiles(band: &Band<'_>) -> Vec<Tile> {
+    let parts = |first: u32, count: u32, size: u32| {
+        let end = first + count;
+        let mut start = first;
+        std::iter::from_fn(move || {
+            let next = ((start / size + 1) * size).min(end);
+            let part = (start < end).then_some((start, next - start));
+            start = next;
+            part
+        })
+    };
+    let row = |(row, height)| {
+        let tile = move |(column, width)| Tile { first: Pixel { column, row }, width, height };
+        parts(band.first.column, band.size.width, WIDTH).map(tile)
+    };
+    parts(band.first.row, band.size.height, HEIGHT).flat_map(row).collect()
+}
+
+/// What a pixel sees that sees nothing.
+const NOTHING: u32 = u32::MAX;
+
+/// What one thread needs for one tile after the other.
+struct Work<'a> {
+    scene: &'a PreparedScene,
+    view: &'a View,
+    outlines: Outlines,
+    canvas: Canvas,
+    groups: Groups,
+    walk: Walk,
+    shader: Shader<'a>,
+    /// The shape that each pixel of the band sees.
+    seen: Vec<u32>,
+    /// Pixels to be traced with 32 digits.
+    doubtful: Vec<Pixel>,
+}
+
+impl Work<'_> {
+    #[inline(always)]
+    fn tile<S, D>(&mut self, kind: S::Kind, tile: Tile, band: &mut Band<'_>) -> Result<(), RenderError>
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        self.doubtful.clear();
+        if self.draw::<S, D>(kind, tile) {
+            self.canvas.settle(tile, &mut self.doubtful);
+            self.groups.collect(&self.canvas, tile, self.outlines.count());
+            for index in 0..self.groups.seen.len() {
+                let outline = self.groups.seen[index];
+                let seen = self.outlines.get(outline);
+                let primitive = self.scene.primitive(seen.primitive);
+                for pixels in self.groups.pixels_of(index).chunks(group::MOST) {
+                    let mut group = Group { seen: &seen, primitive, tile, pixels, walk: &mut self.walk };
+                    for pixel in pixels {
+                        self.seen[band.index(pixel.within(tile))] = u32::try_from(primitive.shape).unwrap_or(NOTHING);
+                    }
+                    self.shader.shade::<S, D>(kind, &mut group, band, &mut self.doubtful)?;
+                }
+            }
+        } else {
+            let columns = tile.first.column..tile.first.column + tile.width;
+            let rows = tile.first.row..tile.first.row + tile.height;
+            let pixels = rows.flat_map(|row| columns.clone().map(move |column| Pixel { column, row }));
+            self.doubtful.extend(pixels);
+        }
+        self.trace_doubtful(band)
+    }
+
+    /// Draws what the tile sees; false where the outline of a sphere in its beam is no ellipse.
+    #[inline(always)]
+    fn draw<S, D>(&mut self, kind: S::Kind, tile: Tile) -> bool
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        let tree = self.scene.accelerator();
+        let beam = self.view.beam(tree, tile);
+        self.outlines.clear();
+        self.canvas.clear();
+        self.walk.start(tree);
+        let least_length = self.view.least_length(tile);
+        loop {
+            let limit = beam.depth_of(self.canvas.farthest() / (least_length * least_length));
+            self.outlines.take::<S::Narrow>(kind, tree, &beam, limit, &mut self.walk);
+            if self.outlines.is_exhausted() {
+                return true;
+            }
+            if !self.outlines.prepare::<D::Narrow>(kind, self.scene, self.view) {
+                return false;
+            }
+            for index in self.outlines.by_distance() {
+                self.canvas.draw::<D>(kind, &self.outlines, *index, tile, least_length, self.view);
+            }
+            self.canvas.measure::<D>(kind, tile);
+        }
+    }
+
+    #[inline(never)]
+    fn trace_doubtful(&mut self, band: &mut Band<'_>) -> Result<(), RenderError> {
+        self.doubtful.sort_unstable_by_key(|pixel| (pixel.row, pixel.column));
+        self.doubtful.dedup();
+        for pixel in &self.doubtful {
+            let hit = self.scene.trace_precisely(ScreenPosition::PixelCenter(*pixel)).map(Hit::rounded);
+            let seen = &mut self.seen[band.index(*pixel)];
+            *seen = NOTHING;
+            if let Some(hit) = hit {
+                *seen = u32::try_from(hit.primitive.shape).unwrap_or(NOTHING);
+                band.store(*pixel, self.scene, &hit)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The runs of a band, from what its pixels see.
+fn runs(band: &Band<'_>, seen: &[u32]) -> Vec<Run> {
+    let mut runs = Vec::new();
+    let width = band.size.width as usize;
+    for (row, seen) in seen.chunks_exact(width).enumerate() {
+        let mut start = 0;
+        while start < width {
+            let shape = seen[start];
+            let length = seen[start..].iter().take_while(|other| **other == shape).count();
+            if shape != NOTHING {
+                let start = band.start + row * width + start;
+                runs.push(Run { start, end: start + length, shape });
+            }
+            start += length;
+        }
+    }
+    runs
+}

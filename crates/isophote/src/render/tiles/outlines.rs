@@ -1,0 +1,254 @@
+//! The outlines of the spheres in a beam, eight at a time in pairs of doubles.
+
+use super::Tile;
+use crate::accelerate::{Accelerator, Beam, Walk};
+use crate::camera::Screen;
+use crate::double_double::DoubleDouble;
+use crate::lanes::Lane;
+use crate::map::Resolution;
+use crate::prepare::PreparedScene;
+use crate::shape::{BEFORE_THE_EYE, Ellipse, Grid, Sphere};
+use crate::vector::Vector;
+
+/// The camera, as tiles need it.
+pub struct View {
+    grid: Grid,
+    eye: Vector,
+    forward: Vector,
+    right: Vector,
+    up: Vector,
+    /// x of the middle of column 0 and y of that of row 0, on a screen at distance 1, and how they grow.
+    first: [f64; 2],
+    step: [f64; 2],
+    /// The greatest length of d in the image.
+    pub greatest_length: f64,
+}
+
+impl View {
+    /// The view of a scene's camera through its window.
+    pub fn new(scene: &PreparedScene, window: &Screen) -> Self {
+        let (frame, grid) = (scene.frame(), Grid::new(scene.precise_frame(), window));
+        let (first, step) = grid.rounded();
+        let mut view = Self {
+            grid,
+            eye: frame.eye,
+            forward: frame.forward,
+            right: frame.right,
+            up: frame.up,
+            first,
+            step,
+            greatest_length: 1.0,
+        };
+        let Resolution { width, height } = frame.resolution;
+        let corners = [[0.0, 0.0], [width.into(), 0.0], [0.0, height.into()], [width.into(), height.into()]];
+        view.greatest_length = corners.into_iter().map(|at| view.direction(at).length()).fold(1.0, f64::max);
+        view
+    }
+
+    /// d at the corner of pixels (column, row).
+    fn direction(&self, [column, row]: [f64; 2]) -> Vector {
+        let x = self.first[0] + self.step[0] * (column - 0.5);
+        let y = self.first[1] + self.step[1] * (row - 0.5);
+        self.forward + self.right * x + self.up * y
+    }
+
+    /// The beam of a tile, and of a pixel more all around for what is in doubt.
+    pub fn beam(&self, tree: &Accelerator, tile: Tile) -> Beam {
+        let Tile { first, width, height } = tile;
+        let [left, top] = [f64::from(first.column) - 1.0, f64::from(first.row) - 1.0];
+        let [right, bottom] = [left + f64::from(width) + 2.0, top + f64::from(height) + 2.0];
+        let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
+        tree.beam(self.eye, corners.map(|corner| self.direction(corner)), self.forward)
+    }
+
+    /// The least length of d in a tile.
+    pub fn least_length(&self, tile: Tile) -> f64 {
+        let nearest = |first: f64, step: f64, start: u32, count: u32| {
+            let [a, b] = [f64::from(start) - 1.0, f64::from(start + count)].map(|index| first + step * index);
+            if a.signum() == b.signum() { a.abs().min(b.abs()) } else { 0.0 }
+        };
+        let x = nearest(self.first[0], self.step[0], tile.first.column, tile.width);
+        let y = nearest(self.first[1], self.step[1], tile.first.row, tile.height);
+        (1.0 + x * x + y * y).sqrt()
+    }
+}
+
+/// How many outlines are computed at once.
+pub const BLOCK: usize = 8;
+
+/// How many spheres are taken from the beam before they are drawn, in order of distance.
+const BATCH: usize = 64;
+
+/// The spheres in a beam, in the order in which they were found.
+#[derive(Default)]
+pub struct Outlines {
+    blocks: Vec<Block>,
+    taken: Vec<u32>,
+    order: Vec<u32>,
+}
+
+/// Eight outlines.
+pub struct Block {
+    pub ellipse: Ellipse<[f64; BLOCK]>,
+    /// d·c, in metres, at the pixel from which is counted, and its growth by column and by row.
+    pub depth: [[f64; BLOCK]; 3],
+    /// From the eye to the centre, in metres.
+    pub distance: [f64; BLOCK],
+    pub radius: [f64; BLOCK],
+    /// Up to which clearance a pixel is in doubt.
+    pub doubtful: [f64; BLOCK],
+    number: [u32; BLOCK],
+}
+
+/// A sphere with its outline.
+pub struct Seen {
+    /// Its outline.
+    pub ellipse: Ellipse,
+    /// Its number among the primitives.
+    pub primitive: u32,
+}
+
+impl Outlines {
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        self.blocks.clear();
+    }
+
+    /// Takes the next few spheres.
+    #[inline(always)]
+    pub fn take<S: Lane<Element = f32>>(
+        &mut self,
+        kind: S::Kind,
+        tree: &Accelerator,
+        beam: &Beam,
+        limit: f32,
+        walk: &mut Walk,
+    ) {
+        self.taken.clear();
+        while self.taken.len() < BATCH
+            && let Some(number) = walk.next::<S>(kind, tree, beam, limit)
+        {
+            self.taken.push(number);
+        }
+    }
+
+    /// Whether there were none.
+    pub fn is_exhausted(&self) -> bool {
+        self.taken.is_empty()
+    }
+
+    /// How many places there are for outlines.
+    pub fn count(&self) -> usize {
+        self.blocks.len() * BLOCK
+    }
+
+    /// Where an outline is.
+    #[inline(always)]
+    pub fn place(&self, index: u32) -> (&Block, usize) {
+        (&self.blocks[index as usize / BLOCK], index as usize % BLOCK)
+    }
+
+    /// An outline with its sphere.
+    pub fn get(&self, index: u32) -> Seen {
+        let (block, lane) = self.place(index);
+        Seen { ellipse: block.ellipse.map(|numbers| numbers[lane]), primitive: block.number[lane] }
+    }
+
+    /// Those that were taken last, from near to far.
+    pub fn by_distance(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// Computes the outlines of what was taken; false if one is no ellipse.
+    #[inline(always)]
+    pub fn prepare<D: Lane<Element = f64>>(&mut self, kind: D::Kind, scene: &PreparedScene, view: &View) -> bool {
+        self.order.clear();
+        let grid = view.grid.map(
+            #[inline(always)]
+            |number| D::splat(kind, number),
+        );
+        for numbers in self.taken.chunks(BLOCK) {
+            let mut spheres = [(Vector::default(), 1.0); BLOCK];
+            let mut doubtful = [0.0; BLOCK];
+            let mut number = [numbers[0]; BLOCK];
+            number[..numbers.len()].copy_from_slice(numbers);
+            for (lane, number) in number.iter().enumerate() {
+                let primitive = scene.primitive(*number);
+                let Some(Sphere { center, radius }) = scene.sphere(primitive) else { return false };
+                spheres[lane] = (*center, *radius);
+                doubtful[lane] = scene.doubtful_in_outline_of(primitive).end;
+            }
+            let block = Block::new::<D>(kind, &grid, &spheres, doubtful, number);
+            let first = u32::try_from(self.count()).unwrap_or(u32::MAX);
+            for lane in 0..numbers.len() {
+                let z = block.depth_in_radii(lane, view);
+                if z <= -1.0 {
+                    continue;
+                }
+                // Written so that NaN is no ellipse.
+                if !(z >= 1.0 + BEFORE_THE_EYE) {
+                    return false;
+                }
+                self.order.push(first + u32::try_from(lane).unwrap_or(0));
+            }
+            self.blocks.push(block);
+        }
+        let Self { blocks, order, .. } = self;
+        let near = |index: &u32| {
+            let (block, lane) = (&blocks[*index as usize / BLOCK], *index as usize % BLOCK);
+            block.distance[lane] - block.radius[lane]
+        };
+        order.sort_unstable_by(|first, second| near(first).total_cmp(&near(second)));
+        true
+    }
+}
+
+#[inline(always)]
+fn exactly<D: Lane<Element = f64>>(kind: D::Kind, numbers: &[f64; BLOCK]) -> DoubleDouble<D> {
+    DoubleDouble::exactly(D::load(kind, numbers))
+}
+
+#[inline(always)]
+fn store<D: Lane<Element = f64>>(numbers: D) -> [f64; BLOCK] {
+    let mut out = [0.0; BLOCK];
+    numbers.store(&mut out);
+    out
+}
+
+impl Block {
+    #[inline(always)]
+    fn new<D: Lane<Element = f64>>(
+        kind: D::Kind,
+        grid: &Grid<D>,
+        spheres: &[(Vector, f64); BLOCK],
+        doubtful: [f64; BLOCK],
+        number: [u32; BLOCK],
+    ) -> Self {
+        let radius = spheres.map(|(_, radius)| radius);
+        let center = Vector::new(
+            exactly::<D>(kind, &spheres.map(|(center, _)| center.x)),
+            exactly::<D>(kind, &spheres.map(|(center, _)| center.y)),
+            exactly::<D>(kind, &spheres.map(|(center, _)| center.z)),
+        );
+        let from_eye = grid.from_eye(center, exactly::<D>(kind, &radius));
+        let ellipse = Ellipse::new(from_eye, grid.in_camera(from_eye), grid);
+        let metres = D::load(kind, &radius);
+        let [first, by_column, by_row] = ellipse.direction;
+        let depth = [
+            store(first.dot(ellipse.center) * metres),
+            store(by_column.dot(ellipse.center) * metres),
+            store(by_row.dot(ellipse.center) * metres),
+        ];
+        let distance = store(ellipse.center.length() * metres);
+        let ellipse = ellipse.map(
+            #[inline(always)]
+            |numbers| store(numbers),
+        );
+        Self { ellipse, depth, distance, radius, doubtful, number }
+    }
+
+    /// How far the centre is before the eye.
+    fn depth_in_radii(&self, lane: usize, view: &View) -> f64 {
+        self.ellipse.center.map(|numbers| numbers[lane]).dot(view.forward)
+    }
+}

@@ -1,0 +1,229 @@
+//! Which pixels of a group see a light.
+
+use super::group::{Group, MOST};
+use super::shading::Places;
+use crate::lanes::Lane;
+use crate::prepare::PreparedScene;
+use crate::shape::Sphere;
+use crate::vector::Vector;
+
+/// Decisions closer than this, relatively, are left to 32 digits. Rounding may come to some 1e-14 of them.
+const DOUBTFUL: f64 = 1e-9;
+
+/// What rounding may do to squared distances, in parts of the squared distance to the blocker, which they are made of.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+
+/// Visibility of one light.
+pub struct Shadows {
+    /// Bits of the lanes of each vector that are lit by the horizon, that something certainly stands before, and that
+    /// something may stand before.
+    lit: [u32; VECTORS],
+    blocked: [u32; VECTORS],
+    possible: [u32; VECTORS],
+}
+
+const VECTORS: usize = MOST / 8;
+
+/// A sphere that may stand in the light, in radii of the sphere whose light it is, from that one's centre.
+struct Blocker {
+    center: Vector,
+    radius: f64,
+}
+
+impl Shadows {
+    /// Nothing known yet.
+    pub const NEW: Self = Self { lit: [0; VECTORS], blocked: [0; VECTORS], possible: [0; VECTORS] };
+
+    /// v_j of the pixels of a group: 1 where they see a light, 0 where they do not, in `visible`; false if all are
+    /// beyond its horizon. What is in doubt is in [`doubtful`](Self::doubtful).
+    #[inline(always)]
+    pub fn find<S, D>(
+        &mut self,
+        kind: S::Kind,
+        scene: &PreparedScene,
+        group: &mut Group<'_>,
+        places: &Places,
+        light: Vector,
+        visible: &mut [f64],
+    ) -> bool
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        let vectors = places.count.div_ceil(D::COUNT);
+        let Some([least, greatest]) = self.horizon::<D>(kind, places, vectors, light) else { return false };
+        self.search::<S, D>(kind, scene, group, places, light, [least, greatest], vectors);
+        let (zero, one) = (D::splat(kind, 0.0), D::splat(kind, 1.0));
+        for vector in 0..vectors {
+            let at = vector * D::COUNT;
+            let out = &mut visible[at..at + D::COUNT];
+            if self.blocked[vector] == 0 {
+                one.store(out);
+            } else {
+                zero.store(out);
+                for (lane, out) in out.iter_mut().enumerate() {
+                    if self.blocked[vector] >> lane & 1 == 0 {
+                        *out = 1.0;
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// The lanes of a vector of which nothing certain is known.
+    #[inline(always)]
+    pub fn doubtful(&self, vector: usize) -> u32 {
+        self.lit[vector] & self.possible[vector] & !self.blocked[vector]
+    }
+
+    /// Which lanes face the light, and the box around what they see.
+    #[inline(always)]
+    fn horizon<D: Lane<Element = f64>>(
+        &mut self,
+        kind: D::Kind,
+        places: &Places,
+        vectors: usize,
+        light: Vector,
+    ) -> Option<[Vector; 2]> {
+        let light = splat::<D>(kind, light);
+        let zero = D::splat(kind, 0.0);
+        let far = D::splat(kind, 2.0);
+        let (mut x_range, mut y_range, mut z_range) = ([far, -far], [far, -far], [far, -far]);
+        let mut any = 0;
+        for vector in 0..vectors {
+            let normal = places.normal_at::<D>(kind, vector);
+            let is_lit = zero.is_less(normal.dot(light - normal));
+            let lit = D::bits(is_lit);
+            (self.lit[vector], self.blocked[vector], self.possible[vector]) = (lit, 0, 0);
+            any |= lit;
+            x_range = widened(x_range, is_lit, normal.x, far);
+            y_range = widened(y_range, is_lit, normal.y, far);
+            z_range = widened(z_range, is_lit, normal.z, far);
+        }
+        if any == 0 {
+            return None;
+        }
+        let least = Vector::new(least_of(x_range[0]), least_of(y_range[0]), least_of(z_range[0]));
+        let greatest = Vector::new(greatest_of(x_range[1]), greatest_of(y_range[1]), greatest_of(z_range[1]));
+        Some([least, greatest])
+    }
+
+    /// Goes through what is in the tube to the light, until no pixel sees it.
+    #[inline(always)]
+    fn search<S, D>(
+        &mut self,
+        kind: S::Kind,
+        scene: &PreparedScene,
+        group: &mut Group<'_>,
+        places: &Places,
+        light: Vector,
+        [least, greatest]: [Vector; 2],
+        vectors: usize,
+    ) where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        let Sphere { center, radius } = places.sphere;
+        let middle = (least + greatest) * 0.5;
+        // What is in doubt may be a little outside.
+        let half = (greatest - least) * (0.5 + 1e-6) + Vector::new(1e-6, 1e-6, 1e-6);
+        let axis = light - middle;
+        let tree = scene.accelerator();
+        let Some(tube) = tree.tube(center + middle * radius, axis * radius, half * radius) else { return };
+        let (reach, per_radius) = (half.length(), 1.0 / radius);
+        let per_squared = 1.0 / axis.dot(axis);
+        group.walk.start(tree);
+        while let Some(number) = group.walk.next::<S>(kind, tree, &tube, tube.depth_of(1.0)) {
+            let primitive = scene.primitive(number);
+            if number == group.seen.primitive || !scene.scene().shapes()[primitive.shape].casts_shadow {
+                continue;
+            }
+            let Some(other) = scene.sphere(primitive) else { continue };
+            let blocker = Blocker { center: (other.center - center) * per_radius, radius: other.radius * per_radius };
+            let from_middle = blocker.center - middle;
+            let along = (from_middle.dot(axis) * per_squared).clamp(0.0, 1.0);
+            let off = from_middle - axis * along;
+            let widest = (reach + blocker.radius) * (1.0 + 1e-6) + 1e-12 * from_middle.length();
+            if off.dot(off) > widest * widest {
+                continue;
+            }
+            let to_light = light - blocker.center;
+            let nearest = blocker.radius * blocker.radius * (1.0 + DOUBTFUL);
+            if to_light.dot(to_light) * (1.0 - ROUNDING) <= nearest {
+                // The light is within the blocker, or on its surface.
+                self.possible.fill(u32::MAX);
+                return;
+            }
+            if self.block::<D>(kind, places, light, &blocker, vectors) {
+                return;
+            }
+        }
+    }
+
+    /// Tests a blocker; true if no pixel sees the light any more.
+    #[inline(always)]
+    fn block<D: Lane<Element = f64>>(
+        &mut self,
+        kind: D::Kind,
+        places: &Places,
+        light: Vector,
+        blocker: &Blocker,
+        vectors: usize,
+    ) -> bool {
+        let light = splat::<D>(kind, light);
+        let center = splat::<D>(kind, blocker.center);
+        let squared = blocker.radius * blocker.radius;
+        let margin = D::splat(kind, DOUBTFUL * squared + ROUNDING * blocker.radius);
+        let squared = D::splat(kind, squared);
+        let (zero, rounding) = (D::splat(kind, 0.0), D::splat(kind, ROUNDING));
+        let mut rest = 0;
+        for vector in 0..vectors {
+            if self.lit[vector] & !self.blocked[vector] == 0 {
+                continue;
+            }
+            let normal = places.normal_at::<D>(kind, vector);
+            let (to_light, to_blocker) = (light - normal, center - normal);
+            let length = to_light.dot(to_light);
+            let along = to_blocker.dot(to_light);
+            let distance = to_blocker.dot(to_blocker);
+            let margin = rounding.times_plus(distance, margin);
+            // The squared distance of the blocker's centre from the ray, times that of the light.
+            let across = (-along).times_plus(along, distance * length);
+            let between = along.min(length - along);
+            let certain = (squared - margin).times_plus(length, -across).min(between);
+            let possible = (squared + margin).times_plus(length, -across).min(between);
+            let touching = squared + margin - distance;
+            self.blocked[vector] |= D::bits(zero.is_less(certain)) & !D::bits(zero.is_less(touching));
+            self.possible[vector] |= D::bits(zero.is_less(possible.max(touching)));
+            rest |= self.lit[vector] & !self.blocked[vector];
+        }
+        rest == 0
+    }
+}
+
+#[inline(always)]
+fn splat<D: Lane<Element = f64>>(kind: D::Kind, vector: Vector) -> Vector<D> {
+    vector.map(
+        #[inline(always)]
+        |x| D::splat(kind, x),
+    )
+}
+
+#[inline(always)]
+fn greatest_of<D: Lane<Element = f64>>(numbers: D) -> f64 {
+    let mut all = [0.0; 16];
+    numbers.store(&mut all);
+    all[..D::COUNT].iter().copied().fold(f64::NEG_INFINITY, f64::max)
+}
+
+#[inline(always)]
+fn least_of<D: Lane<Element = f64>>(numbers: D) -> f64 {
+    -greatest_of(-numbers)
+}
+
+/// A range of numbers, wide enough for some more.
+#[inline(always)]
+fn widened<D: Lane<Element = f64>>([least, greatest]: [D; 2], is_lit: D::Mask, numbers: D, far: D) -> [D; 2] {
+    [least.min(D::select(is_lit, numbers, far)), greatest.max(D::select(is_lit, numbers, -far))]
+}
