@@ -223,7 +223,9 @@ impl Instructions {
         }
     }
 
-    /// Runs a job with vectors for these instructions.
+    /// Runs a job with vectors for these instructions. It is compiled by itself: all that a job calls is compiled into it,
+    /// once for each kind of instructions, and compilers take long over large functions.
+    #[inline(never)]
     pub fn run<J: LaneJob>(self, job: J) -> J::Output {
         dispatch!(self.0, simd => run_with(simd, job))
     }

@@ -32,10 +32,10 @@ pub struct Accelerator {
 }
 
 impl Accelerator {
-    /// The tree over boxes; what has no end has no box.
+    /// The tree over so many primitives; what has no end has no box.
     #[must_use]
-    pub fn new(boxes: &[Option<Bounds>]) -> Self {
-        build::build(boxes)
+    pub fn new(count: u32, bounds: impl Fn(u32) -> Option<Bounds>) -> Self {
+        build::build(count, bounds)
     }
 
     /// Goes through the primitives that a ray may meet, from near to far: `test` says up to which distance (in lengths of

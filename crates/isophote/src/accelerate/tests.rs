@@ -26,6 +26,11 @@ fn boxes(least: usize) -> impl Strategy<Value = Vec<Option<Bounds>>> {
     ]
 }
 
+#[expect(clippy::cast_possible_truncation, reason = "a few boxes")]
+fn tree_over(boxes: &[Option<Bounds>]) -> Accelerator {
+    Accelerator::new(boxes.len() as u32, |number| boxes[number as usize])
+}
+
 fn moved(boxes: &[Option<Bounds>], size: f64, place: Vector) -> Vec<Option<Bounds>> {
     let moved = |point: Vector| point * size + place;
     let bounds = |bounds: &Bounds| Bounds { least: moved(bounds.least), greatest: moved(bounds.greatest) };
@@ -80,7 +85,7 @@ proptest! {
         let away = Vector::from(away) * (size * 10.0_f64.powf(far));
         prop_assume!(away.length() > 0.0);
         let (start, direction) = (target * size + place + away, -away);
-        let tree = Accelerator::new(&boxes);
+        let tree = tree_over(&boxes);
         let found = found(&tree, start, direction, part);
         for (primitive, bounds) in (0..).zip(boxes.iter().flatten()) {
             if enters(bounds, start, direction).is_some_and(|at| at <= part) {
@@ -92,7 +97,7 @@ proptest! {
     #[test]
     fn the_nearest_box_is_that_of_brute_force(boxes in boxes(1), start in vector(3.0), direction in vector(1.0)) {
         prop_assume!(direction.length() > 1e-3);
-        let tree = Accelerator::new(&boxes);
+        let tree = tree_over(&boxes);
         let (mut nearest, mut tested) = (f64::INFINITY, 0);
         tree.along_ray(start, direction, f64::INFINITY, |primitive| {
             tested += 1;
@@ -118,7 +123,7 @@ proptest! {
         let up = side.cross(forward);
         let corner = |x: f64, y: f64| forward + side * (x * width) + up * (y * width);
         let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-        let tree = Accelerator::new(&boxes);
+        let tree = tree_over(&boxes);
         for instructions in Instructions::all() {
             let seen = instructions.run(All { tree: &tree, query: &tree.beam(eye, corners, forward) });
             let tube = tree.tube(eye, forward, Vector::new(radius, radius, radius));
@@ -163,7 +168,7 @@ impl<Q: Query> LaneJob for All<'_, Q> {
 
 #[test]
 fn without_boxes_nothing_is_found() {
-    let tree = Accelerator::new(&[]);
+    let tree = tree_over(&[]);
     assert!(found(&tree, Vector::default(), Vector::new(0.0, 0.0, 1.0), f64::INFINITY).is_empty());
 }
 
@@ -171,7 +176,7 @@ fn without_boxes_nothing_is_found() {
 fn what_has_no_end_is_always_found() {
     let unit = Bounds { least: Vector::default(), greatest: Vector::new(1.0, 1.0, 1.0) };
     let endless = Bounds { greatest: Vector::new(f64::INFINITY, 1.0, 1.0), ..unit };
-    let tree = Accelerator::new(&[None, Some(unit), Some(endless)]);
+    let tree = tree_over(&[None, Some(unit), Some(endless)]);
     let past = Vector::new(5.0, 5.0, -1.0);
     assert_eq!(found(&tree, past, Vector::new(0.0, 0.0, 1.0), 1.0), [0, 2]);
     assert_eq!(found(&tree, Vector::new(0.5, 0.5, -1.0), Vector::new(0.0, 0.0, 1.0), 1.0), [0, 1, 2]);

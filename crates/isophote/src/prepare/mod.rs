@@ -247,8 +247,10 @@ impl PreparedScene {
     /// The tree over all primitives, by their numbers.
     pub(crate) fn accelerator(&self) -> &Accelerator {
         self.accelerator.get_or_init(|| {
-            let bounds = |primitive: Primitive| self.shapes[primitive.shape].geometry.bounds(primitive.part);
-            Accelerator::new(&self.primitives().map(bounds).collect::<Vec<_>>())
+            Accelerator::new(self.primitive_count(), |number| {
+                let Primitive { shape, part } = self.primitive(number);
+                self.shapes[shape].geometry.bounds(part)
+            })
         })
     }
 

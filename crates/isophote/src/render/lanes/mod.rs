@@ -18,7 +18,7 @@ use self::kernel::BandJob;
 use self::visible::Candidate;
 use super::band::{self, Band};
 use super::sampling;
-use super::tiles::{self, TilesJob};
+use super::tiles::{self, Tiles};
 use super::{RenderError, RenderSettings, Renderer};
 use crate::lanes::{Instructions, Precision};
 use crate::map::{Map, Run, Values};
@@ -118,8 +118,8 @@ impl Lanes {
         let observer = settings.observer;
         let rows = band.first.row..band.first.row + band.size.height;
         if tiles::suit(scene) {
-            let job = TilesJob { scene, band, order, precision: self.precision, observer };
-            return self.instructions.run(job);
+            let (precision, instructions) = (self.precision, self.instructions);
+            return Tiles { scene, order, precision, instructions, observer }.fill(band);
         }
         match Candidate::all(scene, rows) {
             Some(candidates) => {

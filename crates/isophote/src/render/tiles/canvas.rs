@@ -2,7 +2,7 @@
 
 use super::outlines::{Block, Outlines, View};
 use super::{HEIGHT, Tile, WIDTH};
-use crate::lanes::Lane;
+use crate::lanes::{Lane, LaneJob};
 use crate::map::Pixel;
 use crate::prepare::ERROR_OF_DISTANCE;
 
@@ -59,6 +59,37 @@ struct Pen {
     uncertain_at_edge: f64,
 }
 
+/// Draws what was prepared last, from near to far.
+pub struct Draw<'t> {
+    /// Where to.
+    pub canvas: &'t mut Canvas,
+    /// What.
+    pub outlines: &'t Outlines,
+    /// The camera.
+    pub view: &'t View,
+    /// Which tile.
+    pub tile: Tile,
+    /// The least length of d in it.
+    pub least_length: f64,
+}
+
+impl LaneJob for Draw<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S, D>(self, kind: S::Kind)
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        let Self { canvas, outlines, view, tile, least_length } = self;
+        for index in outlines.by_distance() {
+            canvas.draw::<D>(kind, outlines, *index, tile, least_length, view);
+        }
+        canvas.measure::<D>(kind, tile);
+    }
+}
+
 impl Canvas {
     /// An empty tile.
     pub fn new() -> Self {
@@ -85,7 +116,7 @@ impl Canvas {
 
     /// Finds out how far the pixels of each part are.
     #[inline(always)]
-    pub fn measure<D: Lane<Element = f64>>(&mut self, kind: D::Kind, tile: Tile) {
+    fn measure<D: Lane<Element = f64>>(&mut self, kind: D::Kind, tile: Tile) {
         for (row, parts) in self.farthest.iter_mut().enumerate() {
             for (column, farthest) in parts.iter_mut().enumerate() {
                 let rows = (row * PART_ROWS)..((row + 1) * PART_ROWS).min(tile.height as usize);
@@ -106,7 +137,7 @@ impl Canvas {
 
     /// Draws a sphere by its outline, unless all that it covers is nearer.
     #[inline(always)]
-    pub fn draw<D: Lane<Element = f64>>(
+    fn draw<D: Lane<Element = f64>>(
         &mut self,
         kind: D::Kind,
         outlines: &Outlines,

@@ -12,13 +12,13 @@ mod outlines;
 mod shading;
 mod shadow;
 
-use self::canvas::Canvas;
+use self::canvas::{Canvas, Draw};
 use self::group::{Group, Groups};
-use self::outlines::{Outlines, View};
+use self::outlines::{Outlines, Prepare, Take, View};
 use self::shading::Shader;
 use crate::accelerate::Walk;
 use crate::camera::{Projection, ScreenPosition};
-use crate::lanes::{Lane, LaneJob, Precision};
+use crate::lanes::{Instructions, Precision};
 use crate::map::{Pixel, Run};
 use crate::prepare::{Hit, PreparedScene};
 use crate::render::band::{self, Band};
@@ -47,16 +47,17 @@ pub fn suit(scene: &PreparedScene) -> bool {
 /// With fewer spheres, and no shadows, going through the rows is faster.
 const MANY: u32 = 64;
 
-/// A band to be filled.
-pub struct TilesJob<'a, 'm> {
+/// How bands are filled.
+#[derive(Clone, Copy)]
+pub struct Tiles<'a> {
     /// The scene.
     pub scene: &'a PreparedScene,
-    /// The band.
-    pub band: Band<'m>,
     /// The order in which lights are summed.
     pub order: &'a [usize],
     /// Of what is shaded.
     pub precision: Precision,
+    /// What the machine can do.
+    pub instructions: Instructions,
     /// Hears of the progress.
     pub observer: Option<&'a dyn Observer>,
 }
@@ -72,15 +73,9 @@ pub struct Tile {
     pub height: u32,
 }
 
-impl LaneJob for TilesJob<'_, '_> {
-    type Output = Result<Vec<Run>, RenderError>;
-
-    #[inline(always)]
-    fn run<S, D>(mut self, kind: S::Kind) -> Self::Output
-    where
-        S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
-    {
+impl Tiles<'_> {
+    /// Fills a band, and says what its pixels see.
+    pub fn fill(&self, mut band: Band<'_>) -> Result<Vec<Run>, RenderError> {
         let Projection::Perspective(window) = &self.scene.frame().projection else {
             unreachable!("`suit` refuses other cameras");
         };
@@ -88,19 +83,20 @@ impl LaneJob for TilesJob<'_, '_> {
         let mut work = Work {
             scene: self.scene,
             view: &view,
+            instructions: self.instructions,
             outlines: Outlines::default(),
             canvas: Canvas::new(),
             groups: Groups::default(),
             walk: Walk::default(),
-            shader: Shader::new(self.scene, self.order, self.precision),
-            seen: vec![NOTHING; self.band.size.pixels()],
+            shader: Shader::new(self),
+            seen: vec![NOTHING; band.size.pixels()],
             doubtful: Vec::new(),
         };
-        for tile in tiles(&self.band) {
-            work.tile::<S, D>(kind, tile, &mut self.band)?;
+        for tile in tiles(&band) {
+            work.tile(tile, &mut band)?;
             band::advance(self.observer, u64::from(tile.width) * u64::from(tile.height))?;
         }
-        Ok(runs(&self.band, &work.seen))
+        Ok(runs(&band, &work.seen))
     }
 }
 
@@ -130,6 +126,7 @@ const NOTHING: u32 = u32::MAX;
 struct Work<'a> {
     scene: &'a PreparedScene,
     view: &'a View,
+    instructions: Instructions,
     outlines: Outlines,
     canvas: Canvas,
     groups: Groups,
@@ -142,14 +139,9 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    #[inline(always)]
-    fn tile<S, D>(&mut self, kind: S::Kind, tile: Tile, band: &mut Band<'_>) -> Result<(), RenderError>
-    where
-        S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
-    {
+    fn tile(&mut self, tile: Tile, band: &mut Band<'_>) -> Result<(), RenderError> {
         self.doubtful.clear();
-        if self.draw::<S, D>(kind, tile) {
+        if self.draw(tile) {
             self.canvas.settle(tile, &mut self.doubtful);
             self.groups.collect(&self.canvas, tile, self.outlines.count());
             for index in 0..self.groups.seen.len() {
@@ -161,7 +153,7 @@ impl Work<'_> {
                     for pixel in pixels {
                         self.seen[band.index(pixel.within(tile))] = u32::try_from(primitive.shape).unwrap_or(NOTHING);
                     }
-                    self.shader.shade::<S, D>(kind, &mut group, band, &mut self.doubtful)?;
+                    self.shader.shade(&mut group, band, &mut self.doubtful)?;
                 }
             }
         } else {
@@ -174,12 +166,7 @@ impl Work<'_> {
     }
 
     /// Draws what the tile sees; false where the outline of a sphere in its beam is no ellipse.
-    #[inline(always)]
-    fn draw<S, D>(&mut self, kind: S::Kind, tile: Tile) -> bool
-    where
-        S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
-    {
+    fn draw(&mut self, tile: Tile) -> bool {
         let tree = self.scene.accelerator();
         let beam = self.view.beam(tree, tile);
         self.outlines.clear();
@@ -188,17 +175,15 @@ impl Work<'_> {
         let least_length = self.view.least_length(tile);
         loop {
             let limit = beam.depth_of(self.canvas.farthest() / (least_length * least_length));
-            self.outlines.take::<S::Narrow>(kind, tree, &beam, limit, &mut self.walk);
-            if self.outlines.is_exhausted() {
+            let Self { scene, view, outlines, walk, canvas, instructions, .. } = self;
+            instructions.run(Take { outlines: &mut *outlines, tree, beam: &beam, limit, walk });
+            if outlines.is_exhausted() {
                 return true;
             }
-            if !self.outlines.prepare::<D::Narrow>(kind, self.scene, self.view) {
+            if !instructions.run(Prepare { outlines: &mut *outlines, scene, view }) {
                 return false;
             }
-            for index in self.outlines.by_distance() {
-                self.canvas.draw::<D>(kind, &self.outlines, *index, tile, least_length, self.view);
-            }
-            self.canvas.measure::<D>(kind, tile);
+            instructions.run(Draw { canvas, outlines, view, tile, least_length });
         }
     }
 

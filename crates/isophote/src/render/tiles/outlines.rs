@@ -4,7 +4,7 @@ use super::Tile;
 use crate::accelerate::{Accelerator, Beam, Walk};
 use crate::camera::Screen;
 use crate::double_double::DoubleDouble;
-use crate::lanes::Lane;
+use crate::lanes::{Lane, LaneJob};
 use crate::map::Resolution;
 use crate::prepare::PreparedScene;
 use crate::shape::{BEFORE_THE_EYE, Ellipse, Grid, Sphere};
@@ -108,28 +108,66 @@ pub struct Seen {
     pub primitive: u32,
 }
 
+/// Takes the next few spheres from a beam.
+pub struct Take<'t> {
+    /// Where they go.
+    pub outlines: &'t mut Outlines,
+    /// The tree.
+    pub tree: &'t Accelerator,
+    /// The beam.
+    pub beam: &'t Beam,
+    /// The depth beyond which nothing is seen.
+    pub limit: f32,
+    /// Where in the tree.
+    pub walk: &'t mut Walk,
+}
+
+impl LaneJob for Take<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S, D>(self, kind: S::Kind)
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        let Self { outlines, tree, beam, limit, walk } = self;
+        outlines.taken.clear();
+        while outlines.taken.len() < BATCH
+            && let Some(number) = walk.next::<S::Narrow>(kind, tree, beam, limit)
+        {
+            outlines.taken.push(number);
+        }
+    }
+}
+
+/// Computes the outlines of what was taken; false if one is no ellipse.
+pub struct Prepare<'t> {
+    /// What was taken, and where the outlines go.
+    pub outlines: &'t mut Outlines,
+    /// The scene.
+    pub scene: &'t PreparedScene,
+    /// Its camera.
+    pub view: &'t View,
+}
+
+impl LaneJob for Prepare<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<S, D>(self, kind: S::Kind) -> bool
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        self.outlines.prepare::<D::Narrow>(kind, self.scene, self.view)
+    }
+}
+
 impl Outlines {
     /// Forgets all.
     pub fn clear(&mut self) {
         self.blocks.clear();
-    }
-
-    /// Takes the next few spheres.
-    #[inline(always)]
-    pub fn take<S: Lane<Element = f32>>(
-        &mut self,
-        kind: S::Kind,
-        tree: &Accelerator,
-        beam: &Beam,
-        limit: f32,
-        walk: &mut Walk,
-    ) {
-        self.taken.clear();
-        while self.taken.len() < BATCH
-            && let Some(number) = walk.next::<S>(kind, tree, beam, limit)
-        {
-            self.taken.push(number);
-        }
     }
 
     /// Whether there were none.
@@ -159,9 +197,8 @@ impl Outlines {
         &self.order
     }
 
-    /// Computes the outlines of what was taken; false if one is no ellipse.
     #[inline(always)]
-    pub fn prepare<D: Lane<Element = f64>>(&mut self, kind: D::Kind, scene: &PreparedScene, view: &View) -> bool {
+    fn prepare<D: Lane<Element = f64>>(&mut self, kind: D::Kind, scene: &PreparedScene, view: &View) -> bool {
         self.order.clear();
         let grid = view.grid.map(
             #[inline(always)]

@@ -1,8 +1,9 @@
 //! The brightness of a group of pixels.
 
+use super::Tiles;
 use super::group::{Group, MOST};
 use super::shadow::Shadows;
-use crate::lanes::{Element, Lane, Precision};
+use crate::lanes::{Element, Instructions, Lane, LaneJob, Precision};
 use crate::light::{Ambient, PlacedLight};
 use crate::map::Pixel;
 use crate::prepare::PreparedScene;
@@ -21,6 +22,7 @@ pub struct Shader<'a> {
     scene: &'a PreparedScene,
     order: &'a [usize],
     precision: Precision,
+    instructions: Instructions,
     places: Box<Places>,
     shadows: Box<Shadows>,
     lights: Vec<PlacedLight>,
@@ -69,9 +71,8 @@ impl Places {
         }
     }
 
-    /// Finds them.
-    #[inline(always)]
-    fn find<D: Lane<Element = f64>>(&mut self, kind: D::Kind, group: &Group<'_>, sphere: Sphere, band: &Band<'_>) {
+    /// Counts the pixels of a group as its outline does.
+    fn prepare(&mut self, group: &Group<'_>, sphere: Sphere, band: &Band<'_>) {
         let ellipse = &group.seen.ellipse;
         self.sphere = sphere;
         self.count = group.pixels.len();
@@ -85,7 +86,13 @@ impl Places {
             self.column[at] = f64::from(pixel.column) - ellipse.column;
             self.row[at] = f64::from(pixel.row) - ellipse.row;
         }
-        let outline = ellipse.map(
+    }
+
+    /// Finds what they see.
+    #[inline(always)]
+    fn find<D: Lane<Element = f64>>(&mut self, kind: D::Kind, group: &Group<'_>) {
+        let end = self.count.next_multiple_of(16);
+        let outline = group.seen.ellipse.map(
             #[inline(always)]
             |number| D::splat(kind, number),
         );
@@ -95,7 +102,7 @@ impl Places {
             let place = PlaceInRow { column, after_first: column - row.roots[0], after_last: column - row.roots[1] };
             place.after_first.store(&mut self.after_first[at..]);
             place.after_last.store(&mut self.after_last[at..]);
-            let seen = row.point(sphere.center, &place);
+            let seen = row.point(self.sphere.center, &place);
             seen.point.normal.x.store(&mut self.normal[0][at..]);
             seen.point.normal.y.store(&mut self.normal[1][at..]);
             seen.point.normal.z.store(&mut self.normal[2][at..]);
@@ -112,16 +119,78 @@ impl Places {
     }
 }
 
+/// Finds out what the pixels of a group see, and which lights.
+struct See<'s, 'a, 'g> {
+    shader: &'s mut Shader<'a>,
+    group: &'s mut Group<'g>,
+}
+
+impl LaneJob for See<'_, '_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S, D>(self, kind: S::Kind)
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        self.shader.places.find::<D::Narrow>(kind, self.group);
+        self.shader.see_lights::<S::Narrow, D::Narrow>(kind, self.group);
+    }
+}
+
+/// Shades the pixels of a group.
+struct Shade<'s, 'a, 'g, 'm> {
+    shader: &'s Shader<'a>,
+    group: &'s Group<'g>,
+    formula: &'s BrightnessFormula,
+    band: &'s mut Band<'m>,
+}
+
+struct ShadeInSingle<'s, 'a, 'g, 'm>(Shade<'s, 'a, 'g, 'm>);
+
+struct ShadeInDouble<'s, 'a, 'g, 'm>(Shade<'s, 'a, 'g, 'm>);
+
+impl LaneJob for ShadeInSingle<'_, '_, '_, '_> {
+    type Output = Result<(), RenderError>;
+
+    #[inline(always)]
+    fn run<S, D>(self, kind: S::Kind) -> Self::Output
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        let Shade { shader, group, formula, band } = self.0;
+        shader.shade_in::<S::Narrow>(kind, group, formula, band)
+    }
+}
+
+impl LaneJob for ShadeInDouble<'_, '_, '_, '_> {
+    type Output = Result<(), RenderError>;
+
+    #[inline(always)]
+    fn run<S, D>(self, kind: S::Kind) -> Self::Output
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        let Shade { shader, group, formula, band } = self.0;
+        shader.shade_in::<D::Narrow>(kind, group, formula, band)
+    }
+}
+
 /// With more lights fewer pixels are shaded together, for what is remembered of each light at each pixel.
 const MANY_LIGHTS: usize = 1024;
 
 impl<'a> Shader<'a> {
     /// For the lights of a scene in an order.
-    pub fn new(scene: &'a PreparedScene, order: &'a [usize], precision: Precision) -> Self {
+    pub fn new(tiles: &Tiles<'a>) -> Self {
+        let Tiles { scene, order, precision, instructions, .. } = *tiles;
         Self {
             scene,
             order,
             precision,
+            instructions,
             places: Box::new(Places::new()),
             shadows: Box::new(Shadows::NEW),
             lights: Vec::new(),
@@ -133,26 +202,21 @@ impl<'a> Shader<'a> {
     }
 
     /// Shades the pixels of a group; those whose shadow is in doubt go into a list besides.
-    #[inline(always)]
-    pub fn shade<S, D>(
+    pub fn shade(
         &mut self,
-        kind: S::Kind,
         group: &mut Group<'_>,
         band: &mut Band<'_>,
         doubtful: &mut Vec<Pixel>,
-    ) -> Result<(), RenderError>
-    where
-        S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
-    {
+    ) -> Result<(), RenderError> {
+        let instructions = self.instructions;
         let Some(sphere) = self.scene.sphere(group.primitive).copied() else { return Ok(()) };
         self.place_lights(&sphere);
         let most = if self.order.len() > MANY_LIGHTS { 16 } else { MOST };
         let pixels = group.pixels;
         for pixels in pixels.chunks(most) {
             group.pixels = pixels;
-            self.places.find::<D::Narrow>(kind, group, sphere, band);
-            self.see_lights::<S::Narrow, D::Narrow>(kind, group);
+            self.places.prepare(group, sphere, band);
+            instructions.run(See { shader: &mut *self, group: &mut *group });
             for (vector, lanes) in self.doubtful[..pixels.len().div_ceil(8)].iter().enumerate() {
                 let cells = pixels[vector * 8..].iter().take(8).enumerate();
                 let in_doubt = cells.filter(|(lane, _)| lanes >> lane & 1 == 1);
@@ -160,10 +224,11 @@ impl<'a> Shader<'a> {
             }
             let formula = self.scene.formula(group.primitive);
             let fits = group.seen.ellipse.fits_single() && fits_single(&self.lights, self.ambient, formula.sharpness());
+            let shader = &*self;
             if self.precision == Precision::Single && fits {
-                self.shade_in::<S::Narrow>(kind, group, formula, band)?;
+                instructions.run(ShadeInSingle(Shade { shader, group, formula, band }))?;
             } else {
-                self.shade_in::<D::Narrow>(kind, group, formula, band)?;
+                instructions.run(ShadeInDouble(Shade { shader, group, formula, band }))?;
             }
             self.store_geometry(band);
         }
