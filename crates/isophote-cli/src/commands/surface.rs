@@ -106,7 +106,9 @@ impl Summary<'_> {
             // Writing to a text cannot fail.
             let _ = writeln!(text, "{}\n", self.scene.title());
         }
-        let mut row = |name: &str, value: String| drop(writeln!(text, "  {name:<12}{value}"));
+        let mut row = |name: &str, value: String| {
+            let _ = writeln!(text, "  {name:<12}{value}");
+        };
         let area = significant(self.surface.area(), 12);
         let left_out = self.surface.left_out().map_or(String::new(), |what| format!(", without {what}"));
         row("surface", format!("{} ({}), {}, {area} m²{left_out}", self.name(), self.kind(), self.request.side.name()));
