@@ -110,7 +110,7 @@ pub struct RenderArguments {
     #[arg(long, value_name = "FILE")]
     pub figure: Vec<PathBuf>,
 
-    /// Channel: brightness, irradiance, diffuse, specular, depth, position, normal, shape, samples, coverage
+    /// Channel: brightness, irradiance, ambient, diffuse, specular, depth, position, normal, shape, samples, coverage
     /// or light.NAME; may be given
     /// several times. The first one is summarised and pictured. By default the picture shows the brightness, and files
     /// with many channels get all
@@ -250,7 +250,7 @@ pub struct SectionArguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub samples: Option<u32>,
 
-    /// Channel: brightness, irradiance, diffuse, specular or depth; may be given several times (by default the
+    /// Channel: brightness, irradiance, ambient, diffuse, specular or depth; may be given several times (by default the
     /// brightness)
     #[arg(short, long, value_name = "NAME")]
     pub channel: Vec<String>,
@@ -279,7 +279,7 @@ pub struct LineArgument {
     #[arg(long, value_name = "COLUMN")]
     pub column: Option<u32>,
 
-    /// Between two points of the screen, in the scene's length unit
+    /// Between two points of the screen, in the scene's length unit or, of a fisheye or panorama, in degrees
     #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = parse_line)]
     pub line: Option<[f64; 4]>,
 }

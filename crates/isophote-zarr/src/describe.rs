@@ -7,7 +7,6 @@ use isophote::export::{FileMetadata, names};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Window};
 use isophote::prepare::PreparedScene;
 use isophote::render::{RenderSettings, Renderer};
-use isophote::units::Choice;
 use serde_json::Value;
 
 use crate::array::{ChannelArray, Element, coordinate};
@@ -45,14 +44,13 @@ pub fn metadata(sample: &Map, scene: &PreparedScene, quantities: &[Quantity]) ->
     let is_allowed = |character: char| character.is_alphanumeric() || "-_.".contains(character);
     let camera = scene.scene().camera();
     let length = scene.scene().length();
-    let edges = |edges: [f64; 2]| edges.map(|edge| length.from_metres(edge));
     let mut metadata = FileMetadata::of(sample);
     for (channel, name) in metadata.channels.iter_mut().zip(names::unique(sample.channels(), is_allowed)) {
         channel.stored_as = vec![name];
     }
     metadata.channels.retain(|channel| quantities.iter().any(|quantity| quantity.name() == channel.name));
     metadata.region = Region::all(camera.resolution);
-    metadata.window = Window { x: edges(camera.screen.x), y: edges(camera.screen.y), ..metadata.window };
+    metadata.window = camera.window(metadata.region, length);
     metadata
 }
 
@@ -97,16 +95,16 @@ pub fn stored_arrays(identity: &Identity, path: &Path) -> Result<Vec<ChannelArra
 /// The name of a coordinate's array, its description, and its only chunk.
 pub type Coordinate = (&'static str, Value, Vec<u8>);
 
-/// The centres of columns and rows on the screen, in the scene's length unit.
+/// The centres of columns and rows on the screen, in the window's unit.
 pub fn coordinates(scene: &PreparedScene, window: &Window) -> Result<[Coordinate; 2], StoreError> {
     let Resolution { width, height } = scene.scene().camera().resolution;
     let centre = |pixel| {
         let point = scene.frame().point_on_screen(ScreenPosition::PixelCenter(pixel));
-        point.map(|metres| window.length.from_metres(metres))
+        point.map(|coordinate| window.unit().from_internal(coordinate))
     };
     let x: Vec<f64> = (0..width).map(|column| centre(Pixel { column, row: 0 })[0]).collect();
     let y: Vec<f64> = (0..height).map(|row| centre(Pixel { column: 0, row })[1]).collect();
-    let unit = window.length.name();
+    let unit = window.unit().name();
     let array = |name: &'static str, centres: &[f64]| -> Result<Coordinate, StoreError> {
         let encoded = coordinate(name, unit, centres);
         let (metadata, bytes) =

@@ -68,6 +68,13 @@ pub trait Scalar: Real<Mask = bool> {
     /// The nearest double.
     fn rounded(self) -> f64;
 
+    /// The same number with 32 digits.
+    fn precise(self) -> DoubleDouble;
+
+    /// Sine and cosine of an angle in radians, within ±100. The angle comes with 32 digits, because a double of it would have
+    /// lost what the sine of a large angle still shows.
+    fn sine_and_cosine_of(angle: DoubleDouble) -> (Self, Self);
+
     /// cosⁿ of an angle, from the squares of its cosine and its sine: the lobe (N·H)ⁿ of (3.3) to (3.6).
     ///
     /// Near the lobe's peak the power of the cosine would multiply its rounding error by n; the sine is small there
@@ -121,6 +128,18 @@ impl Scalar for f64 {
     #[inline(always)]
     fn rounded(self) -> f64 {
         self
+    }
+
+    #[inline(always)]
+    fn precise(self) -> DoubleDouble {
+        DoubleDouble::from_f64(self)
+    }
+
+    fn sine_and_cosine_of(angle: DoubleDouble) -> (Self, Self) {
+        let nearest = angle.rounded();
+        let rest = (angle - DoubleDouble::from_f64(nearest)).rounded();
+        let (sine, cosine) = (libm::sin(nearest), libm::cos(nearest));
+        (cosine.mul_add(rest, sine), sine.mul_add(-rest, cosine))
     }
 
     fn cosine_power(cos_squared: Self, sin_squared: Self, exponent: f64) -> Self {

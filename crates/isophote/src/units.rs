@@ -66,6 +66,50 @@ impl LengthUnit {
     }
 }
 
+/// The unit of places on the screen: inside the program metres or degrees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ScreenUnit {
+    /// On a plane.
+    Length(LengthUnit),
+    /// Of a camera whose screen is made of angles.
+    Degree,
+}
+
+impl ScreenUnit {
+    /// Degrees, or this unit of length.
+    #[must_use]
+    pub fn of(length: LengthUnit, in_degrees: bool) -> Self {
+        if in_degrees { Self::Degree } else { Self::Length(length) }
+    }
+
+    /// As it stands in outputs: `m` or `°`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Length(length) => length.name(),
+            Self::Degree => "°",
+        }
+    }
+
+    /// Metres or degrees in this unit.
+    #[must_use]
+    pub fn from_internal(self, coordinate: f64) -> f64 {
+        match self {
+            Self::Length(length) => length.from_metres(coordinate),
+            Self::Degree => coordinate,
+        }
+    }
+
+    /// A coordinate in this unit in metres or degrees.
+    #[must_use]
+    pub fn to_internal(self, coordinate: f64) -> f64 {
+        match self {
+            Self::Length(length) => length.to_metres(coordinate),
+            Self::Degree => coordinate,
+        }
+    }
+}
+
 /// Whether the lights of a scene are given in watts or in lumens. A scene is one or the other as a whole:
 /// converting needs a luminous efficacy, and there is no silent default for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]

@@ -10,7 +10,7 @@ use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::{Hit, PreparedScene};
 use isophote::real::Scalar;
 use isophote::render::{Lanes, Reference, RenderError, RenderSettings, Renderer};
-use isophote::scene::source::{EmissionName, LightSource, MaterialSource};
+use isophote::scene::source::{EmissionName, LightSource, MaterialSource, ProjectionName, WindowSource};
 use isophote::scene::{Scene, SceneSource, Syntax};
 use isophote::shape::{Geometry, Primitive, SurfacePoint};
 use isophote::tolerance::{DOUBLE, PROBE, SINGLE};
@@ -362,6 +362,38 @@ proptest! {
         let scene = prepared(source);
         for renderer in renderers() {
             let result = conforms(renderer.as_ref(), &scene, &DOUBLE);
+            prop_assert!(result.is_ok(), "{}: {}", renderer.name(), result.unwrap_err());
+        }
+    }
+
+    #[test]
+    fn random_scenes_are_rendered_within_tolerance_by_every_projection(
+        mut source in random::worlds(),
+        projection in 0_usize..6,
+        field_of_view in 20.0..360.0_f64,
+        off in -1.0..1.0_f64,
+    ) {
+        let camera = source.camera.get_or_insert_default();
+        camera.screen = None;
+        let names = [ProjectionName::FisheyeEquidistant, ProjectionName::FisheyeEqualArea, ProjectionName::Panorama];
+        if let Some(name) = names.get(projection) {
+            camera.projection = Some(*name);
+            camera.field_of_view = (*name != ProjectionName::Panorama).then_some(field_of_view);
+            // From near by, or nothing of it would be seen.
+            camera.eye = camera.eye.map(|eye| eye.map(|coordinate| 0.5 * coordinate + off));
+        } else if projection == 3 {
+            camera.field_of_view = Some(0.4 * field_of_view);
+        } else {
+            camera.projection = Some(ProjectionName::Orthographic);
+            // In the second case the window reaches far beyond what is seen in it.
+            let width = if projection == 4 { 1.0 } else { 50.0 };
+            let window = WindowSource { x: Some([-2.0 * width, 2.0]), y: Some([-1.5, 1.5 * width]) };
+            camera.window = Some(window);
+        }
+        let Ok(scene) = Scene::try_from(source) else { return Ok(()) };
+        let scene = PreparedScene::new(&scene);
+        for renderer in [&Reference as &dyn Renderer, &Lanes::new(Precision::Double, None)] {
+            let result = conforms(renderer, &scene, &DOUBLE);
             prop_assert!(result.is_ok(), "{}: {}", renderer.name(), result.unwrap_err());
         }
     }

@@ -91,7 +91,7 @@ proptest! {
     }
 
     #[test]
-    fn swapping_lights_changes_nothing(mut source in random::scenes()) {
+    fn swapping_lights_changes_nothing(mut source in random::worlds()) {
         let before = render(&source);
         source.light.reverse();
         assert_equal(&render(&source), &before, 1.0, 1e-15);
@@ -147,7 +147,7 @@ proptest! {
 
     /// (3.3) ≤ (3.4) pixel by pixel: cosθ_o ≤ 1.
     #[test]
-    fn the_lab_convention_is_never_brighter_than_the_course_convention(mut source in random::scenes()) {
+    fn the_lab_convention_is_never_brighter_than_the_course_convention(mut source in random::worlds()) {
         source.convention = Some(Convention::Lab);
         let lab = render(&source);
         source.convention = Some(Convention::Course);
@@ -173,7 +173,7 @@ proptest! {
     }
 
     #[test]
-    fn a_scene_survives_being_written_and_read(source in random::scenes()) {
+    fn a_scene_survives_being_written_and_read(source in random::worlds()) {
         let text = source.to_toml();
         let again = Scene::from_text("again", &text, isophote::scene::Syntax::Toml).expect("it is valid");
         prop_assert_eq!(again.source(), &source);

@@ -85,6 +85,24 @@ mistakes! {
     a_place_too_far_away: "position = [5, 5, -10]" => "position = [5, 5, -1e16]", 1;
     a_probe_off_the_surface: "at = [0, 0, 4]" => "at = [0.353, 0.353, 4.830]", 1;
     an_unclosed_list: "eye = [0, 0, 0]" => "eye = [0, 0, 0", 1;
+    a_spot_without_cones: "emission = \"isotropic\"" => "emission = \"spot\"\ntarget = [0, 0, 5]", 2;
+    a_spot_with_a_hard_edge: "emission = \"isotropic\"" => "emission = \"spot\"\ntarget = [0, 0, 5]\ninner_angle = 20\nouter_angle = 20.1", 1;
+    a_spot_by_its_full_angle: "emission = \"isotropic\"" => "emission = \"spot\"\ntarget = [0, 0, 5]\ninner_angle = 20\nouter_angle = 120", 1;
+    cones_of_an_isotropic_light: "emission = \"isotropic\"" => "inner_angle = 20\nouter_angle = 30", 2;
+    a_parallel_light_with_a_place: "emission = \"isotropic\"" => "emission = \"parallel\"", 4;
+    a_parallel_light_without_length: "position = [5, 5, -10]\nintensity = 100           # W/sr; or power = …, in W\nemission = \"isotropic\"" => "emission = \"parallel\"\ndirection = [0, 0, 0]\nirradiance = -1", 2;
+    ambient_light_without_radiance: "[material.clay]" => "[ambient]\n\n[material.clay]", 1;
+    negative_ambient_light: "[material.clay]" => "[ambient]\nradiance = -1\n\n[material.clay]", 1;
+    an_unknown_projection: "eye = [0, 0, 0]" => "eye = [0, 0, 0]\nprojection = \"fisheye\"", 1;
+    a_screen_and_a_field_of_view: "up = [0, 1, 0]" => "field_of_view = 40", 1;
+    neither_screen_nor_field_of_view: "screen = { distance = 5, x = [-4, 4], y = [-3, 3] }" => "", 1;
+    a_perspective_of_half_a_turn: "screen = { distance = 5, x = [-4, 4], y = [-3, 3] }" => "field_of_view = 180", 1;
+    a_screen_of_an_orthographic_camera: "up = [0, 1, 0]" => "projection = \"orthographic\"", 2;
+    a_window_that_is_reversed: "screen = { distance = 5, x = [-4, 4], y = [-3, 3] }" => "projection = \"orthographic\"\nwindow = { x = [4, -4], y = [-3, 3] }", 1;
+    a_fisheye_without_field_of_view: "screen = { distance = 5, x = [-4, 4], y = [-3, 3] }" => "projection = \"fisheye-equal-area\"", 1;
+    a_fisheye_of_more_than_a_turn: "screen = { distance = 5, x = [-4, 4], y = [-3, 3] }" => "projection = \"fisheye-equidistant\"\nfield_of_view = 400", 1;
+    a_panorama_of_more_than_a_turn: "screen = { distance = 5, x = [-4, 4], y = [-3, 3] }" => "projection = \"panorama\"\nlongitude = [-200, 200]\nlatitude = [0, 100]", 2;
+    a_field_of_view_of_a_panorama: "screen = { distance = 5, x = [-4, 4], y = [-3, 3] }" => "projection = \"panorama\"\nfield_of_view = 90", 1;
     a_key_given_twice: "radius = 1" => "radius = 1\nradius = 2", 1;
 }
 

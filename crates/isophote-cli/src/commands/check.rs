@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use isophote::camera::{Camera, CameraFrame, Screen};
+use isophote::camera::{Camera, CameraFrame, Extent, Fisheye, Mapping, Projection, Screen};
 use isophote::light::{Emission, Light, LightKind};
 use isophote::reflectance::Reflectance;
 use isophote::scene::{Material, Probe, Problem, Scene, Shape};
@@ -26,9 +26,6 @@ pub fn run(arguments: &CheckArguments) -> Result<String> {
 fn to_text(scene: &Scene) -> String {
     let camera = scene.camera();
     let frame = CameraFrame::<f64>::new(camera);
-    let screen = camera.screen;
-    let [left, right] = screen.x.map(short);
-    let [bottom, top] = screen.y.map(short);
     let convention = scene.convention();
     let mut text = String::new();
     // Writing to a text cannot fail.
@@ -44,7 +41,8 @@ fn to_text(scene: &Scene) -> String {
     row("forward", vector(frame.forward));
     row("up", vector(frame.up));
     row("right", vector(frame.right));
-    row("screen", format!("distance {}, x {left} to {right}, y {bottom} to {top}", short(screen.distance)));
+    let [name, projection] = projection_text(&camera.projection);
+    row(&name, projection);
     row("resolution", format!("{} × {} pixels", camera.resolution.width, camera.resolution.height));
     if let Some(ambient) = scene.ambient() {
         row("ambient", format!("{} {}", short(ambient.radiance), scene.quantities().radiance_unit()));
@@ -58,6 +56,33 @@ fn to_text(scene: &Scene) -> String {
         let _ = write!(text, "\n{title}\n{}", table.unwrap_or_else(|| "  none\n".into()));
     }
     text
+}
+
+/// The name of the row and what stands in it.
+fn projection_text(projection: &Projection) -> [String; 2] {
+    let edges = |[left, right]: [f64; 2], [bottom, top]: [f64; 2]| {
+        let [left, right, bottom, top] = [left, right, bottom, top].map(short);
+        format!("x {left} to {right}, y {bottom} to {top}")
+    };
+    match *projection {
+        Projection::Perspective(Screen { distance, x, y }) => {
+            ["screen".into(), format!("distance {}, {}", short(distance), edges(x, y))]
+        }
+        Projection::Orthographic(Extent { x, y }) => {
+            ["projection".into(), format!("orthographic (2.7), {}", edges(x, y))]
+        }
+        Projection::Fisheye(Fisheye { mapping, field_of_view }) => {
+            let mapping = match mapping {
+                Mapping::Equidistant => "equidistant (2.8)",
+                Mapping::EqualArea => "equal area (2.9)",
+            };
+            ["projection".into(), format!("fisheye, {mapping}, {}° across", short(field_of_view))]
+        }
+        Projection::Panorama(Extent { x: [west, east], y: [low, high] }) => {
+            let [west, east, low, high] = [west, east, low, high].map(short);
+            ["projection".into(), format!("panorama (2.10), longitude {west}° to {east}°, latitude {low}° to {high}°")]
+        }
+    }
 }
 
 fn materials(scene: &Scene) -> Option<String> {
@@ -170,15 +195,27 @@ fn to_json(scene: &Scene) -> Value {
 
 fn camera_json(camera: &Camera) -> Value {
     let frame = CameraFrame::<f64>::new(camera);
-    let Screen { distance, x, y } = camera.screen;
-    json!({
+    let mut value = json!({
         "eye": camera.eye.to_array(),
         "forward": frame.forward.to_array(),
         "up": frame.up.to_array(),
         "right": frame.right.to_array(),
-        "screen": {"distance": distance, "x": x, "y": y},
         "resolution": [camera.resolution.width, camera.resolution.height],
-    })
+    });
+    let (name, key, projection) = match camera.projection {
+        Projection::Perspective(Screen { distance, x, y }) => {
+            ("perspective", "screen", json!({"distance": distance, "x": x, "y": y}))
+        }
+        Projection::Orthographic(Extent { x, y }) => ("orthographic", "window", json!({"x": x, "y": y})),
+        Projection::Fisheye(Fisheye { mapping, field_of_view }) => {
+            let name = if mapping == Mapping::Equidistant { "fisheye-equidistant" } else { "fisheye-equal-area" };
+            (name, "field_of_view", field_of_view.into())
+        }
+        Projection::Panorama(Extent { x, y }) => ("panorama", "edges", json!({"longitude": x, "latitude": y})),
+    };
+    value["projection"] = name.into();
+    value[key] = projection;
+    value
 }
 
 fn material_json(material: &Material) -> Value {

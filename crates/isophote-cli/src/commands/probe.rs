@@ -181,6 +181,7 @@ pub fn table_text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &Prepa
 fn unseen_note(reading: &ProbeReading, scene: &Scene) -> Option<String> {
     match reading.seen {
         SeenFromEye::Seen => None,
+        SeenFromEye::Behind => Some("it is behind the plane of the eye".into()),
         SeenFromEye::FacesAway => Some("the surface faces away there (θ_o ≥ 90°)".into()),
         SeenFromEye::HiddenBy(other) => Some(format!("\"{}\" stands before it", scene.name_of(other))),
     }

@@ -210,7 +210,7 @@ pub fn channels(names: &[String], scene: &Scene) -> Result<Vec<Quantity>> {
 fn marks(map: &Map, scene: &PreparedScene) -> Vec<Mark> {
     let window = map.window;
     let mark = |probe: &isophote::scene::Probe| {
-        let [x, y] = scene.frame().project(probe.at)?.map(|metres| window.length.from_metres(metres));
+        let [x, y] = scene.frame().project(probe.at)?.map(|coordinate| window.unit().from_internal(coordinate));
         let inside = (window.x[0]..=window.x[1]).contains(&x) && (window.y[0]..=window.y[1]).contains(&y);
         let seen = scene.probe(&Place::Point(probe.at)).ok()?.is_seen();
         (inside && seen).then(|| Mark { name: probe.name.clone(), x, y })

@@ -87,7 +87,7 @@ fn line(arguments: &SectionArguments, scene: &Scene) -> SectionLine {
         (Some(row), ..) => SectionLine::Row(row),
         (_, Some(column), _) => SectionLine::Column(column),
         (_, _, line) => {
-            let [x0, y0, x1, y1] = line.unwrap_or_default().map(|length| scene.length().to_metres(length));
+            let [x0, y0, x1, y1] = line.unwrap_or_default().map(|place| scene.screen_unit().to_internal(place));
             SectionLine::Between { from: [x0, y0], to: [x1, y1], samples: arguments.samples.unwrap_or(DEFAULT_SAMPLES) }
         }
     }
@@ -127,7 +127,7 @@ impl Section<'_> {
     }
 
     fn screen(&self, sample: &Sample) -> [f64; 2] {
-        sample.screen.map(|metres| self.scene.length().from_metres(metres))
+        sample.screen.map(|coordinate| self.scene.screen_unit().from_internal(coordinate))
     }
 
     /// What runs along the line: x in a row, y in a column, the distance from the first point otherwise.
@@ -148,9 +148,9 @@ impl Section<'_> {
     }
 
     fn to_table(&self) -> String {
-        let unit_of_length = self.scene.length().name();
+        let unit = self.scene.screen_unit().name();
         let headings: Vec<String> = self.quantities.iter().map(|quantity| self.heading(quantity)).collect();
-        let (x, y) = (format!("x, {unit_of_length}"), format!("y, {unit_of_length}"));
+        let (x, y) = (format!("x, {unit}"), format!("y, {unit}"));
         let mut columns = vec![(x.as_str(), Align::Right), (y.as_str(), Align::Right)];
         columns.extend(headings.iter().map(|heading| (heading.as_str(), Align::Right)));
         let row = |sample: &Sample| {
@@ -170,7 +170,7 @@ impl Section<'_> {
         // Writing to a text cannot fail.
         let _ = writeln!(text, "# {}", self.footer());
         let _ = writeln!(text, "# {}", self.scene.title().replace(char::is_control, " "));
-        let _ = writeln!(text, "# units: x, y in {}", self.scene.length().name());
+        let _ = writeln!(text, "# units: x, y in {}", self.scene.screen_unit().name());
         for quantity in &self.quantities {
             let _ = writeln!(text, "# units: {} in {}", quantity.name(), unit(quantity, self.scene));
         }
@@ -225,7 +225,7 @@ impl Section<'_> {
                 format!("{title}: section along {line}")
             },
             x_label: x_label.into(),
-            x_unit: self.scene.length().name().into(),
+            x_unit: self.scene.screen_unit().name().into(),
             y_label: y_label.into(),
             y_unit: y_unit.into(),
             footer: self.footer(),
@@ -245,6 +245,7 @@ impl Section<'_> {
         });
         SectionJson {
             length: self.scene.length().name(),
+            screen_unit: self.scene.screen_unit().name(),
             convention: self.scene.convention().name(),
             screen: self.samples.iter().map(|sample| self.screen(sample)).collect(),
             channels: channels.collect(),
@@ -255,6 +256,7 @@ impl Section<'_> {
 #[derive(Serialize)]
 struct SectionJson {
     length: &'static str,
+    screen_unit: &'static str,
     convention: &'static str,
     screen: Vec<[f64; 2]>,
     channels: Vec<ChannelJson>,

@@ -70,7 +70,9 @@ fn coordinates_are_the_centres_of_the_pixels_in_the_unit_of_the_scene() {
     let (folder, _) = Job::default().complete(&scene);
     let (x, y) = (folder.doubles("x"), folder.doubles("y"));
     assert_eq!((x.len(), y.len()), (32, 24));
-    let [left, right] = scene.scene().camera().screen.x.map(|metres| scene.scene().length().from_metres(metres));
+    let camera = scene.scene().camera();
+    let [left, right] =
+        camera.projection.extent(camera.resolution).x.map(|metres| scene.scene().length().from_metres(metres));
     let width = (right - left) / 32.0;
     assert!((x[0] - (left + width / 2.0)).abs() < 1e-9 && (x[31] - (right - width / 2.0)).abs() < 1e-9);
     assert!(y[0] > y[23], "row 0 is on top");

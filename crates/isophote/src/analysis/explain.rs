@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::probe::{ProbeReading, SeenFromEye};
+use crate::camera::Projection;
 use crate::light::{Ambient, Emission, Light, LightKind, ParallelLight, PointLight};
 use crate::prepare::PreparedScene;
 use crate::reflectance::{Convention, Reflectance, lobe_constant};
@@ -54,7 +55,10 @@ impl ProbeReading {
         };
         line(text, format_args!("  N   = {}   {normal}", vector(point.normal)));
         line(text, format_args!("  O   = {}   eye", vector_in(scene.frame().eye, length)));
-        line(text, format_args!("  V   = {}   (O − P)/‖O − P‖", vector(point.view)));
+        let is_parallel = matches!(description.camera().projection, Projection::Orthographic(_));
+        let view =
+            if is_parallel { "against the direction of view, along parallel rays" } else { "(O − P)/‖O − P‖" };
+        line(text, format_args!("  V   = {}   {view}", vector(point.view)));
         line(text, format_args!("  cosθ_o = N·V = {}", digits(point.cos_theta_o)));
         match self.seen {
             SeenFromEye::Seen => {}
@@ -65,6 +69,9 @@ impl ProbeReading {
                         "  θ_o ≥ 90°: the eye does not see this side, and B = 0 where B depends on the viewer"
                     ),
                 );
+            }
+            SeenFromEye::Behind => {
+                line(text, format_args!("  The eye does not see the point: it is behind the plane of the eye."));
             }
             SeenFromEye::HiddenBy(other) => {
                 let other = description.name_of(other);

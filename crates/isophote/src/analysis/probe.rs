@@ -51,6 +51,8 @@ pub enum SeenFromEye {
     Seen,
     /// The surface faces away from the eye there: θ_o ≥ 90°.
     FacesAway,
+    /// It lies behind the plane on which parallel rays start.
+    Behind,
     /// This stands before it.
     HiddenBy(Primitive),
 }
@@ -159,6 +161,9 @@ impl PreparedScene {
     fn seen_from_eye(&self, hit: &Hit) -> SeenFromEye {
         if hit.point.cos_theta_o <= 0.0 {
             return SeenFromEye::FacesAway;
+        }
+        if hit.distance < 0.0 {
+            return SeenFromEye::Behind;
         }
         match self.first_towards(hit.point.position()) {
             Some(first) if first != hit.primitive => SeenFromEye::HiddenBy(first),

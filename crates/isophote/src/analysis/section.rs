@@ -12,7 +12,7 @@ pub enum SectionLine {
     Row(u32),
     /// The centres of a column's pixels, from the top.
     Column(u32),
-    /// Evenly spaced points between two points of the screen plane, both included; in metres.
+    /// Evenly spaced points between two points of the screen, both included; in metres or degrees.
     Between {
         /// The first point: x, y.
         from: [f64; 2],
@@ -26,7 +26,7 @@ pub enum SectionLine {
 /// A point of a section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Where it is on the screen: x, y in metres.
+    /// Where it is on the screen: x, y in metres or degrees.
     pub screen: [f64; 2],
     /// What is seen there and what it sends; nothing where no surface is seen.
     pub seen: Option<(Hit, Shading)>,

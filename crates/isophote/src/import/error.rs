@@ -19,6 +19,12 @@ pub enum ImportError {
         /// The path asked for.
         file: PathBuf,
     },
+    /// The path is that of a pipe or a device.
+    #[error("‘{}’ is a pipe or a device; a file is needed", file.display())]
+    NoFile {
+        /// The path asked for.
+        file: PathBuf,
+    },
     /// The suffix of its name is that of no format which could be read here.
     #[error("‘{}’: its suffix names no format that can be read here; allowed are {allowed}", file.display())]
     Suffix {

@@ -82,6 +82,10 @@ pub(super) fn contents(path: &Path) -> Result<Vec<u8>, ImportError> {
     if path.is_dir() {
         return Err(ImportError::Directory { file: path.into() });
     }
+    if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
+        // A pipe may never end, and a device has no end.
+        return Err(ImportError::NoFile { file: path.into() });
+    }
     let mut bytes = Vec::new();
     File::open(path).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(unreadable)?;
     Ok(bytes)

@@ -8,9 +8,11 @@ use crate::units::{Choice, LengthUnit};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Coordinates {
-    /// x and y on the camera's screen.
+    /// x and y on the camera's screen plane.
     #[default]
     Screen,
+    /// x and y on a screen of angles, such as that of a fisheye.
+    ScreenAngles,
     /// Longitude and latitude on a sphere.
     LongitudeLatitude,
     /// Longitude and the sine of the latitude on a sphere: equal areas are equal (Lambert's cylindrical projection).
@@ -47,6 +49,7 @@ impl Coordinates {
         let length = length.name();
         match self {
             Self::Screen | Self::Sides => [named("x", length), named("y", length)],
+            Self::ScreenAngles => [named("x", "°"), named("y", "°")],
             Self::LongitudeLatitude => [named("longitude", "°"), named("latitude", "°")],
             Self::LongitudeSine => [named("longitude", "°"), axis("sin_latitude", "sine of the latitude", "1")],
             Self::AngleHeight => [named("angle", "°"), named("height", length)],
@@ -59,6 +62,11 @@ impl Coordinates {
     /// Whether a map's pixels are those of a camera.
     #[must_use]
     pub fn is_screen(&self) -> bool {
+        matches!(self, Self::Screen | Self::ScreenAngles)
+    }
+
+    /// Whether they are what goes without saying.
+    pub(crate) fn is_plane_screen(&self) -> bool {
         *self == Self::Screen
     }
 }

@@ -11,7 +11,7 @@ pub use values::{Scalars, Values};
 use serde::{Deserialize, Serialize};
 
 use crate::reflectance::Convention;
-use crate::units::{Choice, LengthUnit, Quantities};
+use crate::units::{Choice, LengthUnit, Quantities, ScreenUnit};
 
 /// Width and height in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -59,18 +59,26 @@ pub struct Region {
     pub size: Resolution,
 }
 
-/// A rectangle on the screen plane, in the scene's length unit, or on a surface, in the units of its coordinates.
+/// A rectangle on the screen, or on a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Window {
     /// Left and right edge.
     pub x: [f64; 2],
     /// Lower and upper edge.
     pub y: [f64; 2],
-    /// The scene's unit of length: that of both, unless the coordinates say otherwise.
+    /// The unit of lengths in the map, and of both where they are lengths.
     pub length: LengthUnit,
     /// What x and y are.
-    #[serde(default, skip_serializing_if = "Coordinates::is_screen")]
+    #[serde(default, skip_serializing_if = "Coordinates::is_plane_screen")]
     pub coordinates: Coordinates,
+}
+
+impl Window {
+    /// The unit of the edges of a window on a screen.
+    #[must_use]
+    pub fn unit(&self) -> ScreenUnit {
+        ScreenUnit::of(self.length, self.coordinates == Coordinates::ScreenAngles)
+    }
 }
 
 /// What a channel holds.
@@ -86,7 +94,8 @@ pub enum Quantity {
     Diffuse,
     /// The specular part of the brightness.
     Specular,
-    /// Distance from the eye to the surface along the viewing ray, ‖P − O‖.
+    /// Distance to the surface along the viewing ray: from the eye, ‖P − O‖, or from the plane through it where rays are
+    /// parallel.
     Depth,
     /// The point P on the surface.
     Position,

@@ -12,7 +12,7 @@ pub use obstruction::AmbientIrradiance;
 pub use visibility::Blocking;
 
 use crate::accelerate::Accelerator;
-use crate::camera::{CameraFrame, ScreenPosition};
+use crate::camera::{CameraFrame, ScreenPosition, Sight};
 use crate::double_double::DoubleDouble;
 use crate::light::Light;
 use crate::map::{Pixel, Resolution};
@@ -164,14 +164,14 @@ impl PreparedScene {
     /// traced again with 32 digits, so that the bound on the error holds at every visible pixel.
     #[must_use]
     pub fn trace(&self, position: ScreenPosition) -> Option<Hit> {
-        let Traced { hit, is_doubtful } = self.nearest(&self.frame.ray(position));
+        let Traced { hit, is_doubtful } = self.nearest(&self.frame.ray(position)?);
         if is_doubtful { self.trace_precisely(position).map(Hit::rounded) } else { hit }
     }
 
     /// What the ray through a place on the screen meets first, with 32 digits.
     #[must_use]
     pub fn trace_precisely(&self, position: ScreenPosition) -> Option<Hit<DoubleDouble>> {
-        self.nearest(&self.precise_frame.ray(position)).hit
+        self.nearest(&self.precise_frame.ray(position)?).hit
     }
 
     /// The same, when it can only be one of these.
@@ -180,7 +180,7 @@ impl PreparedScene {
         position: ScreenPosition,
         primitives: impl Iterator<Item = Primitive>,
     ) -> Option<Hit<DoubleDouble>> {
-        self.nearest_among(&self.precise_frame.ray(position), primitives).hit
+        self.nearest_among(&self.precise_frame.ray(position)?, primitives).hit
     }
 
     /// Where a shape appears on the screen.
@@ -209,8 +209,8 @@ impl PreparedScene {
     /// What the eye meets first in the direction of a point, on the screen or not.
     #[must_use]
     pub fn first_towards(&self, point: Vector) -> Option<Primitive> {
-        let direction = (point - self.frame.eye).normalized();
-        let ray = Ray { anchor: self.frame.eye, offset: Vector::default(), direction };
+        let Sight { start, view, .. } = self.frame.sight(point, Vector::default());
+        let ray = Ray { anchor: start, offset: Vector::default(), direction: -view };
         self.nearest(&ray).hit.map(|hit| hit.primitive)
     }
 
@@ -341,10 +341,8 @@ impl PreparedScene {
     pub fn surface_point(&self, located: &Located) -> Hit {
         let nearest = &located.nearest;
         let geometry = &self.shapes[located.shape].geometry;
-        let from_inside = geometry.part_encloses(nearest.part, self.frame.eye);
-        let to_eye = (self.frame.eye - nearest.anchor) - nearest.offset;
-        let distance = to_eye.length();
-        let view = to_eye * (1.0 / distance);
+        let Sight { start, view, distance } = self.frame.sight(nearest.anchor, nearest.offset);
+        let from_inside = geometry.part_encloses(nearest.part, start);
         let from_behind = !geometry.is_closed() && nearest.face_normal.dot(view) < 0.0;
         let normal = if from_inside || from_behind { -nearest.outward_normal } else { nearest.outward_normal };
         let lift = if from_behind { nearest.lift_behind } else { nearest.lift };

@@ -5,9 +5,7 @@ use std::ops::ControlFlow;
 use super::{Observer, RenderError, RenderSettings};
 use crate::camera::ScreenPosition;
 use crate::lanes::{Element, Precision};
-use crate::map::{
-    Channel, Coordinates, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Run, Values, Window,
-};
+use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Run, Values};
 use crate::prepare::{Hit, PreparedScene};
 use crate::scene::Scene;
 use crate::units::LengthUnit;
@@ -40,7 +38,8 @@ pub fn empty_map(
         renderer,
     };
     let mask = Mask::new(region.size, Vec::new());
-    Ok(Map { full, region, window: window(description, region), provenance, mask, channels })
+    let window = description.camera.window(region, description.length);
+    Ok(Map { full, region, window, provenance, mask, channels })
 }
 
 /// Whether a region is one of the image, and fits into memory.
@@ -91,26 +90,6 @@ fn empty_channel(
 /// What single precision does not make smaller.
 fn is_always_double(quantity: &Quantity) -> bool {
     matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage)
-}
-
-/// The outer edges of a region on the screen.
-pub fn window(scene: &Scene, region: Region) -> Window {
-    let full = scene.camera.resolution;
-    let screen = scene.camera.screen;
-    let edge = |[first, last]: [f64; 2], edge: u32, count: u32| {
-        let part = f64::from(edge) / f64::from(count);
-        scene.length.from_metres(first * (1.0 - part) + last * part)
-    };
-    let [bottom, top] = screen.y;
-    let x = |column| edge(screen.x, column, full.width);
-    let y = |row| edge([top, bottom], row, full.height);
-    let Region { corner, size } = region;
-    Window {
-        x: [x(corner.column), x(corner.column + size.width)],
-        y: [y(corner.row + size.height), y(corner.row)],
-        length: scene.length,
-        coordinates: Coordinates::Screen,
-    }
 }
 
 /// Rows of a map, to be filled.

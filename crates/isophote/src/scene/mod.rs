@@ -22,7 +22,7 @@ use crate::map::Resolution;
 use crate::reflectance::{Convention, Reflectance};
 use crate::render::Sampling;
 use crate::shape::{Geometry, Primitive, Side};
-use crate::units::{LengthUnit, Quantities};
+use crate::units::{LengthUnit, Quantities, ScreenUnit};
 use crate::vector::Vector;
 use document::Document;
 use read::Problems;
@@ -241,6 +241,12 @@ impl Scene {
     #[must_use]
     pub fn length(&self) -> LengthUnit {
         self.length
+    }
+
+    /// The unit of places on the camera's screen.
+    #[must_use]
+    pub fn screen_unit(&self) -> ScreenUnit {
+        ScreenUnit::of(self.length, self.camera.projection.is_angular())
     }
 
     /// Which formula gives the brightness.

@@ -10,8 +10,8 @@ use std::path::PathBuf;
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
-    AmbientSource, CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource, ScreenSource,
-    ShadowSource, SphereSource,
+    AmbientSource, CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource,
+    ScreenSource, ShadowSource, SphereSource, WindowSource,
 };
 use crate::units::Choice;
 
@@ -62,7 +62,12 @@ fn read_camera(table: &mut Table<'_>) -> CameraSource {
         forward: table.numbers("forward"),
         target: table.numbers("target"),
         up: table.numbers("up"),
+        projection: table.choice("projection"),
         screen: table.table("screen", read_screen),
+        field_of_view: table.number("field_of_view"),
+        window: table.table("window", read_window),
+        longitude: table.numbers("longitude"),
+        latitude: table.numbers("latitude"),
         resolution: table.counts("resolution"),
     }
 }
@@ -77,6 +82,10 @@ fn read_sampling(table: &mut Table<'_>) -> SamplingSource {
 
 fn read_screen(table: &mut Table<'_>) -> ScreenSource {
     ScreenSource { distance: table.number("distance"), x: table.numbers("x"), y: table.numbers("y") }
+}
+
+fn read_window(table: &mut Table<'_>) -> WindowSource {
+    WindowSource { x: table.numbers("x"), y: table.numbers("y") }
 }
 
 fn read_material(table: &mut Table<'_>) -> MaterialSource {

@@ -125,7 +125,7 @@ pub struct SceneSource {
     pub grid: Vec<GridSource>,
 }
 
-/// The observer: a pinhole camera that looks through a window.
+/// The observer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CameraSource {
@@ -143,10 +143,29 @@ pub struct CameraSource {
     #[schemars(extend("default" = [0, 1, 0]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub up: Option<[f64; 3]>,
-    /// The window.
-    #[schemars(required)]
+    /// How directions become places in the image (formulas 2.1, 2.7 to 2.10).
+    #[schemars(extend("default" = "perspective"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub projection: Option<ProjectionName>,
+    /// The window of a perspective camera. Either this or `field_of_view`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub screen: Option<ScreenSource>,
+    /// The angle that the width of a perspective image spans, below 180; or the angle across the circle of a fisheye, up to
+    /// 360; in degrees.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 360.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub field_of_view: Option<f64>,
+    /// The window of an orthographic camera, on the plane through the eye.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub window: Option<WindowSource>,
+    /// Left and right edge of a panorama, in degrees from the direction of view towards the right.
+    #[schemars(extend("default" = [-180, 180]), inner(range(min = -360.0, max = 360.0)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub longitude: Option<[f64; 2]>,
+    /// Lower and upper edge of a panorama, in degrees from the direction of view towards `up`.
+    #[schemars(extend("default" = [-90, 90]), inner(range(min = -90.0, max = 90.0)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub latitude: Option<[f64; 2]>,
     /// Width and height of the image in pixels.
     #[schemars(extend("default" = [800, 600]))]
     #[schemars(inner(range(min = 1, max = 65536)))]
@@ -170,6 +189,51 @@ pub struct ScreenSource {
     #[schemars(required)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y: Option<[f64; 2]>,
+}
+
+/// The window of an orthographic camera.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WindowSource {
+    /// Left and right edge, from the eye; the first is smaller.
+    #[schemars(required)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x: Option<[f64; 2]>,
+    /// Lower and upper edge, from the eye; the first is smaller.
+    #[schemars(required)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y: Option<[f64; 2]>,
+}
+
+/// The projections by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ProjectionName {
+    /// Straight lines through the eye and a window.
+    Perspective,
+    /// Parallel rays from the plane through the eye.
+    Orthographic,
+    /// A cone of directions in a circle, whose radius is the angle from the axis.
+    FisheyeEquidistant,
+    /// A cone of directions in a circle, whose areas are solid angles.
+    FisheyeEqualArea,
+    /// Longitude and latitude.
+    Panorama,
+}
+
+impl crate::units::Choice for ProjectionName {
+    const ALL: &'static [Self] =
+        &[Self::Perspective, Self::Orthographic, Self::FisheyeEquidistant, Self::FisheyeEqualArea, Self::Panorama];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Perspective => "perspective",
+            Self::Orthographic => "orthographic",
+            Self::FisheyeEquidistant => "fisheye-equidistant",
+            Self::FisheyeEqualArea => "fisheye-equal-area",
+            Self::Panorama => "panorama",
+        }
+    }
 }
 
 /// How many rays a pixel's value is made of.

@@ -1,7 +1,7 @@
 //! Where a shape appears on the screen: for renderers that go along rows instead of tracing ray by ray.
 
 use super::{Sphere, SurfacePoint};
-use crate::camera::{CameraFrame, between};
+use crate::camera::{CameraFrame, Projection, Screen, between};
 use crate::double_double::{DoubleDouble, ExactProduct};
 use crate::map::Resolution;
 use crate::real::{Real, Scalar};
@@ -147,7 +147,8 @@ pub(crate) const BEFORE_THE_EYE: f64 = 1e-3;
 impl Ellipse {
     /// The outline of a sphere.
     pub(super) fn of_sphere(sphere: &Sphere, frame: &CameraFrame<DoubleDouble>) -> Outline {
-        let grid = Grid::new(frame);
+        let Projection::Perspective(window) = &frame.projection else { return Outline::Unknown };
+        let grid = Grid::new(frame, window);
         let from_eye = grid.from_eye(Vector::from_f64(sphere.center), DoubleDouble::from_f64(sphere.radius));
         let in_camera = grid.in_camera(from_eye);
         let z = in_camera.z.rounded();
@@ -155,7 +156,7 @@ impl Ellipse {
             return Outline::Unseen;
         }
         if z < 1.0 + BEFORE_THE_EYE {
-            let is_outside = is_beside_the_window(in_camera.map(DoubleDouble::rounded).to_array(), frame);
+            let is_outside = is_beside_the_window(in_camera.map(DoubleDouble::rounded).to_array(), window);
             return if is_outside { Outline::Unseen } else { Outline::Unknown };
         }
         Outline::Ellipse(Box::new(Self::new(from_eye, in_camera, &grid)))
@@ -209,57 +210,58 @@ impl<T: ExactProduct> Ellipse<T> {
         let reach = root * per_z_part;
         let row = nearest_whole((y_middle - grid.first_y) * grid.per_row);
         let y_of_row = grid.first_y + grid.row_step * DoubleDouble::exactly(row);
-        let middle = |y_screen: DoubleDouble<T>| x * (y_screen * y + z) * per_a;
-        let column = nearest_whole((middle(y_middle) - grid.first_x) * grid.per_column);
+        let middle_there = x * (y_middle * y + z) * per_a;
+        let column = nearest_whole((middle_there - grid.first_x) * grid.per_column);
         let x_of_column = grid.first_x + grid.column_step * DoubleDouble::exactly(column);
-        let from_row = |y_screen: DoubleDouble<T>| ((y_screen - y_of_row) * grid.per_row).nearest();
-        let [first, last] = [from_row(y_middle - reach), from_row(y_middle + reach)];
+        let first = ((y_middle - reach - y_of_row) * grid.per_row).nearest();
+        let last = ((y_middle + reach - y_of_row) * grid.per_row).nearest();
         let is_upright = first.is_less(last);
         let rows = [T::select(is_upright, first, last), T::select(is_upright, last, first)];
         let gap_squared = x * x + y * y + z_part;
-        let rows_over_columns = grid.row_step * grid.per_column;
-        let stretch = rows_over_columns * per_a;
+        let stretch = grid.row_step * grid.per_column * per_a;
         let direction = grid.forward + grid.right * x_of_column + grid.up * y_of_row;
-        let directions = [direction, grid.right * grid.column_step, grid.up * grid.row_step];
-        let nearest = |vector: Vector<DoubleDouble<T>>| {
-            vector.map(
-                #[inline(always)]
-                |number| number.nearest(),
-            )
-        };
+        let [by_column, by_row] = [grid.right * grid.column_step, grid.up * grid.row_step];
+        let middle = x * (y_of_row * y + z) * per_a;
         Self {
             column,
             row,
             rows,
-            middle: [((middle(y_of_row) - x_of_column) * grid.per_column).nearest(), (x * y * stretch).nearest()],
+            middle: [((middle - x_of_column) * grid.per_column).nearest(), (x * y * stretch).nearest()],
             width_squared: (gap_squared * z_part * stretch * stretch).nearest(),
             clearance: (a * grid.column_step * grid.column_step).nearest(),
-            direction: directions.map(nearest),
-            moment: directions.map(
-                #[inline(always)]
-                |direction| nearest(direction.cross(from_eye)),
-            ),
+            direction: [nearest(direction), nearest(by_column), nearest(by_row)],
+            moment: [
+                nearest(direction.cross(from_eye)),
+                nearest(by_column.cross(from_eye)),
+                nearest(by_row.cross(from_eye)),
+            ],
             center: nearest(from_eye),
         }
     }
+}
+
+#[inline(always)]
+fn nearest<T: ExactProduct>(vector: Vector<DoubleDouble<T>>) -> Vector<T> {
+    Vector::new(vector.x.nearest(), vector.y.nearest(), vector.z.nearest())
 }
 
 impl<T: Copy> Ellipse<T> {
     /// The same outline in another number type.
     #[inline(always)]
     pub fn map<U>(&self, convert: impl Fn(T) -> U) -> Ellipse<U> {
-        let pair = |[first, second]: [T; 2]| [convert(first), convert(second)];
-        let three =
-            |[first, second, third]: [Vector<T>; 3]| [first.map(&convert), second.map(&convert), third.map(&convert)];
         Ellipse {
             column: convert(self.column),
             row: convert(self.row),
-            rows: pair(self.rows),
-            middle: pair(self.middle),
+            rows: [convert(self.rows[0]), convert(self.rows[1])],
+            middle: [convert(self.middle[0]), convert(self.middle[1])],
             width_squared: convert(self.width_squared),
             clearance: convert(self.clearance),
-            direction: three(self.direction),
-            moment: three(self.moment),
+            direction: [
+                self.direction[0].map(&convert),
+                self.direction[1].map(&convert),
+                self.direction[2].map(&convert),
+            ],
+            moment: [self.moment[0].map(&convert), self.moment[1].map(&convert), self.moment[2].map(&convert)],
             center: self.center.map(&convert),
         }
     }
@@ -287,14 +289,14 @@ impl<T: Real> Ellipse<T> {
 }
 
 /// Whether a sphere of radius 1 is wholly beyond one of the four planes through the eye and an edge of the window.
-fn is_beside_the_window([x, y, z]: [f64; 3], frame: &CameraFrame<DoubleDouble>) -> bool {
+fn is_beside_the_window([x, y, z]: [f64; 3], window: &Screen) -> bool {
     let beyond = |along: f64, [low, high]: [f64; 2]| {
-        let [low, high] = [low, high].map(|edge| edge / frame.screen.distance);
+        let [low, high] = [low, high].map(|edge| edge / window.distance);
         let below = (low * z - along) / low.hypot(1.0);
         let above = (along - high * z) / high.hypot(1.0);
         below.max(above) > 1.0 + 1e-9
     };
-    beyond(x, frame.screen.x) || beyond(y, frame.screen.y)
+    beyond(x, window.x) || beyond(y, window.y)
 }
 
 /// The grid of pixel centres on a screen at distance 1, and the axes of the camera.
@@ -315,14 +317,14 @@ pub(crate) struct Grid<T = f64> {
 
 impl Grid {
     /// The grid of a camera.
-    pub fn new(frame: &CameraFrame<DoubleDouble>) -> Self {
+    pub fn new(frame: &CameraFrame<DoubleDouble>, window: &Screen) -> Self {
         let exact = DoubleDouble::from_f64;
-        let per_distance = exact(1.0) / exact(frame.screen.distance);
+        let per_distance = exact(1.0) / exact(window.distance);
         let step =
             |first: f64, last: f64, count: u32| (exact(last) - exact(first)) * per_distance / exact(f64::from(count));
         let Resolution { width, height } = frame.resolution;
-        let [left, right] = frame.screen.x;
-        let [bottom, top] = frame.screen.y;
+        let [left, right] = window.x;
+        let [bottom, top] = window.y;
         let (column_step, row_step) = (step(left, right, width), step(top, bottom, height));
         Self {
             eye: frame.eye,
@@ -346,20 +348,24 @@ impl Grid {
     /// The same grid for vectors of doubles.
     #[inline(always)]
     pub fn map<U>(&self, convert: impl Fn(f64) -> U) -> Grid<U> {
-        let number = |number: DoubleDouble| number.map(&convert);
         Grid {
-            eye: self.eye.map(number),
-            right: self.right.map(number),
-            up: self.up.map(number),
-            forward: self.forward.map(number),
-            first_x: number(self.first_x),
-            first_y: number(self.first_y),
-            column_step: number(self.column_step),
-            row_step: number(self.row_step),
-            per_column: number(self.per_column),
-            per_row: number(self.per_row),
+            eye: vector_of(self.eye, &convert),
+            right: vector_of(self.right, &convert),
+            up: vector_of(self.up, &convert),
+            forward: vector_of(self.forward, &convert),
+            first_x: self.first_x.map(&convert),
+            first_y: self.first_y.map(&convert),
+            column_step: self.column_step.map(&convert),
+            row_step: self.row_step.map(&convert),
+            per_column: self.per_column.map(&convert),
+            per_row: self.per_row.map(&convert),
         }
     }
+}
+
+#[inline(always)]
+fn vector_of<U>(vector: Vector<DoubleDouble>, convert: &impl Fn(f64) -> U) -> Vector<DoubleDouble<U>> {
+    Vector { x: vector.x.map(convert), y: vector.y.map(convert), z: vector.z.map(convert) }
 }
 
 impl<T: ExactProduct> Grid<T> {

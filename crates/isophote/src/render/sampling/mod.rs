@@ -191,6 +191,6 @@ fn cropped(map: Map, region: Region, scene: &PreparedScene) -> Map {
         Channel { quantity, unit, values }
     });
     let mask = Mask::of_shapes(region.size, &part(&map.mask.shapes(), rows(), width));
-    let window = band::window(scene.scene(), region);
+    let window = scene.scene().camera().window(region, scene.scene().length());
     Map { full: map.full, region, window, provenance: map.provenance, mask, channels: channels.collect() }
 }

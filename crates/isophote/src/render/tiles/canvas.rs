@@ -163,29 +163,28 @@ impl Canvas {
         end: f64,
         mut at: usize,
     ) {
-        let splat = |number| D::splat(kind, number);
-        let (zero, beyond) = (splat(0.0), splat(f64::INFINITY));
+        let (zero, beyond) = (D::splat(kind, 0.0), D::splat(kind, f64::INFINITY));
+        let [least, greatest] = [D::splat(kind, pen.doubtful[0]), D::splat(kind, pen.doubtful[1])];
         while column < end {
             let first = column - pen.column;
             let u = D::distances(kind, first, 0.0);
             let after_first = D::distances(kind, first, row.roots[0]);
             let before_last = -D::distances(kind, first, row.roots[1]);
-            let clearance = splat(pen.clearance) * after_first * before_last;
-            let along = u.times_plus(splat(row.depth[1]), splat(row.depth[0]));
+            let clearance = D::splat(kind, pen.clearance) * after_first * before_last;
+            let along = u.times_plus(D::splat(kind, row.depth[1]), D::splat(kind, row.depth[0]));
             let depth = D::select(zero.is_less(clearance), along - clearance.or_zero().sqrt(), beyond);
             let before = D::load(kind, &self.depths[at..]);
             let is_nearer = depth.is_less(before);
             let apart = (depth - before).max(before - depth);
-            let [least, greatest] = pen.doubtful;
-            let at_edge = D::bits(splat(least).is_less(clearance)) & D::bits(clearance.is_less(splat(greatest)));
-            let close = D::bits(apart.is_less(splat(pen.uncertain)));
+            let at_edge = D::bits(least.is_less(clearance)) & D::bits(clearance.is_less(greatest));
+            let close = D::bits(apart.is_less(D::splat(kind, pen.uncertain)));
             let here = bits_below(end - column);
             if (at_edge | close) & here != 0 {
                 self.doubt(pen, [at_edge & here, close & here], &stored(along), &stored(clearance), &stored(depth), at);
             }
             D::select(is_nearer, depth, before).store(&mut self.depths[at..]);
             let outlines = D::load(kind, &self.outlines[at..]);
-            D::select(is_nearer, splat(pen.index), outlines).store(&mut self.outlines[at..]);
+            D::select(is_nearer, D::splat(kind, pen.index), outlines).store(&mut self.outlines[at..]);
             column += count_of::<D>();
             at += D::COUNT;
         }

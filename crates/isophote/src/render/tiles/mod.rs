@@ -17,7 +17,7 @@ use self::group::{Group, Groups};
 use self::outlines::{Outlines, View};
 use self::shading::Shader;
 use crate::accelerate::Walk;
-use crate::camera::ScreenPosition;
+use crate::camera::{Projection, ScreenPosition};
 use crate::lanes::{Lane, LaneJob, Precision};
 use crate::map::{Pixel, Run};
 use crate::prepare::{Hit, PreparedScene};
@@ -29,14 +29,16 @@ pub const WIDTH: u32 = 64;
 /// Rows of a tile: bands that have as many are drawn best.
 pub const HEIGHT: u32 = 32;
 
-/// Whether scenes like this are drawn by tiles: spheres only, and many of them or with shadows; with lights that are
-/// somewhere, and ambient light that nothing keeps off.
+/// Whether scenes like this are drawn by tiles: spheres only, and many of them or with shadows; seen in perspective, with
+/// lights that are somewhere, and ambient light that nothing keeps off.
 pub fn suit(scene: &PreparedScene) -> bool {
     let description = scene.scene();
     let is_round = description.shapes().iter().all(|shape| shape.geometry.is_round());
     let all_are_somewhere = description.lights().iter().all(|light| light.position().is_some());
     let is_obstructed = description.ambient().is_some_and(|ambient| ambient.obstruction.is_some());
-    is_round
+    let has_window = matches!(scene.frame().projection, Projection::Perspective(_));
+    has_window
+        && is_round
         && all_are_somewhere
         && !is_obstructed
         && (scene.casts_shadows_between_shapes() || scene.primitive_count() > MANY)
@@ -79,7 +81,10 @@ impl LaneJob for TilesJob<'_, '_> {
         S: Lane<Element = f32>,
         D: Lane<Element = f64, Kind = S::Kind>,
     {
-        let view = View::new(self.scene);
+        let Projection::Perspective(window) = &self.scene.frame().projection else {
+            unreachable!("`suit` refuses other cameras");
+        };
+        let view = View::new(self.scene, window);
         let mut work = Work {
             scene: self.scene,
             view: &view,
@@ -183,11 +188,7 @@ impl Work<'_> {
         let least_length = self.view.least_length(tile);
         loop {
             let limit = beam.depth_of(self.canvas.farthest() / (least_length * least_length));
-            let numbers = std::iter::from_fn(
-                #[inline(always)]
-                || self.walk.next::<S::Narrow>(kind, tree, &beam, limit),
-            );
-            self.outlines.take(numbers);
+            self.outlines.take::<S::Narrow>(kind, tree, &beam, limit, &mut self.walk);
             if self.outlines.is_exhausted() {
                 return true;
             }

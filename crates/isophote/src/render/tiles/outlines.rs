@@ -1,7 +1,8 @@
 //! The outlines of the spheres in a beam, eight at a time in pairs of doubles.
 
 use super::Tile;
-use crate::accelerate::{Accelerator, Beam};
+use crate::accelerate::{Accelerator, Beam, Walk};
+use crate::camera::Screen;
 use crate::double_double::DoubleDouble;
 use crate::lanes::Lane;
 use crate::map::Resolution;
@@ -24,9 +25,9 @@ pub struct View {
 }
 
 impl View {
-    /// The view of a scene's camera.
-    pub fn new(scene: &PreparedScene) -> Self {
-        let (frame, grid) = (scene.frame(), Grid::new(scene.precise_frame()));
+    /// The view of a scene's camera through its window.
+    pub fn new(scene: &PreparedScene, window: &Screen) -> Self {
+        let (frame, grid) = (scene.frame(), Grid::new(scene.precise_frame(), window));
         let (first, step) = grid.rounded();
         let mut view = Self {
             grid,
@@ -115,9 +116,20 @@ impl Outlines {
 
     /// Takes the next few spheres.
     #[inline(always)]
-    pub fn take(&mut self, numbers: impl Iterator<Item = u32>) {
+    pub fn take<S: Lane<Element = f32>>(
+        &mut self,
+        kind: S::Kind,
+        tree: &Accelerator,
+        beam: &Beam,
+        limit: f32,
+        walk: &mut Walk,
+    ) {
         self.taken.clear();
-        self.taken.extend(numbers.take(BATCH));
+        while self.taken.len() < BATCH
+            && let Some(number) = walk.next::<S>(kind, tree, beam, limit)
+        {
+            self.taken.push(number);
+        }
     }
 
     /// Whether there were none.
@@ -192,6 +204,11 @@ impl Outlines {
 }
 
 #[inline(always)]
+fn exactly<D: Lane<Element = f64>>(kind: D::Kind, numbers: &[f64; BLOCK]) -> DoubleDouble<D> {
+    DoubleDouble::exactly(D::load(kind, numbers))
+}
+
+#[inline(always)]
 fn store<D: Lane<Element = f64>>(numbers: D) -> [f64; BLOCK] {
     let mut out = [0.0; BLOCK];
     numbers.store(&mut out);
@@ -207,22 +224,27 @@ impl Block {
         doubtful: [f64; BLOCK],
         number: [u32; BLOCK],
     ) -> Self {
-        let load = |numbers: [f64; BLOCK]| DoubleDouble::exactly(D::load(kind, &numbers));
         let radius = spheres.map(|(_, radius)| radius);
         let center = Vector::new(
-            load(spheres.map(|(center, _)| center.x)),
-            load(spheres.map(|(center, _)| center.y)),
-            load(spheres.map(|(center, _)| center.z)),
+            exactly::<D>(kind, &spheres.map(|(center, _)| center.x)),
+            exactly::<D>(kind, &spheres.map(|(center, _)| center.y)),
+            exactly::<D>(kind, &spheres.map(|(center, _)| center.z)),
         );
-        let from_eye = grid.from_eye(center, load(radius));
+        let from_eye = grid.from_eye(center, exactly::<D>(kind, &radius));
         let ellipse = Ellipse::new(from_eye, grid.in_camera(from_eye), grid);
         let metres = D::load(kind, &radius);
-        let depth = ellipse.direction.map(
-            #[inline(always)]
-            |direction| store(direction.dot(ellipse.center) * metres),
-        );
+        let [first, by_column, by_row] = ellipse.direction;
+        let depth = [
+            store(first.dot(ellipse.center) * metres),
+            store(by_column.dot(ellipse.center) * metres),
+            store(by_row.dot(ellipse.center) * metres),
+        ];
         let distance = store(ellipse.center.length() * metres);
-        Self { ellipse: ellipse.map(store::<D>), depth, distance, radius, doubtful, number }
+        let ellipse = ellipse.map(
+            #[inline(always)]
+            |numbers| store(numbers),
+        );
+        Self { ellipse, depth, distance, radius, doubtful, number }
     }
 
     /// How far the centre is before the eye.

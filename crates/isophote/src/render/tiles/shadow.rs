@@ -97,17 +97,16 @@ impl Shadows {
             let lit = D::bits(is_lit);
             (self.lit[vector], self.blocked[vector], self.possible[vector]) = (lit, 0, 0);
             any |= lit;
-            for (range, x) in [&mut x_range, &mut y_range, &mut z_range].into_iter().zip([normal.x, normal.y, normal.z])
-            {
-                range[0] = range[0].min(D::select(is_lit, x, far));
-                range[1] = range[1].max(D::select(is_lit, x, -far));
-            }
+            x_range = widened(x_range, is_lit, normal.x, far);
+            y_range = widened(y_range, is_lit, normal.y, far);
+            z_range = widened(z_range, is_lit, normal.z, far);
         }
-        let [x, y, z] = [x_range, y_range, z_range].map(
-            #[inline(always)]
-            |[least, greatest]| [-greatest_of(-least), greatest_of(greatest)],
-        );
-        (any != 0).then(|| [Vector::new(x[0], y[0], z[0]), Vector::new(x[1], y[1], z[1])])
+        if any == 0 {
+            return None;
+        }
+        let least = Vector::new(least_of(x_range[0]), least_of(y_range[0]), least_of(z_range[0]));
+        let greatest = Vector::new(greatest_of(x_range[1]), greatest_of(y_range[1]), greatest_of(z_range[1]));
+        Some([least, greatest])
     }
 
     /// Goes through what is in the tube to the light, until no pixel sees it.
@@ -216,4 +215,15 @@ fn greatest_of<D: Lane<Element = f64>>(numbers: D) -> f64 {
     let mut all = [0.0; 16];
     numbers.store(&mut all);
     all[..D::COUNT].iter().copied().fold(f64::NEG_INFINITY, f64::max)
+}
+
+#[inline(always)]
+fn least_of<D: Lane<Element = f64>>(numbers: D) -> f64 {
+    -greatest_of(-numbers)
+}
+
+/// A range of numbers, wide enough for some more.
+#[inline(always)]
+fn widened<D: Lane<Element = f64>>([least, greatest]: [D; 2], is_lit: D::Mask, numbers: D, far: D) -> [D; 2] {
+    [least.min(D::select(is_lit, numbers, far)), greatest.max(D::select(is_lit, numbers, -far))]
 }

@@ -2,10 +2,10 @@
 
 use super::numbers::vector_text;
 use super::{Validator, limits};
-use crate::camera::{Camera, Handedness, Screen};
+use crate::camera::{Camera, Handedness};
 use crate::map::Resolution;
 use crate::scene::document::Path;
-use crate::scene::source::{CameraSource, SceneSource, ScreenSource};
+use crate::scene::source::{CameraSource, SceneSource};
 use crate::vector::Vector;
 
 impl Validator {
@@ -21,14 +21,14 @@ impl Validator {
         if let (Some(forward), Some(up)) = (forward, up) {
             self.not_parallel(&path, camera, forward, up);
         }
-        let screen = self.screen(&path, camera.screen.as_ref());
         let resolution = self.resolution(&path.key("resolution"), camera.resolution.unwrap_or([800, 600]));
+        let projection = self.projection(&path, camera, resolution);
         Some(Camera {
             eye: eye?,
             forward: forward?,
             up: up?,
             handedness: source.handedness.unwrap_or(Handedness::Right),
-            screen: screen?,
+            projection: projection?,
             resolution: resolution?,
         })
     }
@@ -46,19 +46,6 @@ impl Validator {
                 "allowed: any other direction; it shows where the top of the picture is",
             );
         }
-    }
-
-    pub(super) fn screen(&mut self, path: &Path, screen: Option<&ScreenSource>) -> Option<Screen> {
-        let Some(screen) = screen else {
-            let help = "write `screen = { distance = 5, x = [-4, 4], y = [-3, 3] }`";
-            self.problems.missing(path, "screen", help);
-            return None;
-        };
-        let path = path.key("screen");
-        let distance = self.required_size(&path, "distance", screen.distance);
-        let x = self.edges(&path, "x", screen.x, "left and right");
-        let y = self.edges(&path, "y", screen.y, "lower and upper");
-        Some(Screen { distance: distance?, x: x?, y: y? })
     }
 
     pub(super) fn edges(&mut self, path: &Path, key: &str, edges: Option<[f64; 2]>, which: &str) -> Option<[f64; 2]> {

@@ -6,6 +6,7 @@ mod grids;
 mod lights;
 mod numbers;
 mod places;
+mod projection;
 mod shapes;
 mod things;
 
@@ -17,10 +18,10 @@ use super::document::Path;
 use super::error::{Problem, ProblemKind};
 use super::read::{Problems, short};
 use super::source::SceneSource;
-use crate::camera::Camera;
+use crate::camera::{Camera, Extent, Projection};
 use crate::reflectance::Convention;
 use crate::render::Sampling;
-use crate::units::{LengthUnit, Quantities};
+use crate::units::{LengthUnit, Quantities, ScreenUnit};
 
 /// What a scene may hold. The bounds on numbers keep every formula far from overflow.
 pub mod limits {
@@ -178,15 +179,30 @@ impl Validator {
                 self.warn(&root.key("material").key(name), message, "leave it out, or use it");
             }
         }
-        if let Some(Camera { screen, resolution, .. }) = camera {
-            let width = (screen.x[1] - screen.x[0]) / f64::from(resolution.width);
-            let height = (screen.y[1] - screen.y[0]) / f64::from(resolution.height);
-            if (width / height - 1.0).abs() > 1e-9 {
-                let (width, height) = (self.length_text(width), self.length_text(height));
-                let message = format!("pixels are not square: {width} wide, {height} high");
-                let help = "pictures look stretched; give `resolution` the proportions of `screen`";
-                self.warn(&root.key("camera").key("resolution"), message, help);
-            }
+        if let Some(camera) = camera {
+            self.square_pixels(camera);
+        }
+    }
+
+    fn square_pixels(&mut self, camera: &Camera) {
+        let Camera { projection, resolution, .. } = camera;
+        let Extent { x, y } = projection.extent(*resolution);
+        let width = (x[1] - x[0]) / f64::from(resolution.width);
+        let height = (y[1] - y[0]) / f64::from(resolution.height);
+        if (width / height - 1.0).abs() > 1e-9 {
+            let unit = ScreenUnit::of(self.length, projection.is_angular());
+            let [width, height] = [width, height].map(|side| {
+                let separator = if unit == ScreenUnit::Degree { "" } else { " " };
+                format!("{}{separator}{}", rounded(unit.from_internal(side)), unit.name())
+            });
+            let message = format!("pixels are not square: {width} wide, {height} high");
+            let edges = match projection {
+                Projection::Perspective(_) | Projection::Fisheye(_) => "`screen`",
+                Projection::Orthographic(_) => "`window`",
+                Projection::Panorama(_) => "`longitude` and `latitude`",
+            };
+            let help = format!("pictures look stretched; give `resolution` the proportions of {edges}");
+            self.warn(&Path::root().key("camera").key("resolution"), message, &help);
         }
     }
 

@@ -1,7 +1,7 @@
 //! Where things stand to each other.
 
 use super::{Checked, Validator, limits};
-use crate::camera::Camera;
+use crate::camera::{Camera, Projection};
 use crate::light::Light;
 use crate::scene::document::Path;
 use crate::scene::{Probe, Shape};
@@ -10,9 +10,11 @@ use crate::shape::surface_at;
 impl Validator {
     pub(super) fn eye_against_shapes(&mut self, camera: Option<&Camera>, shapes: &Checked<Shape>) {
         let Some(camera) = camera else { return };
+        // Parallel rays start all over a plane, which may well cut through shapes.
+        let is_a_start = !matches!(camera.projection, Projection::Orthographic(_));
         for shape in shapes.iter().flatten() {
             let distance = shape.geometry.signed_distance(camera.eye);
-            if distance.abs() <= shape.geometry.surface_tolerance(camera.eye) {
+            if is_a_start && distance.abs() <= shape.geometry.surface_tolerance(camera.eye) {
                 let message = format!("the eye is on the surface of \"{}\"", shape.name);
                 let path = Path::root().key("camera").key("eye");
                 self.wrong(&path, message, "allowed: outside or inside a shape, not on its surface");

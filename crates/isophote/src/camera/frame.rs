@@ -1,0 +1,182 @@
+//! The camera's axes, its rays, and the way back from a point in space to the screen.
+
+use super::{Camera, Extent, Handedness, Projection, ScreenPosition, panorama};
+use crate::double_double::DoubleDouble;
+use crate::map::Resolution;
+use crate::real::Scalar;
+use crate::shape::Ray;
+use crate::vector::Vector;
+
+/// The camera's axes, computed once for a number type.
+#[derive(Clone, Copy, Debug)]
+pub struct CameraFrame<T = f64> {
+    /// O.
+    pub eye: Vector<T>,
+    /// Unit vector of +x on the screen.
+    pub right: Vector<T>,
+    /// Unit vector of +y on the screen.
+    pub up: Vector<T>,
+    /// Unit vector of the direction of view.
+    pub forward: Vector<T>,
+    pub(crate) projection: Projection,
+    pub(crate) resolution: Resolution,
+    extent: Extent,
+    /// `right` and `up` in 32 digits, for rays that start beside the eye.
+    across: [Vector<DoubleDouble>; 2],
+}
+
+/// How a point is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    /// Where the ray to the point starts, in metres: the eye, or a point of the plane through it.
+    pub start: Vector,
+    /// V, the unit vector from the point against the ray.
+    pub view: Vector,
+    /// From the start to the point, in metres; negative where parallel rays start beyond the point and do not see it.
+    pub distance: f64,
+}
+
+impl<T: Scalar> CameraFrame<T> {
+    /// The axes of a camera (2.3).
+    #[must_use]
+    pub fn new(camera: &Camera) -> Self {
+        let axes = Axes::<T>::new(camera);
+        let precise = Axes::<DoubleDouble>::new(camera);
+        let Camera { projection, resolution, .. } = *camera;
+        Self {
+            eye: Vector::from_f64(camera.eye),
+            right: axes.right,
+            up: axes.up,
+            forward: axes.forward,
+            projection,
+            resolution,
+            extent: projection.extent(resolution),
+            across: [precise.right, precise.up],
+        }
+    }
+
+    /// The ray through a place on the screen (2.1), (2.7) to (2.10); none where the camera sees nothing: outside the circle of
+    /// a fisheye, beyond the poles of a panorama.
+    #[inline]
+    pub fn ray(&self, position: ScreenPosition) -> Option<Ray<T>> {
+        let direction = match &self.projection {
+            Projection::Perspective(screen) => {
+                let (x, y) = self.screen_point::<T>(position);
+                self.forward * T::from_f64(screen.distance) + self.right * x + self.up * y
+            }
+            Projection::Orthographic(_) => return Some(self.parallel_ray(position)),
+            Projection::Fisheye(fisheye) => {
+                let (x, y) = self.screen_point(position);
+                self.out_of_axes(fisheye.direction(x, y)?)
+            }
+            Projection::Panorama(_) => {
+                let (longitude, latitude) = self.screen_point(position);
+                self.out_of_axes(panorama::direction(longitude, latitude)?)
+            }
+        };
+        let nothing = T::zero();
+        let offset = Vector::new(nothing, nothing, nothing);
+        Some(Ray { anchor: self.eye, offset, direction: direction.normalized() })
+    }
+
+    /// Where it starts is found in 32 digits, of which the second half goes into the offset: a start far from the eye would
+    /// lose the digits of what it meets nearby.
+    fn parallel_ray(&self, position: ScreenPosition) -> Ray<T> {
+        let (x, y) = self.screen_point::<DoubleDouble>(position);
+        let [right, up] = self.across;
+        let start = self.eye.map(T::precise) + right * x + up * y;
+        let anchor = start.map(DoubleDouble::rounded);
+        let rest = start - Vector::from_f64(anchor);
+        Ray { anchor: Vector::from_f64(anchor), offset: rest.map(T::from_precise), direction: self.forward }
+    }
+
+    fn out_of_axes(&self, Vector { x, y, z }: Vector<T>) -> Vector<T> {
+        self.forward * z + self.right * x + self.up * y
+    }
+
+    fn screen_point<U: Scalar>(&self, position: ScreenPosition) -> (U, U) {
+        match position {
+            ScreenPosition::PixelCenter(pixel) => self.screen_point(ScreenPosition::InPixel { pixel, place: [0.5; 2] }),
+            ScreenPosition::InPixel { pixel, place: [across, down] } => {
+                let Resolution { width, height } = self.resolution;
+                let [left, right] = self.extent.x;
+                let [bottom, top] = self.extent.y;
+                let column = f64::from(pixel.column) + (across - 0.5);
+                let row = f64::from(pixel.row) + (down - 0.5);
+                (between(left, right, column, width), between(top, bottom, row, height))
+            }
+            ScreenPosition::Point { x, y } => (U::from_f64(x), U::from_f64(y)),
+        }
+    }
+}
+
+impl CameraFrame {
+    /// x and y on the screen of a place on it, in metres or degrees.
+    #[must_use]
+    pub fn point_on_screen(&self, position: ScreenPosition) -> [f64; 2] {
+        let (x, y) = self.screen_point(position);
+        [x, y]
+    }
+
+    /// Where a point in space appears on the screen, x and y in metres or degrees; nothing for a point that the camera cannot
+    /// see: behind it, or outside the circle of a fisheye.
+    #[must_use]
+    pub fn project(&self, point: Vector) -> Option<[f64; 2]> {
+        let from_eye = point - self.eye;
+        let [x, y, ahead] = [self.right, self.up, self.forward].map(|axis| from_eye.dot(axis));
+        match &self.projection {
+            Projection::Perspective(screen) => (ahead > 0.0).then(|| {
+                let scale = screen.distance / ahead;
+                [x * scale, y * scale]
+            }),
+            Projection::Orthographic(_) => (ahead > 0.0).then_some([x, y]),
+            Projection::Fisheye(fisheye) => fisheye.project(Vector::new(x, y, ahead)),
+            Projection::Panorama(extent) => Some(panorama::project(extent, Vector::new(x, y, ahead))),
+        }
+    }
+
+    /// How the point `anchor + offset` is looked at.
+    #[must_use]
+    pub fn sight(&self, anchor: Vector, offset: Vector) -> Sight {
+        let to_eye = (self.eye - anchor) - offset;
+        if let Projection::Orthographic(_) = self.projection {
+            let (view, distance) = (-self.forward, -to_eye.dot(self.forward));
+            return Sight { start: anchor + offset + view * distance, view, distance };
+        }
+        let distance = to_eye.length();
+        Sight { start: self.eye, view: to_eye * (1.0 / distance), distance }
+    }
+}
+
+/// The unit vectors of a camera.
+struct Axes<T> {
+    right: Vector<T>,
+    up: Vector<T>,
+    forward: Vector<T>,
+}
+
+impl<T: Scalar> Axes<T> {
+    fn new(camera: &Camera) -> Self {
+        let forward = Vector::from_f64(camera.forward).normalized();
+        let up_given = Vector::from_f64(camera.up).normalized();
+        let right = match camera.handedness {
+            Handedness::Left => up_given.cross(forward),
+            Handedness::Right => forward.cross(up_given),
+        }
+        .normalized();
+        let up = match camera.handedness {
+            Handedness::Left => forward.cross(right),
+            Handedness::Right => right.cross(forward),
+        };
+        Self { right, up, forward }
+    }
+}
+
+/// The middle of cell `index` (a cell, a place between the middles of two, or beside them) when the way from `first` to `last`
+/// is cut into `count` cells. The two ends are weighted, not their difference, so that a symmetric window has exactly symmetric pixels.
+pub(crate) fn between<T: Scalar>(first: f64, last: f64, index: f64, count: u32) -> T {
+    let after = 2.0 * index + 1.0;
+    let before = 2.0 * f64::from(count) - after;
+    let weighted = T::from_f64(first) * T::from_f64(before) + T::from_f64(last) * T::from_f64(after);
+    weighted / T::from_f64(2.0 * f64::from(count))
+}

@@ -1,0 +1,28 @@
+//! Longitude and latitude (2.10): x is the longitude in degrees from the direction of view towards the right, y the latitude in
+//! degrees from the plane of both, upwards.
+
+use super::Extent;
+use crate::double_double::DoubleDouble;
+use crate::real::Scalar;
+use crate::vector::Vector;
+
+/// The unit vector (right, up, forward) that is seen at a place; nothing beyond the poles.
+pub(super) fn direction<T: Scalar>(longitude: DoubleDouble, latitude: DoubleDouble) -> Option<Vector<T>> {
+    if latitude.rounded().abs() > 90.0 {
+        return None;
+    }
+    let radians = |degrees: DoubleDouble| degrees * DoubleDouble::PI / DoubleDouble::from_f64(180.0);
+    let (sine, cosine) = T::sine_and_cosine_of(radians(longitude));
+    let (height, ring) = T::sine_and_cosine_of(radians(latitude));
+    Some(Vector::new(ring * sine, height, ring * cosine))
+}
+
+/// Where a direction (right, up, forward) appears: at the longitude that is not west of the image, and less than a turn away
+/// from its left edge.
+pub(super) fn project(extent: &Extent, direction: Vector) -> [f64; 2] {
+    let longitude = libm::atan2(direction.x, direction.z).to_degrees();
+    let latitude = libm::atan2(direction.y, libm::hypot(direction.x, direction.z)).to_degrees();
+    let [west, _] = extent.x;
+    let turns = libm::ceil((west - longitude) / 360.0);
+    [longitude + 360.0 * turns, latitude]
+}

@@ -1,0 +1,140 @@
+//! How the camera sees: each projection with the keys that belong to it.
+
+use super::Validator;
+use crate::camera::{Extent, Fisheye, Mapping, Projection, Screen};
+use crate::map::Resolution;
+use crate::scene::document::Path;
+use crate::scene::source::{CameraSource, ProjectionName, ScreenSource, WindowSource};
+use crate::units::Choice;
+
+/// The fields of view of a perspective camera, in degrees: beyond, the screen is a point or has no end.
+const PERSPECTIVE: std::ops::RangeInclusive<f64> = 1e-6..=179.9999;
+
+/// Those of a fisheye.
+const FISHEYE: std::ops::RangeInclusive<f64> = 1e-6..=360.0;
+
+/// The least width and height of a panorama, in degrees.
+const NARROWEST: f64 = 1e-6;
+
+impl Validator {
+    pub(super) fn projection(
+        &mut self,
+        path: &Path,
+        camera: &CameraSource,
+        resolution: Option<Resolution>,
+    ) -> Option<Projection> {
+        if self.problems.has(&path.key("projection")) {
+            // Which keys it needs is not known.
+            return None;
+        }
+        let name = camera.projection.unwrap_or(ProjectionName::Perspective);
+        self.refuse_keys_of_other_projections(path, camera, name);
+        match name {
+            ProjectionName::Perspective => self.perspective(path, camera, resolution).map(Projection::Perspective),
+            ProjectionName::Orthographic => self.window(path, camera.window.as_ref()).map(Projection::Orthographic),
+            ProjectionName::FisheyeEquidistant => {
+                self.fisheye(path, camera, Mapping::Equidistant).map(Projection::Fisheye)
+            }
+            ProjectionName::FisheyeEqualArea => self.fisheye(path, camera, Mapping::EqualArea).map(Projection::Fisheye),
+            ProjectionName::Panorama => self.panorama(path, camera).map(Projection::Panorama),
+        }
+    }
+
+    fn perspective(&mut self, path: &Path, camera: &CameraSource, resolution: Option<Resolution>) -> Option<Screen> {
+        match (&camera.screen, camera.field_of_view) {
+            (Some(_), Some(_)) => {
+                let message = "`camera` has both `screen` and `field_of_view`".into();
+                self.wrong(&path.key("field_of_view"), message, "allowed: one of the two");
+                None
+            }
+            (None, Some(field_of_view)) => {
+                let field_of_view = self.field_of_view(path, field_of_view, PERSPECTIVE)?;
+                let distance = self.length.to_metres(1.0);
+                Some(Screen::of_field_of_view(field_of_view, distance, resolution?))
+            }
+            (Some(screen), None) => self.screen(path, screen),
+            (None, None) => {
+                let help =
+                    "write `screen = { distance = 5, x = [-4, 4], y = [-3, 3] }`, or `field_of_view = 40` instead";
+                self.problems.missing(path, "screen", help);
+                None
+            }
+        }
+    }
+
+    fn screen(&mut self, path: &Path, screen: &ScreenSource) -> Option<Screen> {
+        let path = path.key("screen");
+        let distance = self.required_size(&path, "distance", screen.distance);
+        let x = self.edges(&path, "x", screen.x, "left and right");
+        let y = self.edges(&path, "y", screen.y, "lower and upper");
+        Some(Screen { distance: distance?, x: x?, y: y? })
+    }
+
+    fn window(&mut self, path: &Path, window: Option<&WindowSource>) -> Option<Extent> {
+        let Some(window) = window else {
+            self.problems.missing(path, "window", "write `window = { x = [-4, 4], y = [-3, 3] }`");
+            return None;
+        };
+        let path = path.key("window");
+        let x = self.edges(&path, "x", window.x, "left and right");
+        let y = self.edges(&path, "y", window.y, "lower and upper");
+        Some(Extent { x: x?, y: y? })
+    }
+
+    fn fisheye(&mut self, path: &Path, camera: &CameraSource, mapping: Mapping) -> Option<Fisheye> {
+        let Some(field_of_view) = camera.field_of_view else {
+            let help = "write `field_of_view = 180`, the angle across the circle, in degrees";
+            self.problems.missing(path, "field_of_view", help);
+            return None;
+        };
+        Some(Fisheye { mapping, field_of_view: self.field_of_view(path, field_of_view, FISHEYE)? })
+    }
+
+    fn field_of_view(&mut self, path: &Path, value: f64, allowed: std::ops::RangeInclusive<f64>) -> Option<f64> {
+        if allowed.contains(&value) {
+            return Some(value);
+        }
+        let message = format!("`camera.field_of_view` is {value}");
+        let help = format!("allowed: {} to {} degrees", allowed.start(), allowed.end());
+        self.wrong(&path.key("field_of_view"), message, &help);
+        None
+    }
+
+    fn panorama(&mut self, path: &Path, camera: &CameraSource) -> Option<Extent> {
+        let x = self.angles(path, "longitude", camera.longitude.unwrap_or([-180.0, 180.0]), 360.0);
+        let y = self.angles(path, "latitude", camera.latitude.unwrap_or([-90.0, 90.0]), 90.0);
+        Some(Extent { x: x?, y: y? })
+    }
+
+    fn angles(&mut self, path: &Path, key: &str, [first, second]: [f64; 2], farthest: f64) -> Option<[f64; 2]> {
+        let is_within = [first, second].iter().all(|angle| angle.abs() <= farthest);
+        if is_within && (NARROWEST..=360.0).contains(&(second - first)) {
+            return Some([first, second]);
+        }
+        let path = path.key(key);
+        let turn = if farthest > 180.0 { " and at most 360 apart" } else { "" };
+        let help = format!("allowed: from {} to {farthest} degrees, the smaller one first{turn}", -farthest);
+        self.wrong(&path, format!("`{path}` runs from {first} to {second}"), &help);
+        None
+    }
+
+    fn refuse_keys_of_other_projections(&mut self, path: &Path, camera: &CameraSource, name: ProjectionName) {
+        use ProjectionName::{FisheyeEqualArea, FisheyeEquidistant, Orthographic, Panorama, Perspective};
+        let keys: [(&str, bool, &[ProjectionName]); 5] = [
+            ("screen", camera.screen.is_some(), &[Perspective]),
+            ("field_of_view", camera.field_of_view.is_some(), &[Perspective, FisheyeEquidistant, FisheyeEqualArea]),
+            ("window", camera.window.is_some(), &[Orthographic]),
+            ("longitude", camera.longitude.is_some(), &[Panorama]),
+            ("latitude", camera.latitude.is_some(), &[Panorama]),
+        ];
+        for (key, is_written, projections) in keys {
+            if is_written && !projections.contains(&name) {
+                let message = format!("`camera.{key}` means nothing for the projection \"{}\"", name.name());
+                let names: Vec<String> =
+                    projections.iter().map(|name| format!("`projection = \"{}\"`", name.name())).collect();
+                let help = format!("leave it out, or write {}", names.join(" or "));
+                self.wrong(&path.key(key), message, &help);
+            }
+        }
+    }
+}
