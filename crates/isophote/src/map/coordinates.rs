@@ -8,7 +8,7 @@ use crate::units::{Choice, LengthUnit};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Coordinates {
-    /// x and y on the camera's screen.
+    /// x and y on the camera's screen plane.
     #[default]
     Screen,
     /// The same in degrees, as the screens of a fisheye and of a panorama have them.

@@ -10,7 +10,7 @@ mod tests;
 mod totals;
 
 use crate::analysis::cells::{self, Cell, Layout};
-use crate::camera::between;
+use crate::camera::{Sight, between};
 use crate::map::{Map, Pixel, Quantity, Resolution, Window};
 use crate::prepare::{Hit, PreparedScene};
 use crate::shape::{Primitive, Side, SurfacePoint};
@@ -245,9 +245,7 @@ impl Surface<'_> {
     fn hit(&self, cell: Pixel) -> Hit {
         let ChartPoint { anchor, offset, normal } = self.chart_point(cell);
         let normal = normal * self.request.side.sign();
-        let to_eye = (self.scene.frame().eye - anchor) - offset;
-        let distance = to_eye.length();
-        let view = to_eye * (1.0 / distance);
+        let Sight { view, distance, .. } = self.scene.frame().sight(anchor, offset);
         let point = SurfacePoint { anchor, offset, normal, view, cos_theta_o: normal.dot(view) };
         let geometry = &self.scene.scene().shapes()[self.request.primitive.shape].geometry;
         let from_inside = geometry.is_closed() && self.request.side == Side::Back;

@@ -126,13 +126,15 @@ impl<'figure> Content<'figure> {
             isophotes: isophotes(map, &options.quantity, &levels)?,
             has_gaps: map.mask().visible() < map.region.size.pixels(),
             size,
-            x: match x.unit {
-                "°" => axis(x, Ticks::of_degrees(window.x, size[0])),
-                _ => axis(x, Ticks::side_by_side(window.x, size[0], TICK_SIZE)),
+            x: if goes_round(x, window.x) {
+                axis(x, Ticks::of_degrees(window.x, size[0]))
+            } else {
+                axis(x, Ticks::side_by_side(window.x, size[0], TICK_SIZE))
             },
-            y: match y.unit {
-                "°" => axis(y, Ticks::of_degrees(window.y, size[1])),
-                _ => axis(y, Ticks::stacked(window.y, size[1])),
+            y: if goes_round(y, window.y) {
+                axis(y, Ticks::of_degrees(window.y, size[1]))
+            } else {
+                axis(y, Ticks::stacked(window.y, size[1]))
             },
             bar: color_bar(map, options, range, seen, levels, size[1]),
         })
@@ -209,6 +211,11 @@ impl Layout {
 const HATCHING: &str = "<defs><pattern id=\"no-surface\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\" \
     patternTransform=\"rotate(45)\"><rect width=\"6\" height=\"6\" fill=\"#f1f2f5\"/><rect width=\"1\" height=\"6\" \
     fill=\"#d3d6dd\"/></pattern></defs>";
+
+/// Whether so many degrees are read by right angles and their parts.
+fn goes_round(axis: CoordinateAxis, [first, last]: [f64; 2]) -> bool {
+    axis.unit == "°" && last - first >= 90.0
+}
 
 /// The least and the greatest value seen; `None` where no surface is seen.
 fn seen_range(map: &Map, quantity: &Quantity, values: Scalars<'_>) -> Result<Option<[f64; 2]>, FigureError> {
