@@ -70,7 +70,8 @@ impl Boundable for SingleBox {
 
 /// Merges the nodes of a binary tree: each wide one takes the children of its largest boxes for as long as there is room.
 fn widen(tree: &Bvh2) -> Vec<Node> {
-    let mut nodes = Vec::with_capacity(tree.nodes.len() / WIDTH + 1);
+    let mut nodes = Vec::with_capacity(tree.nodes.len() / 8 + 1);
+    // (Room for more nodes than there will be: to move them would take the memory twice.)
     nodes.push(Node::EMPTY);
     // Places in `nodes` to be filled, with the binary node that goes there.
     let mut open = vec![(0, tree.nodes[0])];

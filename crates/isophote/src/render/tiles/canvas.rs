@@ -160,6 +160,10 @@ impl Canvas {
         let pen = Pen::new(block, lane, index, view);
         let [middle, slope] = [ellipse.middle[0][lane], ellipse.middle[1][lane]];
         let width_squared = ellipse.width_squared[lane];
+        let [first_column, last_column] = columns_of(block, lane);
+        // All rows of a small sphere have the same columns: that is faster than to find out which ones each of them has.
+        let is_small = last_column - first_column < SMALL;
+        let columns = [first_column.max(left), (last_column + 1.0).min(right)];
         let mut at_row = rows[0];
         while at_row < rows[1] {
             let v = at_row - row;
@@ -168,8 +172,12 @@ impl Canvas {
             let center = middle + slope * v;
             let depth = block.depth[2][lane].mul_add(v, block.depth[0][lane]);
             let row_of = RowOf { roots: [center - width, center + width], depth: [depth, block.depth[1][lane]] };
-            let start = (pen.column + row_of.roots[0]).floor().max(left);
-            let end = ((pen.column + row_of.roots[1]).ceil() + 1.0).min(right);
+            let [start, end] = if is_small && squared >= 0.0 {
+                columns
+            } else {
+                let [first, last] = row_of.roots.map(|root| pen.column + root);
+                [first.floor().max(left), (last.ceil() + 1.0).min(right)]
+            };
             if start < end {
                 let at = whole(at_row - top) * STRIDE + whole(start - left);
                 if squared >= 0.0 {
@@ -247,12 +255,8 @@ impl Canvas {
     /// Whether what a sphere covers, and a pixel around it, is nearer than the sphere.
     #[inline(always)]
     fn is_hidden(&self, block: &Block, lane: usize, rows: [f64; 2], left: f64, least_length: f64) -> bool {
-        let ellipse = &block.ellipse;
-        let [first, last] = [ellipse.rows[0][lane], ellipse.rows[1][lane]];
-        let half = 0.5 * (last - first);
-        let middle = ellipse.column[lane] + ellipse.middle[0][lane] + ellipse.middle[1][lane] * (first + half) - left;
-        let reach = (ellipse.width_squared[lane].sqrt() + ellipse.middle[1][lane].abs()) * half + 1.0;
-        let columns = [(middle - reach).max(0.0), (middle + reach).min(f64::from(WIDTH) - 1.0)];
+        let [start, end] = columns_of(block, lane);
+        let columns = [(start - left).max(0.0), (end - left).min(f64::from(WIDTH) - 1.0)];
         let near = (block.distance[lane] - block.radius[lane]) * least_length * (1.0 - 1e-6);
         if !(columns[0] <= columns[1]) {
             return false;
@@ -301,6 +305,20 @@ impl Pen {
             uncertain_at_edge: uncertain + 1e-6 * radius * length,
         }
     }
+}
+
+/// Outlines with fewer columns are small: two vectors.
+const SMALL: f64 = 32.0;
+
+/// The first and the last column that an outline may touch, and one more on either side.
+#[inline(always)]
+fn columns_of(block: &Block, lane: usize) -> [f64; 2] {
+    let ellipse = &block.ellipse;
+    let [first, last] = [ellipse.rows[0][lane], ellipse.rows[1][lane]];
+    let half = 0.5 * (last - first);
+    let middle = ellipse.column[lane] + ellipse.middle[0][lane] + ellipse.middle[1][lane] * (first + half);
+    let reach = (ellipse.width_squared[lane].sqrt() + ellipse.middle[1][lane].abs()) * half + 1.0;
+    [(middle - reach).floor(), (middle + reach).ceil()]
 }
 
 #[inline(always)]
