@@ -26,7 +26,7 @@ pub fn scene_to_render(arguments: &RenderArguments) -> Result<Scene> {
     }
     let sampling = arguments.sampling.source();
     if sampling != SamplingSource::default() {
-        scene = scene.with_sampling(sampling).map_err(|error| wrong("--samples or --tolerance", &error))?;
+        scene = scene.with_sampling(&sampling).map_err(|error| wrong("--samples or --tolerance", &error))?;
     }
     warn(&name, &scene, arguments.quiet);
     Ok(scene)

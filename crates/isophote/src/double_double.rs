@@ -392,6 +392,7 @@ mod tests {
         }
     }
 
+    #[expect(clippy::unreadable_literal, reason = "digits to be compared, not read")]
     const KNOWN_ANGLES: [(f64, [f64; 2], [f64; 2]); 10] = [
         (0.0, [0.0, 0.0], [1.0, 0.0]),
         (1e-08, [1e-08, -1.6666666666666668e-25], [1.0, -5e-17]),

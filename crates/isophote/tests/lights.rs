@@ -119,7 +119,8 @@ fn ambient_light_alone_gives_the_same_irradiance_everywhere() {
                 };
                 let found = value(Quantity::Brightness, index);
                 // cosθ_o of (3.3) is as exact as maps are.
-                let allowed = if convention == Convention::Lab { f64::max(allowed, 1e-12) } else { 4.0 * allowed };
+                let allowed =
+                    if convention == Convention::Lab { f64::max(4.0 * allowed, 1e-12) } else { 4.0 * allowed };
                 assert!((found - expected).abs() <= allowed * 21.0, "{convention:?}: {found} {expected}");
                 assert_eq!(value(Quantity::Specular, index), 0.0);
             }

@@ -6,6 +6,7 @@ use anyhow::Result;
 use isophote::camera::{Camera, CameraFrame, Extent, Fisheye, Mapping, Projection, Screen};
 use isophote::light::{Emission, Light, LightKind};
 use isophote::reflectance::Reflectance;
+use isophote::render::Sampling;
 use isophote::scene::{Material, Probe, Problem, Scene, Shape};
 use isophote::shape::Measure;
 use isophote::text::significant;
@@ -37,6 +38,12 @@ fn to_text(scene: &Scene) -> String {
     row("handedness", format!("{} (2.3)", camera.handedness.name()));
     row("convention", format!("{}: {}", convention.label(), convention.formula()));
     row("quantities", format!("{}: B in {}", scene.quantities().name(), convention.unit(scene.quantities())));
+    if scene.shadows() {
+        row("shadows", "shapes stand in each other's light".into());
+    }
+    if scene.sampling().is_more_than_centres() {
+        row("sampling", scene.sampling().describe());
+    }
     row("eye", vector(camera.eye));
     row("forward", vector(frame.forward));
     row("up", vector(frame.up));
@@ -45,7 +52,10 @@ fn to_text(scene: &Scene) -> String {
     row(&name, projection);
     row("resolution", format!("{} × {} pixels", camera.resolution.width, camera.resolution.height));
     if let Some(ambient) = scene.ambient() {
-        row("ambient", format!("{} {}", short(ambient.radiance), scene.quantities().radiance_unit()));
+        let unit = scene.quantities().radiance_unit();
+        let obstructed =
+            ambient.obstruction.map_or(String::new(), |samples| format!(", obstructed: {samples} directions a point"));
+        row("ambient", format!("{} {unit}{obstructed}", short(ambient.radiance)));
     }
     for (title, table) in [
         ("materials", materials(scene)),
@@ -183,14 +193,21 @@ fn to_json(scene: &Scene) -> Value {
         "formula": scene.convention().formula_number(),
         "quantities": scene.quantities().name(),
         "unit": scene.convention().unit(scene.quantities()),
+        "shadows": scene.shadows(),
+        "sampling": sampling_json(scene.sampling()),
         "camera": camera_json(scene.camera()),
         "materials": scene.materials().iter().map(material_json).collect::<Vec<_>>(),
         "shapes": scene.shapes().iter().map(|shape| shape_json(shape, scene)).collect::<Vec<_>>(),
         "lights": scene.lights().iter().map(light_json).collect::<Vec<_>>(),
-        "ambient": scene.ambient().map(|ambient| json!({"radiance": ambient.radiance})),
+        "ambient": scene.ambient().map(|ambient| json!({"radiance": ambient.radiance, "obstructed": ambient.obstruction.is_some(), "samples": ambient.obstruction})),
         "probes": scene.probes().iter().map(probe_json).collect::<Vec<_>>(),
         "warnings": scene.warnings().iter().map(warning_json).collect::<Vec<_>>(),
     })
+}
+
+fn sampling_json(sampling: Sampling) -> Value {
+    let Sampling { samples, tolerance, filter } = sampling;
+    json!({"samples": samples, "tolerance": tolerance, "filter": filter.name()})
 }
 
 fn camera_json(camera: &Camera) -> Value {

@@ -65,6 +65,7 @@ impl Coordinates {
         matches!(self, Self::Screen | Self::ScreenAngles)
     }
 
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
     pub(super) fn is_default(&self) -> bool {
         *self == Self::default()
     }

@@ -214,7 +214,7 @@ impl Scene {
     ///
     /// # Errors
     /// Numbers out of the [`limits`].
-    pub fn with_sampling(mut self, given: SamplingSource) -> Result<Self, SceneError> {
+    pub fn with_sampling(mut self, given: &SamplingSource) -> Result<Self, SceneError> {
         let sampling = self.source.sampling.get_or_insert_default();
         sampling.samples = given.samples.or(sampling.samples);
         sampling.tolerance = given.tolerance.or(sampling.tolerance);

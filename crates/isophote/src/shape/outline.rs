@@ -149,7 +149,7 @@ impl Ellipse {
     pub(super) fn of_sphere(sphere: &Sphere, frame: &CameraFrame<DoubleDouble>) -> Outline {
         let Projection::Perspective(window) = &frame.projection else { return Outline::Unknown };
         let grid = Grid::new(frame, window);
-        let from_eye = grid.from_eye(Vector::from_f64(sphere.center), DoubleDouble::from_f64(sphere.radius));
+        let from_eye = grid.seen_from_eye(Vector::from_f64(sphere.center), DoubleDouble::from_f64(sphere.radius));
         let in_camera = grid.in_camera(from_eye);
         let z = in_camera.z.rounded();
         if z <= -1.0 {
@@ -371,7 +371,7 @@ fn vector_of<U>(vector: Vector<DoubleDouble>, convert: &impl Fn(f64) -> U) -> Ve
 impl<T: ExactProduct> Grid<T> {
     /// From the eye to a centre, in radii.
     #[inline(always)]
-    pub fn from_eye(&self, center: Vector<DoubleDouble<T>>, radius: DoubleDouble<T>) -> Vector<DoubleDouble<T>> {
+    pub fn seen_from_eye(&self, center: Vector<DoubleDouble<T>>, radius: DoubleDouble<T>) -> Vector<DoubleDouble<T>> {
         (center - self.eye) * (radius.constant(1.0) / radius)
     }
 

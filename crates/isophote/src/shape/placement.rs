@@ -101,6 +101,7 @@ impl Placement {
 
     /// The axes, unit vectors.
     #[inline(always)]
+    #[must_use]
     pub fn axes<T: Scalar>(&self) -> [Vector<T>; 3] {
         [self.axis(0), self.axis(1), self.axis(2)]
     }

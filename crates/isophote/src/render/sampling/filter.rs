@@ -36,6 +36,7 @@ impl Choice for Filter {
 
 impl Filter {
     /// How many pixels in each direction contribute to a pixel's value, besides its own.
+    #[must_use]
     pub fn reach(self) -> u32 {
         match self {
             Self::Box => 0,
@@ -45,6 +46,7 @@ impl Filter {
     }
 
     /// The weight of light so many pixels across and down from the centre.
+    #[must_use]
     pub fn weight(self, across: f64, down: f64) -> f64 {
         self.along(across.abs()) * self.along(down.abs())
     }

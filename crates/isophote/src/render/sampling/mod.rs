@@ -46,7 +46,8 @@ impl Sampling {
     }
 
     /// As outputs say it.
-    fn describe(self) -> String {
+    #[must_use]
+    pub fn describe(self) -> String {
         let filter = crate::units::Choice::name(self.filter);
         match self.tolerance {
             Some(tolerance) => format!("up to {} samples, tolerance {tolerance}, {filter} filter", self.samples),
@@ -135,7 +136,8 @@ fn peak(scene: &PreparedScene, centres: &Centres<'_>) -> Result<f64, RenderError
 
 /// The pixels of a region (by their index in the map) that need more than the value at their centre: all of them
 /// without a tolerance; else those where the brightness bends by more than the tolerance on one of the four lines
-/// through the pixel and two of its neighbours. A slope alone needs nothing: its mean is the value at the centre.
+/// through the pixel and two of its neighbours, or differs by more from a neighbour that sees something else. A slope
+/// alone needs nothing: its mean is the value at the centre. But across a limb it may be an accident.
 fn uncertain_pixels(map: &Map, region: Region, tolerance: Option<f64>) -> Vec<usize> {
     let Region { corner, size } = map.region;
     let width = size.width as usize;
@@ -147,25 +149,31 @@ fn uncertain_pixels(map: &Map, region: Region, tolerance: Option<f64>) -> Vec<us
     let brightness = map.scalar(&Quantity::Brightness).expect("it was asked for");
     let Some(tolerance) = tolerance else { return all.map(|(row, column)| row * width + column).collect() };
     let height = size.height as usize;
+    let shapes = map.mask().shapes();
     let at = |row: usize, column: usize| brightness.at(row * width + column);
-    let bends = |(row, column): (usize, usize)| {
+    let is_uncertain = |(row, column): (usize, usize)| {
         let here = at(row, column);
+        let shape = shapes[row * width + column];
         let lines = [(0, 1), (1, 0), (1, 1), (1, -1)];
         lines.into_iter().any(|(down, across): (isize, isize)| {
             let neighbour = |sign: isize| {
                 let row = row.checked_add_signed(sign * down).filter(|row| *row < height)?;
                 let column = column.checked_add_signed(sign * across).filter(|column| *column < width)?;
-                Some(at(row, column))
+                Some((at(row, column), shapes[row * width + column]))
             };
+            let is_edge = [neighbour(1), neighbour(-1)]
+                .into_iter()
+                .flatten()
+                .any(|(value, other)| other != shape && (value - here).abs() > tolerance);
             let bend = match (neighbour(1), neighbour(-1)) {
-                (Some(after), Some(before)) => before + after - 2.0 * here,
-                (Some(only), None) | (None, Some(only)) => only - here,
+                (Some((after, _)), Some((before, _))) => before + after - 2.0 * here,
+                (Some((only, _)), None) | (None, Some((only, _))) => only - here,
                 (None, None) => 0.0,
             };
-            bend.abs() > tolerance
+            is_edge || bend.abs() > tolerance
         })
     };
-    all.filter(|place| bends(*place)).map(|(row, column)| row * width + column).collect()
+    all.filter(|place| is_uncertain(*place)).map(|(row, column)| row * width + column).collect()
 }
 
 /// A part of a map.
@@ -178,9 +186,6 @@ fn cropped(map: Map, region: Region, scene: &PreparedScene) -> Map {
     let top = (region.corner.row - outer.corner.row) as usize;
     let (width, outer_width) = (region.size.width as usize, outer.size.width as usize);
     let rows = || (top..top + region.size.height as usize).map(|row| row * outer_width + left);
-    fn part<T: Copy>(values: &[T], rows: impl Iterator<Item = usize>, width: usize) -> Vec<T> {
-        rows.flat_map(|start| values[start..start + width].iter().copied()).collect()
-    }
     let channels = map.channels.into_iter().map(|Channel { quantity, unit, values }| {
         let values = match values {
             Values::Scalar(values) => Values::Scalar(part(&values, rows(), width)),
@@ -193,4 +198,9 @@ fn cropped(map: Map, region: Region, scene: &PreparedScene) -> Map {
     let mask = Mask::of_shapes(region.size, &part(&map.mask.shapes(), rows(), width));
     let window = scene.scene().camera().window(region, scene.scene().length());
     Map { full: map.full, region, window, provenance: map.provenance, mask, channels: channels.collect() }
+}
+
+/// So many values from each of some places.
+fn part<T: Copy>(values: &[T], starts: impl Iterator<Item = usize>, width: usize) -> Vec<T> {
+    starts.flat_map(|start| values[start..start + width].iter().copied()).collect()
 }

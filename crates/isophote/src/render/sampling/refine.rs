@@ -40,10 +40,19 @@ impl Averages {
     /// The averaged channels of a map.
     pub fn of(map: &Map, scene: &PreparedScene) -> Self {
         let is_mean = |quantity: &Quantity| match quantity {
-            Quantity::Brightness | Quantity::Irradiance | Quantity::Diffuse | Quantity::Specular => true,
-            Quantity::Ambient | Quantity::Light(_) => true,
-            Quantity::Depth | Quantity::Position | Quantity::Normal | Quantity::Shape => false,
-            Quantity::Samples | Quantity::Coverage | Quantity::AmbientError => false,
+            Quantity::Brightness
+            | Quantity::Irradiance
+            | Quantity::Diffuse
+            | Quantity::Specular
+            | Quantity::Ambient
+            | Quantity::Light(_) => true,
+            Quantity::Depth
+            | Quantity::Position
+            | Quantity::Normal
+            | Quantity::Shape
+            | Quantity::Samples
+            | Quantity::Coverage
+            | Quantity::AmbientError => false,
         };
         let channels = map.channels.iter().enumerate().filter(|(_, channel)| is_mean(&channel.quantity));
         let channels = channels.map(|(index, channel)| (index, ScalarChannel::of(&channel.quantity, scene.scene())));
@@ -118,7 +127,9 @@ impl Refinement {
             }
         }
         let share = 1.0 / f64::from(samples);
-        sums.iter_mut().for_each(|sum| *sum *= share);
+        for sum in &mut sums {
+            *sum *= share;
+        }
         let coverage = f64::from(covered) * share;
         (Self { index, samples, coverage, hit: first_hit, sums }, greatest - least)
     }

@@ -267,7 +267,7 @@ impl Block {
             exactly::<D>(kind, &spheres.map(|(center, _)| center.y)),
             exactly::<D>(kind, &spheres.map(|(center, _)| center.z)),
         );
-        let from_eye = grid.from_eye(center, exactly::<D>(kind, &radius));
+        let from_eye = grid.seen_from_eye(center, exactly::<D>(kind, &radius));
         let ellipse = Ellipse::new(from_eye, grid.in_camera(from_eye), grid);
         let metres = D::load(kind, &radius);
         let [first, by_column, by_row] = ellipse.direction;

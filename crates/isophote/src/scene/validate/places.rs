@@ -65,7 +65,7 @@ impl Validator {
     pub(super) fn probes_against_shapes(&mut self, probes: &Checked<Probe>, shapes: &Checked<Shape>) {
         // With a shape missing, its probes would be called wrong for nothing.
         let is_wrong = |kind: &&str| self.problems.has(&Path::root().key(kind));
-        if shapes.iter().any(Option::is_none) || super::shapes::KINDS.iter().any(|kind| is_wrong(kind)) {
+        if shapes.iter().any(Option::is_none) || super::shapes::KINDS.iter().any(is_wrong) {
             return;
         }
         for (index, probe) in probes.iter().enumerate() {

@@ -70,7 +70,7 @@ impl Validator {
             let name = names.check(self, &path, name);
             let geometry = shape.geometry(self, &path);
             // Parts with materials of their own need no other.
-            let has_own = geometry.as_ref().is_none_or(|geometry| geometry.has_own_materials());
+            let has_own = geometry.as_ref().is_some_and(Geometry::has_own_materials);
             let material =
                 if has_own && material.is_none() { Ok(None) } else { self.material_of(&path, material, &known) };
             Some(Shape::new(name?, material.ok()?, geometry?, shadow))
