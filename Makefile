@@ -85,7 +85,7 @@ $(GENERATED):
 			> /dev/null || exit 1; \
 	done
 	$(CARGO) run --quiet -- surface --quiet scenes/surface.toml --figure $@/docs/images/gallery/surface.png > /dev/null
-	$(CARGO) run --quiet -- grid --quiet scenes/grid.toml --figure $@/docs/images/gallery/grid.png > /dev/null
+	$(CARGO) run --quiet -- grid --quiet scenes/grid.toml --name floor --figure $@/docs/images/gallery/grid.png > /dev/null
 
 # NumPy, zarr and xarray read what we write for them. Without them two tests say that they are skipped, and all others run.
 .PHONY: python-env

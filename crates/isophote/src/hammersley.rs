@@ -1,17 +1,17 @@
 //! Hammersley's points: few of them stand for an area.
 
-/// So many points of the unit square. Of n = 2^m points, every rectangle of area 1/n whose sides are powers of 1/2 holds exactly one
-/// (a (0, m, 2)-net), so that edges of any direction cut off about their share of them. One point is the centre.
+/// So many points of the unit square, evenly around its middle. Of n = 2^m points, every rectangle of area 1/n whose sides
+/// are powers of 1/2 holds exactly one (a (0, m, 2)-net), so that edges of any direction cut off about their share of them.
+/// One point is the centre.
 pub fn points(count: u32) -> Vec<[f64; 2]> {
     let count = count.max(1);
-    let levels = count.next_power_of_two();
-    let place = |index: u32| {
-        let across = (f64::from(index) + 0.5) / f64::from(count);
-        // The bits of the index, mirrored at the binary point, and half of the last place.
-        let down = f64::from(index.reverse_bits()) / 4_294_967_296.0 + 0.5 / f64::from(levels);
-        [across, down]
-    };
-    (0..count).map(place).collect()
+    let shift = 0.5 - (0..count).map(mirrored).sum::<f64>() / f64::from(count);
+    (0..count).map(|index| [(f64::from(index) + 0.5) / f64::from(count), mirrored(index) + shift]).collect()
+}
+
+/// The bits of a number, mirrored at the binary point.
+fn mirrored(index: u32) -> f64 {
+    f64::from(index.reverse_bits()) / 4_294_967_296.0
 }
 
 #[cfg(test)]
@@ -30,7 +30,8 @@ mod tests {
             assert_eq!(points.len(), count as usize);
             for axis in [0, 1] {
                 let mean = points.iter().map(|place| place[axis]).sum::<f64>() / f64::from(count);
-                assert!((mean - 0.5).abs() < 0.5 / f64::from(count), "{count}: {mean}");
+                assert!((mean - 0.5).abs() < 1e-12, "{count}: {mean}");
+                assert!(points.iter().all(|point| (0.0..1.0).contains(&point[axis])), "{count}");
             }
         }
     }

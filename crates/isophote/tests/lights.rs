@@ -118,7 +118,9 @@ fn ambient_light_alone_gives_the_same_irradiance_everywhere() {
                     _ => k_d * expected * scene.trace_pixel(map.pixel(index)).expect("seen").point.cos_theta_o,
                 };
                 let found = value(Quantity::Brightness, index);
-                assert!((found - expected).abs() <= 4.0 * allowed * 21.0, "{convention:?}: {found} {expected}");
+                // cosθ_o of (3.3) is as exact as maps are.
+                let allowed = if convention == Convention::Lab { f64::max(allowed, 1e-12) } else { 4.0 * allowed };
+                assert!((found - expected).abs() <= allowed * 21.0, "{convention:?}: {found} {expected}");
                 assert_eq!(value(Quantity::Specular, index), 0.0);
             }
         }

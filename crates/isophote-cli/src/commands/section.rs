@@ -97,6 +97,7 @@ fn quantities(arguments: &SectionArguments, scene: &Scene) -> Result<Vec<Quantit
     let quantities = channels(&arguments.channel, scene)?;
     let unsuitable = |quantity: &&Quantity| {
         matches!(quantity, Quantity::Position | Quantity::Normal | Quantity::Shape | Quantity::Light(_))
+            || Quantity::OF_SAMPLING.contains(quantity)
     };
     if let Some(quantity) = quantities.iter().find(unsuitable) {
         let allowed = "brightness, irradiance, ambient, diffuse, specular, depth";

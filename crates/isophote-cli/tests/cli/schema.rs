@@ -141,6 +141,7 @@ fn violations(root: &Value, schema: &Value, value: &Value) -> Vec<String> {
                 "object" => value.is_object(),
                 "array" => value.is_array(),
                 "string" => value.is_string(),
+                "boolean" => value.is_boolean(),
                 "number" => value.is_number(),
                 "integer" => value.is_u64() || value.is_i64(),
                 other => panic!("type {other}"),

@@ -130,7 +130,8 @@ mod tests {
             let relative = growth / share(angle);
             assert!((spot.relative_growth(towards(angle)) / relative - 1.0).abs() < 1e-6, "{angle}");
         }
-        assert!((steepest / spot.steepest() - 1.0).abs() < 0.1, "{steepest}");
+        // It is a bound: the slope is steepest in the middle, and sinγ largest at the outer edge.
+        assert!((0.7..=1.0).contains(&(steepest / spot.steepest())), "{steepest}");
         assert_eq!(spot.relative_growth(towards(0.1)), 0.0);
     }
 }

@@ -141,7 +141,7 @@ fn the_flux_on_every_shape_is_the_intensity_times_the_solid_angle() {
         (&sphere, Side::Back, 4.0 * PI),
         (&cylinder, Side::Back, 4.0 * PI / 1.25_f64.sqrt()),
         (&disk, Side::Front, 2.0 * PI * (1.0 - 2.0 / 2.5)),
-        (&rectangle, Side::Back, 4.0 * libm::atan(3.0 / (2.0 * 26.0_f64.sqrt()))),
+        (&rectangle, Side::Back, 4.0 * libm::atan(1.5 * 0.5 / (2.0 * 6.5_f64.sqrt()))),
     ];
     for (scene, side, solid_angle) in cases {
         for projection in [Projection::Equirectangular, Projection::EqualArea] {

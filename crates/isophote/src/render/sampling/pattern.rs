@@ -1,7 +1,8 @@
 //! How many samples of a pixel are enough.
 
-/// How far the share of the points on one side of a straight edge may be from the share of the area, times n^(3/4).
-pub const EDGE_ERROR: f64 = 0.75;
+/// How far the share of n points on one side of a straight edge may be from the share of the area, times n^(3/4), for up to
+/// 1024 points. The worst edges run along the diagonal.
+pub const EDGE_ERROR: f64 = 1.7;
 
 /// The least number of points, a power of two, that bounds the error of the mean over a pixel that an edge cuts: the
 /// values on both sides differ by `contrast`.
@@ -32,7 +33,7 @@ mod tests {
     #[test]
     fn the_error_of_an_edge_is_bounded() {
         let mut worst = 0.0_f64;
-        for count in [4, 8, 16, 32, 64, 128, 256] {
+        for count in [4, 8, 16, 32, 64, 128, 256, 512, 1024] {
             let places = points(count);
             for turn in 1..180 {
                 let angle = (f64::from(turn) + 0.21).to_radians() * 2.0;
