@@ -160,10 +160,6 @@ impl Canvas {
         let pen = Pen::new(block, lane, index, view);
         let [middle, slope] = [ellipse.middle[0][lane], ellipse.middle[1][lane]];
         let width_squared = ellipse.width_squared[lane];
-        let [first_column, last_column] = columns_of(block, lane);
-        // All rows of a small sphere have the same columns: that is faster than to find out which ones each of them has.
-        let is_small = last_column - first_column < SMALL;
-        let columns = [first_column.max(left), (last_column + 1.0).min(right)];
         let mut at_row = rows[0];
         while at_row < rows[1] {
             let v = at_row - row;
@@ -172,12 +168,8 @@ impl Canvas {
             let center = middle + slope * v;
             let depth = block.depth[2][lane].mul_add(v, block.depth[0][lane]);
             let row_of = RowOf { roots: [center - width, center + width], depth: [depth, block.depth[1][lane]] };
-            let [start, end] = if is_small && squared >= 0.0 {
-                columns
-            } else {
-                let [first, last] = row_of.roots.map(|root| pen.column + root);
-                [first.floor().max(left), (last.ceil() + 1.0).min(right)]
-            };
+            let start = (pen.column + row_of.roots[0]).floor().max(left);
+            let end = ((pen.column + row_of.roots[1]).ceil() + 1.0).min(right);
             if start < end {
                 let at = whole(at_row - top) * STRIDE + whole(start - left);
                 if squared >= 0.0 {
@@ -306,9 +298,6 @@ impl Pen {
         }
     }
 }
-
-/// Outlines with fewer columns are small: two vectors.
-const SMALL: f64 = 32.0;
 
 /// The first and the last column that an outline may touch, and one more on either side.
 #[inline(always)]

@@ -27,7 +27,7 @@ use crate::render::{Observer, RenderError};
 /// Columns of a tile.
 pub const WIDTH: u32 = 64;
 /// Rows of a tile: bands that have as many are drawn best.
-pub const HEIGHT: u32 = 32;
+pub const HEIGHT: u32 = 64;
 
 /// Whether scenes like this are drawn by tiles: spheres only, and many of them or with shadows; seen in perspective, with
 /// lights that are somewhere, and ambient light that nothing keeps off.
