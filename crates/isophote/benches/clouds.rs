@@ -154,7 +154,7 @@ fn scene_text(case: &Case) -> String {
             0 => [5.0, 5.0, -10.0],
             _ => [random.between(-8.0, 8.0), random.between(-8.0, 8.0), random.between(-10.0, 2.0)],
         };
-        text += &format!("[[light]]\nposition = {position:?}\nintensity = 100\n");
+        text.extend(["[[light]]\nposition = ", &format!("{position:?}"), "\nintensity = 100\n"]);
     }
     text
 }

@@ -30,7 +30,8 @@ fn scene_file(name: &str) -> SceneSource {
 fn scene_names() -> Vec<String> {
     let names = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes")).expect("it is there");
     let names = names.map(|entry| entry.expect("it is readable").file_name().to_string_lossy().into_owned());
-    let names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
+    let names: Vec<String> =
+        names.filter(|name| std::path::Path::new(name).extension().is_some_and(|suffix| suffix == "toml")).collect();
     assert!(names.len() >= 20);
     names
 }

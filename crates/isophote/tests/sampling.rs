@@ -121,7 +121,7 @@ fn regions_and_the_reference_give_the_same_pixels() {
             let whole = render(&scene, None);
             let region = Region { corner: Pixel { column: 7, row: 20 }, size: Resolution { width: 30, height: 25 } };
             let part = render(&scene, Some(region));
-            for (quantity, index) in [(Quantity::Brightness, 0), (Quantity::Coverage, 1), (Quantity::Depth, 2)].iter() {
+            for (quantity, index) in &[(Quantity::Brightness, 0), (Quantity::Coverage, 1), (Quantity::Depth, 2)] {
                 let whole = values(&whole, quantity);
                 for (at, value) in values(&part, quantity).into_iter().enumerate() {
                     let pixel = part.pixel(at);

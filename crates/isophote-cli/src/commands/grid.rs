@@ -10,6 +10,7 @@ use isophote::scene::{Grid, Scene};
 use isophote::text::significant;
 use isophote::units::Choice;
 use serde::Serialize;
+use std::fmt::Write;
 
 use super::cells::{CellFiles, place_text};
 use super::render::{channels, unit};
@@ -143,7 +144,8 @@ impl Summary<'_> {
             let axes = computed.map.window.coordinates.axes(self.scene.length());
             let place = |extreme| place_text(axes, computed.place(extreme, self.scene));
             let (min, max) = (place(&found.min), place(&found.max));
-            text.push_str(&format!("  {}: minimum at {min}; maximum at {max}\n", computed.grid.name));
+            // Writing to a text cannot fail.
+            let _ = writeln!(text, "  {}: minimum at {min}; maximum at {max}", computed.grid.name);
         }
         text
     }

@@ -163,9 +163,9 @@ impl Beam {
 #[inline(always)]
 fn highest<V: Lane<Element = f32>>(kind: V::Kind, node: &Node, (normal, offset): &([f32; 3], f32)) -> V {
     let mut sum = V::splat(kind, *offset);
-    for axis in 0..3 {
-        let side = usize::from(normal[axis] > 0.0);
-        sum = V::load(kind, &node.sides[side][axis]).times_plus(V::splat(kind, normal[axis]), sum);
+    for (axis, component) in normal.iter().enumerate() {
+        let side = usize::from(*component > 0.0);
+        sum = V::load(kind, &node.sides[side][axis]).times_plus(V::splat(kind, *component), sum);
     }
     sum
 }

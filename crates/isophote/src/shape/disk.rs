@@ -20,7 +20,7 @@ impl Disk {
         Self { placement: Placement::along(center, Vector::from_f64(normal)), radius }
     }
 
-    /// See [`flat`].
+    /// A hit of the plane that is within its borders.
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let beyond = |x: T, y: T| x.times_plus(x, y * y).sqrt() - T::from_f64(self.radius);
         flat::meet(&self.placement, Some(self.radius), ray, accuracy, beyond)

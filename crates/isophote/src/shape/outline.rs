@@ -21,7 +21,7 @@ pub enum Outline {
 /// The outline of a sphere that is wholly before the eye, and what its pixels see.
 ///
 /// In units of the radius from the eye, with the screen at distance 1, the sphere's centre is c and a ray goes along
-/// d = (x, y, 1). Its clearance (see [`Approach`](super::Approach)) is
+/// d = (x, y, 1). Its clearance cos²θ_o is
 ///
 /// ```text
 /// cos²θ_o = 1 − ‖d × c‖²/‖d‖² = A (x − x_a)(x_b − x)/‖d‖²,   A = c_y² + c_z² − 1

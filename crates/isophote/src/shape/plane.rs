@@ -18,7 +18,7 @@ impl Plane {
         Self { placement: Placement::along(point, Vector::from_f64(normal)) }
     }
 
-    /// See [`flat`].
+    /// A hit of the plane that is within its borders.
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         flat::meet(&self.placement, None, ray, accuracy, |_, _| -T::from_f64(f64::INFINITY))
     }

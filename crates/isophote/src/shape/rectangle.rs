@@ -24,7 +24,7 @@ impl Rectangle {
         Self { placement, half_width: 0.5 * width, half_height: 0.5 * height }
     }
 
-    /// See [`flat`].
+    /// A hit of the plane that is within its borders.
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         let absolute = |value: T| value.max(-value);
         let beyond =

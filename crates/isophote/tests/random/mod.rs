@@ -114,7 +114,13 @@ fn add(source: &mut SceneSource, seed: &Seed, kind: usize) {
             source.cuboid.push(shape);
         }
         3 => {
-            source.cylinder.push(CylinderSource { from: place, to: end, radius, material, ..CylinderSource::default() })
+            source.cylinder.push(CylinderSource {
+                from: place,
+                to: end,
+                radius,
+                material,
+                ..CylinderSource::default()
+            });
         }
         4 => {
             let apex_radius = (degrees > 0.0).then_some(second);

@@ -32,6 +32,7 @@ fn request() -> SurfaceRequest {
     }
 }
 
+#[expect(clippy::unnecessary_wraps, reason = "requests hold it so")]
 fn size(width: u32, height: u32) -> Option<Resolution> {
     Some(Resolution { width, height })
 }

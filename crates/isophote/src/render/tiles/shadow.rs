@@ -111,6 +111,7 @@ impl Shadows {
 
     /// Goes through what is in the tube to the light, until no pixel sees it.
     #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "none of them belongs to another")]
     fn search<S, D>(
         &mut self,
         kind: S::Kind,

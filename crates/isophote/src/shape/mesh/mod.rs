@@ -29,7 +29,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// How a ray meets one of its triangles; see [`Triangle::meet`].
+    /// How a ray meets one of its triangles; see `Triangle::meet`.
     pub fn meet<T: Scalar>(&self, part: u32, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         self.triangle(part).meet(ray, accuracy, self.size())
     }
