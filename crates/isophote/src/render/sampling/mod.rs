@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 pub use filter::Filter;
 
-use self::refine::{Averages, Refinement, Wanted};
+use self::refine::{Averages, Refinement, Uncertain, Wanted};
 use super::band::{self, advance};
 use super::{RenderError, RenderSettings};
 use crate::analysis::statistics::totals;
@@ -91,9 +91,9 @@ pub fn render(
     let averages = Averages::of(&map, scene);
     let wanted = Wanted { averages: &averages, sampling, tolerance };
     let pixels = uncertain_pixels(&map, grown(region, reach, full), tolerance);
-    let refine = |&index: &usize| {
+    let refine = |uncertain: &Uncertain| {
         advance(settings.observer, 0)?;
-        Ok(Refinement::new(scene, &wanted, map.pixel(index), index))
+        Ok(Refinement::new(scene, &wanted, map.pixel(uncertain.index), uncertain))
     };
     let refined = match pool {
         Some(pool) if pixels.len() > WORTH_THREADS => {
@@ -134,11 +134,11 @@ fn peak(scene: &PreparedScene, centres: &Centres<'_>) -> Result<f64, RenderError
     Ok(totals(&map, &Quantity::Brightness).map_or(0.0, |totals| totals.max.value))
 }
 
-/// The pixels of a region (by their index in the map) that need more than the value at their centre: all of them
+/// The pixels of a region that need more than the value at their centre: all of them
 /// without a tolerance; else those where the brightness bends by more than the tolerance on one of the four lines
 /// through the pixel and two of its neighbours, or differs by more from a neighbour that sees something else. A slope
 /// alone needs nothing: its mean is the value at the centre. But across a limb it may be an accident.
-fn uncertain_pixels(map: &Map, region: Region, tolerance: Option<f64>) -> Vec<usize> {
+fn uncertain_pixels(map: &Map, region: Region, tolerance: Option<f64>) -> Vec<Uncertain> {
     let Region { corner, size } = map.region;
     let width = size.width as usize;
     let columns = (region.corner.column - corner.column) as usize;
@@ -147,33 +147,36 @@ fn uncertain_pixels(map: &Map, region: Region, tolerance: Option<f64>) -> Vec<us
     let rows = rows..rows + region.size.height as usize;
     let all = rows.flat_map(|row| columns.clone().map(move |column| (row, column)));
     let brightness = map.scalar(&Quantity::Brightness).expect("it was asked for");
-    let Some(tolerance) = tolerance else { return all.map(|(row, column)| row * width + column).collect() };
+    let Some(tolerance) = tolerance else {
+        return all.map(|(row, column)| Uncertain { index: row * width + column, contrast: 0.0 }).collect();
+    };
     let height = size.height as usize;
     let shapes = map.mask().shapes();
     let at = |row: usize, column: usize| brightness.at(row * width + column);
-    let is_uncertain = |(row, column): (usize, usize)| {
+    let uncertain = |(row, column): (usize, usize)| {
         let here = at(row, column);
         let shape = shapes[row * width + column];
-        let lines = [(0, 1), (1, 0), (1, 1), (1, -1)];
-        lines.into_iter().any(|(down, across): (isize, isize)| {
+        let (mut is_uncertain, mut contrast) = (false, 0.0_f64);
+        for (down, across) in [(0_isize, 1_isize), (1, 0), (1, 1), (1, -1)] {
             let neighbour = |sign: isize| {
                 let row = row.checked_add_signed(sign * down).filter(|row| *row < height)?;
                 let column = column.checked_add_signed(sign * across).filter(|column| *column < width)?;
                 Some((at(row, column), shapes[row * width + column]))
             };
-            let is_edge = [neighbour(1), neighbour(-1)]
-                .into_iter()
-                .flatten()
-                .any(|(value, other)| other != shape && (value - here).abs() > tolerance);
+            for (value, other) in [neighbour(1), neighbour(-1)].into_iter().flatten() {
+                contrast = contrast.max((value - here).abs());
+                is_uncertain |= other != shape && (value - here).abs() > tolerance;
+            }
             let bend = match (neighbour(1), neighbour(-1)) {
                 (Some((after, _)), Some((before, _))) => before + after - 2.0 * here,
                 (Some((only, _)), None) | (None, Some((only, _))) => only - here,
                 (None, None) => 0.0,
             };
-            is_edge || bend.abs() > tolerance
-        })
+            is_uncertain |= bend.abs() > tolerance;
+        }
+        is_uncertain.then_some(Uncertain { index: row * width + column, contrast })
     };
-    all.filter(|place| is_uncertain(*place)).map(|(row, column)| row * width + column).collect()
+    all.filter_map(uncertain).collect()
 }
 
 /// A part of a map.

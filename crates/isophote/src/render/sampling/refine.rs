@@ -22,6 +22,14 @@ pub struct Wanted<'w> {
     pub tolerance: Option<f64>,
 }
 
+/// A pixel whose value is not that at its centre.
+pub struct Uncertain {
+    /// Index in the map.
+    pub index: usize,
+    /// By how much its neighbours differ from it: so much may be in a corner of it that the first samples miss.
+    pub contrast: f64,
+}
+
 /// What the rays through a pixel saw.
 pub struct Refinement {
     /// Index in the map.
@@ -85,10 +93,11 @@ impl Averages {
 
 impl Refinement {
     /// Sends as many rays through a pixel as are wanted, or as its contrast takes.
-    pub fn new(scene: &PreparedScene, wanted: &Wanted<'_>, pixel: Pixel, index: usize) -> Self {
+    pub fn new(scene: &PreparedScene, wanted: &Wanted<'_>, pixel: Pixel, uncertain: &Uncertain) -> Self {
+        let index = uncertain.index;
         let most = wanted.sampling.samples;
         let Some(tolerance) = wanted.tolerance else { return Self::of_samples(scene, wanted, pixel, index, most).0 };
-        let mut samples = FIRST_SAMPLES.min(most);
+        let mut samples = pattern::enough(uncertain.contrast, tolerance, most).max(FIRST_SAMPLES.min(most));
         loop {
             let (refinement, contrast) = Self::of_samples(scene, wanted, pixel, index, samples);
             let enough = pattern::enough(contrast, tolerance, most);
