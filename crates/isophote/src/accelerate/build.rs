@@ -34,8 +34,8 @@ fn is_bounded(bounds: &Bounds) -> bool {
     bounds.least.to_array().into_iter().chain(bounds.greatest.to_array()).all(f64::is_finite)
 }
 
-/// A search for neighbours as short as can be, and no optimisation after it: on clouds of spheres that costs a few per
-/// cent of the queries' speed, and saves half of the time to build.
+/// A search for neighbours as short as can be, and no optimisation after it: trees of large clouds are built for a
+/// single image more often than not.
 fn binary_tree(boxes: Vec<SingleBox>, numbers: Vec<u32>) -> Bvh2 {
     let positions = (0..).take(numbers.len()).collect();
     let mut tree = PlocBuilder::new().build(PlocSearchDistance::VeryLow, &boxes, positions, SortPrecision::U64, 0);
