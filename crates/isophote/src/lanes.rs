@@ -14,12 +14,26 @@ use fearless_simd::{Level, dispatch, f32x16, f64x8, mask32x16, mask64x8, u32x16,
 
 use crate::real::Real;
 
+/// What vectors are computed by.
+pub trait Kind: Copy {
+    /// Does a part of a job; mark the closure `#[inline(always)]`. The part is compiled by itself: compilers take long over
+    /// large functions, about as the square of their size.
+    fn apart<R>(self, part: impl FnOnce() -> R) -> R;
+}
+
+impl<S: Simd> Kind for S {
+    #[inline(always)]
+    fn apart<R>(self, part: impl FnOnce() -> R) -> R {
+        self.vectorize(part)
+    }
+}
+
 /// A vector of numbers.
 pub trait Lane: Real {
     /// One of its numbers.
     type Element: Element;
     /// The instructions that compute it.
-    type Kind: Copy;
+    type Kind: Kind;
     /// How many numbers there are.
     const COUNT: usize;
     /// The vector of 16 singles or 8 doubles, where this one is two of them.
@@ -183,7 +197,7 @@ impl Instructions {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         let levels = [
             best.as_sse2().map(Level::Sse2),
-            best.as_sse4_2().map(Level::Sse4_2),
+            best.as_sse4_2().filter(|_| cfg!(not(disable_dispatch_sse4_2))).map(Level::Sse4_2),
             best.as_avx2().map(Level::Avx2),
             best.as_avx512().map(Level::Avx512),
         ];
@@ -223,11 +237,9 @@ impl Instructions {
         }
     }
 
-    /// Runs a job with vectors for these instructions. It is compiled by itself: all that a job calls is compiled into it,
-    /// once for each kind of instructions, and compilers take long over large functions.
-    #[inline(never)]
+    /// Runs a job with vectors for these instructions.
     pub fn run<J: LaneJob>(self, job: J) -> J::Output {
-        dispatch!(self.0, simd => run_with(simd, job))
+        job.run_by(self)
     }
 }
 
@@ -241,13 +253,23 @@ pub trait LaneJob {
     where
         S: Lane<Element = f32>,
         D: Lane<Element = f64, Kind = S::Kind>;
+
+    /// Computes it by these instructions. All that a job calls is compiled into this function, once for each kind of
+    /// instructions. (As a method of the job it is compiled beside other jobs, and not with them.)
+    #[inline(never)]
+    fn run_by(self, instructions: Instructions) -> Self::Output
+    where
+        Self: Sized,
+    {
+        dispatch!(instructions.0, simd => run_with(simd, self))
+    }
 }
 
 #[inline(always)]
 fn run_with<S: Simd, J: LaneJob>(simd: S, job: J) -> J::Output {
     // Two vectors in flight hide the latency of the divider. Where a vector fills four registers of sixteen, there is
     // no room for two.
-    if <S::f32s as SimdBase<S>>::LEN == 16 {
+    if const { <S::f32s as SimdBase<S>>::LEN == 16 } {
         job.run::<Pair<f32x16<S>>, Pair<f64x8<S>>>(simd)
     } else {
         job.run::<f32x16<S>, f64x8<S>>(simd)

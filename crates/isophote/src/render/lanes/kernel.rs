@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::lights::{BLOCK, ShapeLights, ShapeShading};
 use super::power::{NoPower, Power};
 use super::visible::{Candidate, RowView, Stretch};
-use crate::lanes::{Element, Lane, LaneJob, Precision};
+use crate::lanes::{Element, Kind, Lane, LaneJob, Precision};
 use crate::light::PlacedLight;
 use crate::map::{Pixel, Run};
 use crate::prepare::PreparedScene;
@@ -83,7 +83,10 @@ impl LaneJob for BandJob<'_, '_> {
                     ShapeShading::Double(lights) => work.shade::<D>(kind, lights)?,
                 }
                 if has_geometry {
-                    work.store_geometry::<D>(kind);
+                    kind.apart(
+                        #[inline(always)]
+                        || work.store_geometry::<D>(kind),
+                    );
                 }
             }
             for traced in &view.traced {
@@ -208,10 +211,22 @@ impl StretchWork<'_, '_> {
     #[inline(always)]
     fn shade<V: Lane>(&mut self, kind: V::Kind, lights: &ShapeLights<V::Element>) -> Result<(), RenderError> {
         match &lights.power {
-            Power::None => self.shade_with::<V, _>(kind, lights, &NoPower),
-            Power::Even(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
-            Power::Odd(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
-            Power::Any(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
+            Power::None => kind.apart(
+                #[inline(always)]
+                || self.shade_with::<V, _>(kind, lights, &NoPower),
+            ),
+            Power::Even(lobe) => kind.apart(
+                #[inline(always)]
+                || self.shade_with::<V, _>(kind, lights, lobe),
+            ),
+            Power::Odd(lobe) => kind.apart(
+                #[inline(always)]
+                || self.shade_with::<V, _>(kind, lights, lobe),
+            ),
+            Power::Any(lobe) => kind.apart(
+                #[inline(always)]
+                || self.shade_with::<V, _>(kind, lights, lobe),
+            ),
         }
     }
 

@@ -4,7 +4,7 @@ use super::Tile;
 use crate::accelerate::{Accelerator, Beam, Walk};
 use crate::camera::Screen;
 use crate::double_double::DoubleDouble;
-use crate::lanes::{Lane, LaneJob};
+use crate::lanes::{Kind, Lane, LaneJob};
 use crate::map::Resolution;
 use crate::prepare::PreparedScene;
 use crate::shape::{BEFORE_THE_EYE, Ellipse, Grid, Sphere};
@@ -215,7 +215,10 @@ impl Outlines {
                 spheres[lane] = (*center, *radius);
                 doubtful[lane] = scene.doubtful_in_outline_of(primitive).end;
             }
-            let block = Block::new::<D>(kind, &grid, &spheres, doubtful, number);
+            let block = kind.apart(
+                #[inline(always)]
+                || Block::new::<D>(kind, &grid, &spheres, doubtful, number),
+            );
             let first = u32::try_from(self.count()).unwrap_or(u32::MAX);
             for lane in 0..numbers.len() {
                 let z = block.depth_in_radii(lane, view);

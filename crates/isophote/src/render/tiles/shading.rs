@@ -3,7 +3,7 @@
 use super::Tiles;
 use super::group::{Group, MOST};
 use super::shadow::Shadows;
-use crate::lanes::{Element, Instructions, Lane, LaneJob, Precision};
+use crate::lanes::{Element, Instructions, Kind, Lane, LaneJob, Precision};
 use crate::light::{Ambient, PlacedLight};
 use crate::map::Pixel;
 use crate::prepare::PreparedScene;
@@ -134,7 +134,10 @@ impl LaneJob for See<'_, '_, '_> {
         S: Lane<Element = f32>,
         D: Lane<Element = f64, Kind = S::Kind>,
     {
-        self.shader.places.find::<D::Narrow>(kind, self.group);
+        kind.apart(
+            #[inline(always)]
+            || self.shader.places.find::<D::Narrow>(kind, self.group),
+        );
         self.shader.see_lights::<S::Narrow, D::Narrow>(kind, self.group);
     }
 }
@@ -284,10 +287,22 @@ impl<'a> Shader<'a> {
         band: &mut Band<'_>,
     ) -> Result<(), RenderError> {
         match Power::new(formula.sharpness(), V::Element::PRECISION) {
-            Power::None => self.shade_with::<V, _>(kind, group, formula, &NoPower, band),
-            Power::Even(lobe) => self.shade_with::<V, _>(kind, group, formula, &lobe, band),
-            Power::Odd(lobe) => self.shade_with::<V, _>(kind, group, formula, &lobe, band),
-            Power::Any(lobe) => self.shade_with::<V, _>(kind, group, formula, &lobe, band),
+            Power::None => kind.apart(
+                #[inline(always)]
+                || self.shade_with::<V, _>(kind, group, formula, &NoPower, band),
+            ),
+            Power::Even(lobe) => kind.apart(
+                #[inline(always)]
+                || self.shade_with::<V, _>(kind, group, formula, &lobe, band),
+            ),
+            Power::Odd(lobe) => kind.apart(
+                #[inline(always)]
+                || self.shade_with::<V, _>(kind, group, formula, &lobe, band),
+            ),
+            Power::Any(lobe) => kind.apart(
+                #[inline(always)]
+                || self.shade_with::<V, _>(kind, group, formula, &lobe, band),
+            ),
         }
     }
 
