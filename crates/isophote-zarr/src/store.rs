@@ -226,7 +226,7 @@ impl Store {
         }
         let statistics = MapStatistics::new(plan.full.pixels() as u64, &quantities, &shards);
         if let (Some(main), Some(channel)) = (quantities.first(), metadata.channels.first())
-            && !matches!(main, Quantity::Position | Quantity::Normal | Quantity::Shape)
+            && main.is_scalar()
         {
             self.files.put_changed(PREVIEW, &preview.to_png(metadata, main, &channel.unit)?)?;
         }

@@ -54,6 +54,30 @@ pub fn shade<T: Scalar>(
     Shading { irradiance, ambient, diffuse: irradiance * diffuse, specular: lobes.value() * specular }
 }
 
+/// The irradiances of some lights, taken from the terms that [`shade`] goes through.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ByLight(Vec<(usize, f64)>);
+
+impl ByLight {
+    /// Of the lights with these indices, still dark.
+    pub fn of(lights: impl IntoIterator<Item = usize>) -> Self {
+        Self(lights.into_iter().map(|light| (light, 0.0)).collect())
+    }
+
+    /// Takes the term of a light if it is one of them.
+    pub fn take(&mut self, light: usize, term: &LightTerm) {
+        for (_, irradiance) in self.0.iter_mut().filter(|(wanted, _)| *wanted == light) {
+            *irradiance = term.irradiance;
+        }
+    }
+
+    /// E_j of a light, in W/m² or lx; 0 if it is none of them.
+    #[must_use]
+    pub fn irradiance(&self, light: usize) -> f64 {
+        self.0.iter().find(|(wanted, _)| *wanted == light).map_or(0.0, |(_, irradiance)| *irradiance)
+    }
+}
+
 /// One light's term of the sum, with the steps that lead to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightTerm<T = f64> {

@@ -37,7 +37,7 @@ impl<'a> CellFiles<'a> {
     /// Known before anything is computed.
     pub fn refuse_impossible_pictures(&self, main: &Quantity) -> Result<(), Usage> {
         let is_picture = !self.figures.is_empty() || self.files.iter().any(MapFile::is_picture);
-        if is_picture && matches!(main, Quantity::Position | Quantity::Normal | Quantity::Shape) {
+        if is_picture && !main.is_scalar() {
             let message = "cannot be a picture: it is not one quantity a cell; put another --channel first";
             return Err(Usage(format!("the channel `{}` {message}", main.name())));
         }

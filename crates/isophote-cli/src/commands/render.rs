@@ -108,7 +108,7 @@ impl<'a> Job<'a> {
     /// Known before anything is computed.
     fn refuse_impossible_pictures(&self) -> Result<(), Usage> {
         let has_picture = self.files.iter().any(MapFile::is_picture);
-        let is_scalar = !matches!(self.main, Quantity::Position | Quantity::Normal | Quantity::Shape);
+        let is_scalar = self.main.is_scalar();
         if !is_scalar && (has_picture || !self.figures.is_empty()) {
             let message = "cannot be a picture: it is not one quantity a pixel; put another --channel first";
             return Err(Usage(format!("the channel `{}` {message}", self.main.name())));

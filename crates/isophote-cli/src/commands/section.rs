@@ -96,8 +96,7 @@ fn line(arguments: &SectionArguments, scene: &Scene) -> SectionLine {
 fn quantities(arguments: &SectionArguments, scene: &Scene) -> Result<Vec<Quantity>> {
     let quantities = channels(&arguments.channel, scene)?;
     let unsuitable = |quantity: &&Quantity| {
-        matches!(quantity, Quantity::Position | Quantity::Normal | Quantity::Shape | Quantity::Light(_))
-            || Quantity::OF_SAMPLING.contains(quantity)
+        !quantity.is_scalar() || matches!(quantity, Quantity::Light(_)) || Quantity::OF_SAMPLING.contains(quantity)
     };
     if let Some(quantity) = quantities.iter().find(unsuitable) {
         let allowed = "brightness, irradiance, ambient, diffuse, specular, depth";

@@ -2,9 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Values, Window};
+use crate::map::{Channel, Map, Mask, Pixel, Quantity, Region, Resolution, Values, Window};
 use crate::prepare::PreparedScene;
-use crate::shade::Shading;
+use crate::render::provenance;
+use crate::scene::Scene;
+use crate::shade::{ByLight, Shading};
 use crate::vector::Vector;
 
 /// What is computed at the centre of a cell.
@@ -15,7 +17,7 @@ pub(super) struct Cell {
     pub(super) normal: Vector,
     pub(super) shading: Shading,
     /// E_j of the lights that are asked for.
-    pub(super) lights: Vec<f64>,
+    pub(super) lights: ByLight,
 }
 
 /// Where a map of cells lies.
@@ -50,24 +52,15 @@ pub(super) fn map(
             (0..size.width).into_par_iter().map(|column| cell(Pixel { column, row })).collect();
         let shape = shape.cast_signed();
         shapes.extend(cells.iter().map(|cell| if cell.is_some() { shape } else { -1 }));
-        let mut lights = 0;
         for channel in &mut channels {
-            push(channel, &cells, lights, shape, window);
-            lights += usize::from(matches!(channel.quantity, Quantity::Light(_)));
+            push(channel, &cells, description, shape, window);
         }
     }
-    let provenance = Provenance {
-        program: concat!("isophote ", env!("CARGO_PKG_VERSION")).into(),
-        title: description.title.clone(),
-        scene: scene.source_text().to_owned(),
-        convention: description.convention.label(),
-        renderer,
-    };
     let mask = Mask::of_shapes(size, &shapes);
-    Map { full: size, region: Region::all(size), window, provenance, mask, channels }
+    Map { full: size, region: Region::all(size), window, provenance: provenance(scene, renderer), mask, channels }
 }
 
-/// The indices of the lights among these quantities, in the order of [`Cell::lights`].
+/// The indices of the lights among these quantities.
 ///
 /// # Errors
 /// The name of a light that the scene does not have.
@@ -75,10 +68,7 @@ pub(super) fn lights(scene: &PreparedScene, quantities: &[Quantity]) -> Result<V
     let mut lights = Vec::new();
     for quantity in quantities {
         let Quantity::Light(name) = quantity else { continue };
-        let index = scene.scene().lights.iter().position(|light| light.name == *name).ok_or_else(|| name.clone())?;
-        if !lights.contains(&index) {
-            lights.push(index);
-        }
+        lights.push(scene.scene().light_named(name).ok_or_else(|| name.clone())?);
     }
     Ok(lights)
 }
@@ -91,14 +81,18 @@ fn no_values(quantity: &Quantity) -> Values {
     }
 }
 
-fn push(channel: &mut Channel, cells: &[Option<Cell>], light: usize, shape: i32, window: Window) {
+fn push(channel: &mut Channel, cells: &[Option<Cell>], scene: &Scene, shape: i32, window: Window) {
     let in_unit = |vector: Vector| vector.to_array().map(|metres| window.length.from_metres(metres));
+    let light = match &channel.quantity {
+        Quantity::Light(name) => scene.light_named(name).unwrap_or(usize::MAX),
+        _ => usize::MAX,
+    };
     let scalar = |cell: &Cell| match channel.quantity {
         Quantity::Irradiance => cell.shading.irradiance,
         Quantity::Ambient => cell.shading.ambient,
         Quantity::Diffuse => cell.shading.diffuse,
         Quantity::Specular => cell.shading.specular,
-        Quantity::Light(_) => cell.lights[light],
+        Quantity::Light(_) => cell.lights.irradiance(light),
         _ => cell.shading.brightness(),
     };
     let is_normal = channel.quantity == Quantity::Normal;

@@ -4,6 +4,7 @@ use crate::analysis::cells::{self, Cell, Layout};
 use crate::map::{Coordinates, Map, Pixel, Quantity, Resolution, Window};
 use crate::prepare::PreparedScene;
 use crate::scene::Grid;
+use crate::shade::ByLight;
 use crate::shape::SurfacePoint;
 use crate::vector::Vector;
 
@@ -67,13 +68,9 @@ impl PreparedScene {
         };
         Ok(cells::map(self, layout, quantities, |cell| {
             let point = grid.surface_point(cell);
-            let mut terms = vec![0.0; lights.len()];
-            let shading = self.illuminate(&point, |light, term| {
-                if let Some(wanted) = lights.iter().position(|wanted| *wanted == light) {
-                    terms[wanted] = term.irradiance;
-                }
-            });
-            Some(Cell { position: point.position(), normal: point.normal, shading, lights: terms })
+            let mut by_light = ByLight::of(lights.iter().copied());
+            let shading = self.illuminate(&point, |light, term| by_light.take(light, term));
+            Some(Cell { position: point.position(), normal: point.normal, shading, lights: by_light })
         }))
     }
 }

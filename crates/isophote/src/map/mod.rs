@@ -142,6 +142,12 @@ impl Quantity {
         }
     }
 
+    /// Whether it is one number at a pixel, of which pictures, levels and statistics can be made.
+    #[must_use]
+    pub fn is_scalar(&self) -> bool {
+        !matches!(self, Self::Position | Self::Normal | Self::Shape)
+    }
+
     /// The quantity with this [name](Self::name).
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {

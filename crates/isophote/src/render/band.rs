@@ -8,6 +8,7 @@ use crate::lanes::{Element, Precision};
 use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Run, Values};
 use crate::prepare::{Hit, PreparedScene};
 use crate::scene::Scene;
+use crate::shade::ByLight;
 use crate::units::LengthUnit;
 
 /// A map of zeros (−1 for the shape) that sees nothing, with every channel that the settings ask for. In single
@@ -30,16 +31,20 @@ pub fn empty_map(
             channels.push(empty_channel(quantity, description, region, precision, &mut memory)?);
         }
     }
-    let provenance = Provenance {
-        program: concat!("isophote ", env!("CARGO_PKG_VERSION")).into(),
-        title: description.title.clone(),
-        scene: scene.source_text().to_owned(),
-        convention: description.convention.label(),
-        renderer,
-    };
     let mask = Mask::new(region.size, Vec::new());
     let window = description.camera.window(region, description.length);
-    Ok(Map { full, region, window, provenance, mask, channels })
+    Ok(Map { full, region, window, provenance: provenance(scene, renderer), mask, channels })
+}
+
+/// What a map of the scene says about itself.
+pub fn provenance(scene: &PreparedScene, renderer: String) -> Provenance {
+    Provenance {
+        program: concat!("isophote ", env!("CARGO_PKG_VERSION")).into(),
+        title: scene.scene().title.clone(),
+        scene: scene.source_text().to_owned(),
+        convention: scene.scene().convention.label(),
+        renderer,
+    }
 }
 
 /// Whether a region is one of the image, and fits into memory.
@@ -64,7 +69,7 @@ fn empty_channel(
     memory: &mut Vec<Values>,
 ) -> Result<Channel, RenderError> {
     if let Quantity::Light(name) = quantity
-        && scene.lights.iter().all(|light| light.name != *name)
+        && scene.light_named(name).is_none()
     {
         return Err(RenderError::NoSuchLight { name: name.clone() });
     }
@@ -215,7 +220,6 @@ pub fn finish(map: &mut Map, runs: Vec<Run>) {
 impl ScalarChannel {
     /// The kind of a scalar channel that renderers fill in.
     pub fn of(quantity: &Quantity, scene: &Scene) -> Self {
-        let light = |name: &String| scene.lights.iter().position(|light| light.name == *name);
         match quantity {
             Quantity::Brightness => Self::Brightness,
             Quantity::Irradiance => Self::Irradiance,
@@ -224,10 +228,18 @@ impl ScalarChannel {
             Quantity::Diffuse => Self::Diffuse,
             Quantity::Specular => Self::Specular,
             Quantity::Depth => Self::Depth,
-            Quantity::Light(name) => Self::Light(light(name).expect("the map was made for this scene")),
+            Quantity::Light(name) => Self::Light(scene.light_named(name).expect("the map was made for this scene")),
             Quantity::Position | Quantity::Normal | Quantity::Shape | Quantity::Samples | Quantity::Coverage => {
                 unreachable!("renderers do not fill it in")
             }
+        }
+    }
+
+    /// The index of the light whose irradiance it is.
+    pub fn light(self) -> Option<usize> {
+        match self {
+            Self::Light(light) => Some(light),
+            _ => None,
         }
     }
 }
@@ -256,9 +268,8 @@ impl Band<'_> {
     /// The lights whose irradiance is asked for by itself, in the order of their channels.
     pub fn lights(&self) -> Vec<usize> {
         let light = |channel: &BandChannel<'_>| match channel {
-            BandChannel::Double(ScalarChannel::Light(light), _)
-            | BandChannel::Single(ScalarChannel::Light(light), _) => Some(*light),
-            _ => None,
+            BandChannel::Double(scalar, _) | BandChannel::Single(scalar, _) => scalar.light(),
+            BandChannel::Position(_) | BandChannel::Normal(_) => None,
         };
         self.channels.iter().filter_map(light).collect()
     }
@@ -296,12 +307,9 @@ impl Band<'_> {
     /// Shades what is seen at a pixel and stores it.
     pub fn store(&mut self, pixel: Pixel, scene: &PreparedScene, hit: &Hit) -> Result<(), RenderError> {
         let index = self.index(pixel);
-        let mut by_light: Vec<(usize, f64)> = self.lights().into_iter().map(|light| (light, 0.0)).collect();
-        let shading = scene.shade(hit, Some(ScreenPosition::PixelCenter(pixel)), |light, term| {
-            for (_, irradiance) in by_light.iter_mut().filter(|(wanted, _)| *wanted == light) {
-                *irradiance = term.irradiance;
-            }
-        });
+        let mut by_light = ByLight::of(self.lights());
+        let position = ScreenPosition::PixelCenter(pixel);
+        let shading = scene.shade(hit, Some(position), |light, term| by_light.take(light, term));
         let length = self.length;
         let scalar = |scalar: ScalarChannel| match scalar {
             ScalarChannel::Brightness => shading.brightness(),
@@ -311,9 +319,7 @@ impl Band<'_> {
             ScalarChannel::Diffuse => shading.diffuse,
             ScalarChannel::Specular => shading.specular,
             ScalarChannel::Depth => length.from_metres(hit.distance),
-            ScalarChannel::Light(light) => {
-                by_light.iter().find(|(wanted, _)| *wanted == light).map_or(0.0, |(_, irradiance)| *irradiance)
-            }
+            ScalarChannel::Light(light) => by_light.irradiance(light),
         };
         for channel in &mut self.channels {
             match channel {

@@ -8,6 +8,7 @@ mod tiles;
 
 use std::ops::ControlFlow;
 
+pub(crate) use band::provenance;
 pub use lanes::Lanes;
 pub use reference::Reference;
 pub use sampling::{Filter, Sampling};

@@ -317,6 +317,12 @@ impl Scene {
         &self.lights
     }
 
+    /// The index of the light with this name.
+    #[must_use]
+    pub fn light_named(&self, name: &str) -> Option<usize> {
+        self.lights.iter().position(|light| light.name == name)
+    }
+
     /// The light from all around, if there is one.
     #[must_use]
     pub fn ambient(&self) -> Option<&Ambient> {

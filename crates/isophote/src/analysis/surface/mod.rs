@@ -13,6 +13,7 @@ use crate::analysis::cells::{self, Cell, Layout};
 use crate::camera::{Sight, between};
 use crate::map::{Map, Pixel, Quantity, Resolution, Window};
 use crate::prepare::{Hit, PreparedScene};
+use crate::shade::ByLight;
 use crate::shape::{Primitive, Side, SurfacePoint};
 use crate::units::Choice;
 use crate::vector::Vector;
@@ -168,13 +169,9 @@ impl Surface<'_> {
             if needs_eye && hit.point.cos_theta_o <= 0.0 {
                 return None;
             }
-            let mut terms = vec![0.0; lights.len()];
-            let shading = self.scene.shade(&hit, None, |light, term| {
-                if let Some(wanted) = lights.iter().position(|wanted| *wanted == light) {
-                    terms[wanted] = term.irradiance;
-                }
-            });
-            Some(Cell { position: hit.point.position(), normal: hit.point.normal, shading, lights: terms })
+            let mut by_light = ByLight::of(lights.iter().copied());
+            let shading = self.scene.shade(&hit, None, |light, term| by_light.take(light, term));
+            Some(Cell { position: hit.point.position(), normal: hit.point.normal, shading, lights: by_light })
         }))
     }
 

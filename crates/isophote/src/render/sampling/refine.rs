@@ -7,6 +7,7 @@ use crate::map::{Map, Mask, Pixel, Quantity, Scalars, Values};
 use crate::prepare::{Hit, PreparedScene};
 use crate::render::RenderError;
 use crate::render::band::ScalarChannel;
+use crate::shade::ByLight;
 
 /// The channels of a map that are means. The others hold what is seen at the centre.
 pub struct Averages {
@@ -69,13 +70,9 @@ impl Averages {
 
     /// The values of a hit, and its brightness.
     fn values(&self, scene: &PreparedScene, hit: &Hit, position: ScreenPosition, values: &mut [f64]) -> f64 {
-        let shading = scene.shade(hit, Some(position), |light, term| {
-            for (value, (_, channel)) in values.iter_mut().zip(&self.channels) {
-                if *channel == ScalarChannel::Light(light) {
-                    *value = term.irradiance;
-                }
-            }
-        });
+        let lights = self.channels.iter().filter_map(|(_, channel)| channel.light());
+        let mut by_light = ByLight::of(lights);
+        let shading = scene.shade(hit, Some(position), |light, term| by_light.take(light, term));
         for (value, (_, channel)) in values.iter_mut().zip(&self.channels) {
             match channel {
                 ScalarChannel::Brightness => *value = shading.brightness(),
@@ -83,7 +80,7 @@ impl Averages {
                 ScalarChannel::Diffuse => *value = shading.diffuse,
                 ScalarChannel::Specular => *value = shading.specular,
                 ScalarChannel::Ambient => *value = shading.ambient,
-                ScalarChannel::Light(_) => {}
+                ScalarChannel::Light(light) => *value = by_light.irradiance(*light),
                 ScalarChannel::Depth | ScalarChannel::AmbientError => unreachable!("it is no mean"),
             }
         }
