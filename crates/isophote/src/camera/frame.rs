@@ -74,8 +74,7 @@ impl<T: Scalar> CameraFrame<T> {
                 self.out_of_axes(panorama::direction(longitude, latitude)?)
             }
         };
-        let nothing = T::zero();
-        let offset = Vector::new(nothing, nothing, nothing);
+        let offset = Vector::zero();
         Some(Ray { anchor: self.eye, offset, direction: direction.normalized() })
     }
 

@@ -9,6 +9,7 @@ use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 pub use obstruction::AmbientIrradiance;
+use obstruction::Hemisphere;
 pub use visibility::Blocking;
 
 use crate::accelerate::Accelerator;
@@ -38,6 +39,8 @@ pub struct PreparedScene {
     tried_one_by_one: u32,
     /// Over all primitives; with so few that each is tried, built only when a renderer asks for it.
     accelerator: Arc<OnceLock<Accelerator>>,
+    /// Where surface points look for what obstructs the ambient light, if anything does.
+    hemisphere: Option<Arc<Hemisphere>>,
     /// Written when the first map asks for it.
     source_text: OnceLock<String>,
 }
@@ -100,6 +103,7 @@ impl PreparedScene {
             *count += shape.geometry.parts();
             Some(*count)
         }));
+        let obstruction = scene.ambient.and_then(|ambient| ambient.obstruction);
         let prepared = Self {
             first_primitives,
             tried_one_by_one: HANDFUL,
@@ -108,6 +112,7 @@ impl PreparedScene {
             precise_frame: CameraFrame::new(&scene.camera),
             shapes,
             formulas: formulas.collect(),
+            hemisphere: obstruction.map(|directions| Arc::new(Hemisphere::new(directions))),
             source_text: OnceLock::new(),
             scene: scene.clone(),
         };
@@ -125,7 +130,7 @@ impl PreparedScene {
 
     /// The same scene seen with another number of pixels.
     pub(crate) fn at_resolution(&self, resolution: Resolution) -> Self {
-        let mut other = Self { source_text: OnceLock::new(), ..self.clone() };
+        let mut other = self.clone();
         other.scene.camera.resolution = resolution;
         other.frame = CameraFrame::new(&other.scene.camera);
         other.precise_frame = CameraFrame::new(&other.scene.camera);
@@ -190,13 +195,8 @@ impl PreparedScene {
         shape.outline.get_or_init(|| shape.geometry.outline(&self.precise_frame))
     }
 
-    /// For which clearances in its outline a shape has to be traced with 32 digits.
-    pub(crate) fn doubtful_in_outline(&self, shape: usize) -> &Range<f64> {
-        &self.formulas[self.shapes[shape].formula].doubtful_in_outline
-    }
-
-    /// The same for a primitive.
-    pub(crate) fn doubtful_in_outline_of(&self, primitive: Primitive) -> &Range<f64> {
+    /// For which clearances in its outline a primitive has to be traced with 32 digits.
+    pub(crate) fn doubtful_in_outline(&self, primitive: Primitive) -> &Range<f64> {
         &self.prepared_formula(primitive).doubtful_in_outline
     }
 
@@ -221,7 +221,7 @@ impl PreparedScene {
     }
 
     fn has_shapes_beside_one(&self) -> bool {
-        self.primitives().nth(1).is_some()
+        self.primitive_count() > 1
     }
 
     /// How many primitives there are.

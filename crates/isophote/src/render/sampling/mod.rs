@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 pub use filter::Filter;
 
+use self::pattern::Patterns;
 use self::refine::{Averages, Refinement, Uncertain, Wanted};
 use super::band::{self, advance};
 use super::{RenderError, RenderSettings};
@@ -89,7 +90,8 @@ pub fn render(
         None => None,
     };
     let averages = Averages::of(&map, scene);
-    let wanted = Wanted { averages: &averages, sampling, tolerance };
+    let (patterns, offsets) = (Patterns::new(sampling.samples), refine::offsets(sampling.filter));
+    let wanted = Wanted { averages: &averages, sampling, patterns: &patterns, offsets: &offsets, tolerance };
     let pixels = uncertain_pixels(&map, grown(region, reach, full), tolerance);
     let refine = |uncertain: &Uncertain| {
         advance(settings.observer, 0)?;
@@ -134,10 +136,10 @@ fn peak(scene: &PreparedScene, centres: &Centres<'_>) -> Result<f64, RenderError
     Ok(totals(&map, &Quantity::Brightness).map_or(0.0, |totals| totals.max.value))
 }
 
-/// The pixels of a region that need more than the value at their centre: all of them
-/// without a tolerance; else those where the brightness bends by more than the tolerance on one of the four lines
-/// through the pixel and two of its neighbours, or differs by more from a neighbour that sees something else. A slope
-/// alone needs nothing: its mean is the value at the centre. But across a limb it may be an accident.
+/// The pixels of a region that need more than the value at their centre: all of them without a tolerance; else those
+/// where the brightness bends by more than the tolerance on one of the four lines through the pixel and two of its
+/// neighbours, or differs by more from a neighbour that sees something else. A slope alone needs nothing: its mean is the
+/// value at the centre. But across a limb it may be an accident.
 fn uncertain_pixels(map: &Map, region: Region, tolerance: Option<f64>) -> Vec<Uncertain> {
     let Region { corner, size } = map.region;
     let width = size.width as usize;
@@ -163,11 +165,12 @@ fn uncertain_pixels(map: &Map, region: Region, tolerance: Option<f64>) -> Vec<Un
                 let column = column.checked_add_signed(sign * across).filter(|column| *column < width)?;
                 Some((at(row, column), shapes[row * width + column]))
             };
-            for (value, other) in [neighbour(1), neighbour(-1)].into_iter().flatten() {
+            let [after, before] = [neighbour(1), neighbour(-1)];
+            for (value, other) in [after, before].into_iter().flatten() {
                 contrast = contrast.max((value - here).abs());
                 is_uncertain |= other != shape && (value - here).abs() > tolerance;
             }
-            let bend = match (neighbour(1), neighbour(-1)) {
+            let bend = match (after, before) {
                 (Some((after, _)), Some((before, _))) => before + after - 2.0 * here,
                 (Some((only, _)), None) | (None, Some((only, _))) => only - here,
                 (None, None) => 0.0,

@@ -1,6 +1,7 @@
 //! Many rays through one pixel, and what they make of a map.
 
-use super::{FIRST_SAMPLES, Filter, Sampling, pattern};
+use super::pattern::{self, Patterns};
+use super::{FIRST_SAMPLES, Filter, Sampling};
 use crate::camera::ScreenPosition;
 use crate::hammersley::points;
 use crate::map::{Map, Mask, Pixel, Quantity, Scalars, Values};
@@ -19,6 +20,10 @@ pub struct Averages {
 pub struct Wanted<'w> {
     pub averages: &'w Averages,
     pub sampling: Sampling,
+    /// The places of the rays in a pixel, for each number of them that is asked for.
+    pub patterns: &'w Patterns,
+    /// The pixels that the filter reaches.
+    pub offsets: &'w [[f64; 2]],
     /// The allowed error of the brightness; nothing if the number of samples is given.
     pub tolerance: Option<f64>,
 }
@@ -108,13 +113,12 @@ impl Refinement {
     /// With so many samples; and how much their brightness differs.
     fn of_samples(scene: &PreparedScene, wanted: &Wanted<'_>, pixel: Pixel, index: usize, samples: u32) -> (Self, f64) {
         let averages = wanted.averages;
-        let offsets = offsets(wanted.sampling.filter);
         let channels = averages.channels.len();
-        let mut sums = vec![0.0; offsets.len() * (channels + 1)];
+        let mut sums = vec![0.0; wanted.offsets.len() * (channels + 1)];
         let mut values = vec![0.0; channels];
         let [mut least, mut greatest] = [f64::INFINITY, f64::NEG_INFINITY];
         let (mut covered, mut first_hit) = (0_u32, None);
-        for place in points(samples) {
+        for &place in wanted.patterns.of(samples) {
             let position = ScreenPosition::InPixel { pixel, place };
             let hit = scene.trace(position);
             values.fill(0.0);
@@ -124,7 +128,7 @@ impl Refinement {
             least = least.min(brightness);
             greatest = greatest.max(brightness);
             let [across, down] = place.map(|part| part - 0.5);
-            for (sums, [columns, rows]) in sums.chunks_exact_mut(channels + 1).zip(&offsets) {
+            for (sums, [columns, rows]) in sums.chunks_exact_mut(channels + 1).zip(wanted.offsets) {
                 let weight = wanted.sampling.filter.weight(across - columns, down - rows);
                 for (sum, value) in sums.iter_mut().zip(&values) {
                     *sum += weight * value;
@@ -142,7 +146,7 @@ impl Refinement {
 }
 
 /// The pixels that the filter reaches from one pixel: columns and rows away from it.
-fn offsets(filter: Filter) -> Vec<[f64; 2]> {
+pub fn offsets(filter: Filter) -> Vec<[f64; 2]> {
     let reach = i32::try_from(filter.reach()).unwrap_or(0);
     let rows = (-reach..=reach).flat_map(|row| (-reach..=reach).map(move |column| [column, row]));
     rows.map(|offset| offset.map(f64::from)).collect()

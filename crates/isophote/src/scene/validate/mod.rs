@@ -13,7 +13,7 @@ mod things;
 use std::collections::HashSet;
 use std::path::PathBuf;
 
-use super::Scene;
+use super::{Scene, Shape};
 use super::document::Path;
 use super::error::{Problem, ProblemKind};
 use super::read::{Problems, short};
@@ -58,6 +58,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     let mut validator = Validator {
         length: source.length.unwrap_or(LengthUnit::Metre),
         convention: source.convention.unwrap_or(Convention::Radiance),
+        shadows: source.shadows.unwrap_or(false),
         directory: source.directory.clone(),
         materials: source.material.keys().cloned().collect(),
         problems,
@@ -75,15 +76,15 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     validator.eye_against_shapes(camera.as_ref(), &shapes);
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
     validator.probes_against_shapes(&probes, &shapes);
-    validator.words_of_advice(&source, camera.as_ref());
-    let Validator { length, convention, problems, warnings, .. } = validator;
+    validator.words_of_advice(&source, camera.as_ref(), &shapes);
+    let Validator { length, convention, shadows, problems, warnings, .. } = validator;
     match camera {
         Some(camera) if problems.is_empty() => Ok(Scene {
             title: source.title.clone().unwrap_or_default(),
             length,
             convention,
             sampling,
-            shadows: source.shadows.unwrap_or(false),
+            shadows,
             quantities: source.quantities.unwrap_or(Quantities::Radiometric),
             camera,
             materials: materials.into_iter().flatten().collect(),
@@ -105,6 +106,7 @@ type Checked<T> = Vec<Option<T>>;
 struct Validator {
     length: LengthUnit,
     convention: Convention,
+    shadows: bool,
     /// Where relative paths start.
     directory: PathBuf,
     /// The names of the materials, in their order.
@@ -154,7 +156,7 @@ impl Validator {
         samples
     }
 
-    fn words_of_advice(&mut self, source: &SceneSource, camera: Option<&Camera>) {
+    fn words_of_advice(&mut self, source: &SceneSource, camera: Option<&Camera>, shapes: &Checked<Shape>) {
         let root = Path::root();
         let count = shapes::count(source);
         if count == 0 && source.grid.is_empty() {
@@ -173,8 +175,10 @@ impl Validator {
             );
         }
         let used: HashSet<&str> = shapes::materials_in_use(source).collect();
-        for name in source.material.keys() {
-            if !used.contains(name.as_str()) {
+        let of_parts: HashSet<usize> =
+            shapes.iter().flatten().flat_map(|shape| shape.geometry.materials_of_parts()).collect();
+        for (index, name) in source.material.keys().enumerate() {
+            if !used.contains(name.as_str()) && !of_parts.contains(&index) {
                 let message = format!("no shape is made of the material \"{}\"", short(name));
                 self.warn(&root.key("material").key(name), message, "leave it out, or use it");
             }
