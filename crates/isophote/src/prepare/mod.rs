@@ -27,7 +27,7 @@ use crate::vector::Vector;
 /// A scene with everything computed that does not depend on the pixel.
 #[derive(Clone, Debug)]
 pub struct PreparedScene {
-    scene: Scene,
+    scene: Arc<Scene>,
     frame: CameraFrame<f64>,
     precise_frame: CameraFrame<DoubleDouble>,
     shapes: Vec<PreparedShape>,
@@ -114,7 +114,7 @@ impl PreparedScene {
             formulas: formulas.collect(),
             hemisphere: obstruction.map(|directions| Arc::new(Hemisphere::new(directions))),
             source_text: OnceLock::new(),
-            scene: scene.clone(),
+            scene: Arc::new(scene.clone()),
         };
         if prepared.primitive_count() > HANDFUL {
             prepared.accelerator();
@@ -131,9 +131,20 @@ impl PreparedScene {
     /// The same scene seen with another number of pixels.
     pub(crate) fn at_resolution(&self, resolution: Resolution) -> Self {
         let mut other = self.clone();
-        other.scene.camera.resolution = resolution;
+        Arc::make_mut(&mut other.scene).camera.resolution = resolution;
         other.frame = CameraFrame::new(&other.scene.camera);
         other.precise_frame = CameraFrame::new(&other.scene.camera);
+        for shape in &mut other.shapes {
+            shape.outline = OnceLock::new();
+        }
+        other
+    }
+
+    /// The same with rays through another place of the pixels than their centres: parts of their width and height.
+    pub(crate) fn seen_through(&self, place: [f64; 2]) -> Self {
+        let mut other = self.clone();
+        other.frame.place = place;
+        other.precise_frame.place = place;
         for shape in &mut other.shapes {
             shape.outline = OnceLock::new();
         }

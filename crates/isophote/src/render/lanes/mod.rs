@@ -71,7 +71,7 @@ impl Lanes {
         if scene.scene().sampling().is_more_than_centres() {
             let pool = if self.threads == 1 { None } else { Some(self.pool()?) };
             let centres =
-                |scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(Vec::new(), scene, settings);
+                |memory, scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(memory, scene, settings);
             sampling::render(scene, settings, pool, &centres)
         } else {
             self.centres(memory, scene, settings)

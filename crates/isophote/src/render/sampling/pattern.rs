@@ -9,7 +9,10 @@ impl Patterns {
     /// For up to so many samples.
     pub fn new(most: u32) -> Self {
         let powers = (0..32).map(|exponent| 1_u32 << exponent).take_while(|count| *count < most);
-        Self(powers.chain([most]).map(points).collect())
+        // Few digits, so that no column loses any of them.
+        let short = |part: f64| (part * 16_777_216.0).round() / 16_777_216.0;
+        let places = |count| points(count).into_iter().map(|place| place.map(short)).collect();
+        Self(powers.chain([most]).map(places).collect())
     }
 
     /// The places of so many samples: a power of two, or the most.

@@ -1,4 +1,4 @@
-//! Many rays through one pixel, and what they make of a map.
+//! Many rays through the pixels that need them, and what they make of a map.
 
 use super::pattern::{self, Patterns};
 use super::{FIRST_SAMPLES, Filter, Sampling};
@@ -24,8 +24,8 @@ pub struct Wanted<'w> {
     pub patterns: &'w Patterns,
     /// The pixels that the filter reaches.
     pub offsets: &'w [[f64; 2]],
-    /// The allowed error of the brightness; nothing if the number of samples is given.
-    pub tolerance: Option<f64>,
+    /// The allowed error of the brightness.
+    pub tolerance: f64,
 }
 
 /// A pixel whose value is not that at its centre.
@@ -53,21 +53,6 @@ pub struct Refinement {
 impl Averages {
     /// The averaged channels of a map.
     pub fn of(map: &Map, scene: &PreparedScene) -> Self {
-        let is_mean = |quantity: &Quantity| match quantity {
-            Quantity::Brightness
-            | Quantity::Irradiance
-            | Quantity::Diffuse
-            | Quantity::Specular
-            | Quantity::Ambient
-            | Quantity::Light(_) => true,
-            Quantity::Depth
-            | Quantity::Position
-            | Quantity::Normal
-            | Quantity::Shape
-            | Quantity::Samples
-            | Quantity::Coverage
-            | Quantity::AmbientError => false,
-        };
         let channels = map.channels.iter().enumerate().filter(|(_, channel)| is_mean(&channel.quantity));
         let channels = channels.map(|(index, channel)| (index, ScalarChannel::of(&channel.quantity, scene.scene())));
         Self { channels: channels.collect() }
@@ -93,16 +78,34 @@ impl Averages {
     }
 }
 
+/// Whether a pixel's value is the mean over its area. Of the others it is the value at its centre.
+pub fn is_mean(quantity: &Quantity) -> bool {
+    match quantity {
+        Quantity::Brightness
+        | Quantity::Irradiance
+        | Quantity::Diffuse
+        | Quantity::Specular
+        | Quantity::Ambient
+        | Quantity::Light(_) => true,
+        Quantity::Depth
+        | Quantity::Position
+        | Quantity::Normal
+        | Quantity::Shape
+        | Quantity::Samples
+        | Quantity::Coverage
+        | Quantity::AmbientError => false,
+    }
+}
+
 impl Refinement {
-    /// Sends as many rays through a pixel as are wanted, or as its contrast takes.
+    /// Sends as many rays through a pixel as its contrast takes.
     pub fn new(scene: &PreparedScene, wanted: &Wanted<'_>, pixel: Pixel, uncertain: &Uncertain) -> Self {
         let index = uncertain.index;
         let most = wanted.sampling.samples;
-        let Some(tolerance) = wanted.tolerance else { return Self::of_samples(scene, wanted, pixel, index, most).0 };
-        let mut samples = pattern::enough(uncertain.contrast, tolerance, most).max(FIRST_SAMPLES.min(most));
+        let mut samples = pattern::enough(uncertain.contrast, wanted.tolerance, most).max(FIRST_SAMPLES.min(most));
         loop {
             let (refinement, contrast) = Self::of_samples(scene, wanted, pixel, index, samples);
-            let enough = pattern::enough(contrast, tolerance, most);
+            let enough = pattern::enough(contrast, wanted.tolerance, most);
             if enough <= samples {
                 return refinement;
             }
@@ -258,7 +261,7 @@ fn gathered(
 }
 
 /// Writes a value into a scalar channel.
-fn put(map: &mut Map, channel: usize, index: usize, value: f64) -> Result<(), RenderError> {
+pub fn put(map: &mut Map, channel: usize, index: usize, value: f64) -> Result<(), RenderError> {
     let pixel = map.pixel(index);
     match &mut map.channels[channel].values {
         Values::Scalar(values) => values[index] = value,
@@ -276,7 +279,7 @@ fn put(map: &mut Map, channel: usize, index: usize, value: f64) -> Result<(), Re
 }
 
 /// Writes a number that is small enough for any channel, if the map has that channel.
-fn put_exactly(map: &mut Map, quantity: &Quantity, index: usize, value: f64) {
+pub fn put_exactly(map: &mut Map, quantity: &Quantity, index: usize, value: f64) {
     let channel = map.channels.iter_mut().find(|channel| channel.quantity == *quantity);
     if let Some(Values::Scalar(values)) = channel.map(|channel| &mut channel.values) {
         values[index] = value;

@@ -13,11 +13,11 @@ mod things;
 use std::collections::HashSet;
 use std::path::PathBuf;
 
-use super::{Scene, Shape};
 use super::document::Path;
 use super::error::{Problem, ProblemKind};
 use super::read::{Problems, short};
 use super::source::SceneSource;
+use super::{Scene, Shape};
 use crate::camera::{Camera, Extent, Projection};
 use crate::reflectance::Convention;
 use crate::render::Sampling;
