@@ -4,6 +4,7 @@ mod filter;
 mod fixed;
 mod pattern;
 mod refine;
+mod uncertain;
 
 use rayon::ThreadPool;
 use rayon::prelude::*;
@@ -11,7 +12,8 @@ use rayon::prelude::*;
 pub use filter::Filter;
 
 use self::pattern::Patterns;
-use self::refine::{Averages, Refinement, Uncertain, Wanted};
+use self::refine::{Averages, Refinement, Wanted};
+use self::uncertain::Uncertain;
 use super::band::{self, advance};
 use super::{RenderError, RenderSettings};
 use crate::analysis::statistics::totals;
@@ -112,7 +114,7 @@ fn refined(
     let averages = Averages::of(&map, scene);
     let (patterns, offsets) = (Patterns::new(sampling.samples), refine::offsets(sampling.filter));
     let wanted = Wanted { averages: &averages, sampling, patterns: &patterns, offsets: &offsets, tolerance };
-    let pixels = uncertain_pixels(&map, region, tolerance);
+    let pixels = uncertain::pixels(&map, region, tolerance, pool);
     let refine = |uncertain: &Uncertain| {
         advance(settings.observer, 0)?;
         Ok(Refinement::new(scene, &wanted, map.pixel(uncertain.index), uncertain))
@@ -151,48 +153,6 @@ fn peak(scene: &PreparedScene, centres: &Centres<'_>) -> Result<f64, RenderError
     let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
     let map = centres(Vec::new(), &small, &settings)?;
     Ok(totals(&map, &Quantity::Brightness).map_or(0.0, |totals| totals.max.value))
-}
-
-/// The pixels of a region that need more than the value at their centre: those where the brightness bends by more than the tolerance on one of the four lines through the pixel and two of its
-/// neighbours, or differs by more from a neighbour that sees something else. A slope alone needs nothing: its mean is the
-/// value at the centre. But across a limb it may be an accident.
-fn uncertain_pixels(map: &Map, region: Region, tolerance: f64) -> Vec<Uncertain> {
-    let Region { corner, size } = map.region;
-    let width = size.width as usize;
-    let columns = (region.corner.column - corner.column) as usize;
-    let columns = columns..columns + region.size.width as usize;
-    let rows = (region.corner.row - corner.row) as usize;
-    let rows = rows..rows + region.size.height as usize;
-    let all = rows.flat_map(|row| columns.clone().map(move |column| (row, column)));
-    let brightness = map.scalar(&Quantity::Brightness).expect("it was asked for");
-    let height = size.height as usize;
-    let shapes = map.mask().shapes();
-    let at = |row: usize, column: usize| brightness.at(row * width + column);
-    let uncertain = |(row, column): (usize, usize)| {
-        let here = at(row, column);
-        let shape = shapes[row * width + column];
-        let (mut is_uncertain, mut contrast) = (false, 0.0_f64);
-        for (down, across) in [(0_isize, 1_isize), (1, 0), (1, 1), (1, -1)] {
-            let neighbour = |sign: isize| {
-                let row = row.checked_add_signed(sign * down).filter(|row| *row < height)?;
-                let column = column.checked_add_signed(sign * across).filter(|column| *column < width)?;
-                Some((at(row, column), shapes[row * width + column]))
-            };
-            let [after, before] = [neighbour(1), neighbour(-1)];
-            for (value, other) in [after, before].into_iter().flatten() {
-                contrast = contrast.max((value - here).abs());
-                is_uncertain |= other != shape && (value - here).abs() > tolerance;
-            }
-            let bend = match (after, before) {
-                (Some((after, _)), Some((before, _))) => before + after - 2.0 * here,
-                (Some((only, _)), None) | (None, Some((only, _))) => only - here,
-                (None, None) => 0.0,
-            };
-            is_uncertain |= bend.abs() > tolerance;
-        }
-        is_uncertain.then_some(Uncertain { index: row * width + column, contrast })
-    };
-    all.filter_map(uncertain).collect()
 }
 
 /// A part of a map.

@@ -1,6 +1,7 @@
 //! Many rays through the pixels that need them, and what they make of a map.
 
 use super::pattern::{self, Patterns};
+use super::uncertain::Uncertain;
 use super::{FIRST_SAMPLES, Filter, Sampling};
 use crate::camera::ScreenPosition;
 use crate::hammersley::points;
@@ -26,14 +27,6 @@ pub struct Wanted<'w> {
     pub offsets: &'w [[f64; 2]],
     /// The allowed error of the brightness.
     pub tolerance: f64,
-}
-
-/// A pixel whose value is not that at its centre.
-pub struct Uncertain {
-    /// Index in the map.
-    pub index: usize,
-    /// By how much its neighbours differ from it: so much may be in a corner of it that the first samples miss.
-    pub contrast: f64,
 }
 
 /// What the rays through a pixel saw.
@@ -181,10 +174,9 @@ pub fn apply(map: &mut Map, averages: &Averages, filter: Filter, refined: &[Refi
     }
     map.mask = Mask::of_shapes(map.region.size, &shapes);
     // Where no surface is, there was none to sample.
-    for quantity in [Quantity::Samples, Quantity::Coverage] {
-        for index in (0..shapes.len()).filter(|index| shapes[*index] < 0) {
-            put_exactly(map, &quantity, index, 0.0);
-        }
+    for index in refined.iter().map(|refinement| refinement.index).filter(|index| shapes[*index] < 0) {
+        put_exactly(map, &Quantity::Samples, index, 0.0);
+        put_exactly(map, &Quantity::Coverage, index, 0.0);
     }
     for channel in &mut map.channels {
         if let Values::Index(values) = &mut channel.values {
