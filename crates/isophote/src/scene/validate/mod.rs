@@ -1,6 +1,7 @@
 //! From what is written to what is valid: every check of a scene, once.
 
 mod camera;
+mod color;
 mod files;
 mod grids;
 mod lights;
@@ -13,6 +14,7 @@ mod things;
 use std::collections::HashSet;
 use std::path::PathBuf;
 
+use self::color::Collapse;
 use super::Scene;
 use super::document::Path;
 use super::error::{Problem, ProblemKind};
@@ -58,6 +60,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     let mut validator = Validator {
         length: source.length.unwrap_or(LengthUnit::Metre),
         convention: source.convention.unwrap_or(Convention::Radiance),
+        collapse: Collapse::Luminance(source.color_space.unwrap_or_default()),
         directory: source.directory.clone(),
         materials: source.material.keys().cloned().collect(),
         problems,
@@ -76,6 +79,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
     validator.probes_against_shapes(&probes, &shapes);
     validator.words_of_advice(&source, camera.as_ref());
+    let color = validator.color(&source);
     let Validator { length, convention, problems, warnings, .. } = validator;
     match camera {
         Some(camera) if problems.is_empty() => Ok(Scene {
@@ -90,6 +94,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
             shapes: shapes.into_iter().flatten().collect(),
             lights: lights.into_iter().flatten().collect(),
             ambient,
+            color: color.map(Box::new),
             probes: probes.into_iter().flatten().collect(),
             grids: grids.into_iter().flatten().collect(),
             warnings: warnings.into_list(),
@@ -105,6 +110,8 @@ type Checked<T> = Vec<Option<T>>;
 struct Validator {
     length: LengthUnit,
     convention: Convention,
+    /// Which one number three become.
+    collapse: Collapse,
     /// Where relative paths start.
     directory: PathBuf,
     /// The names of the materials, in their order.
