@@ -62,7 +62,7 @@ impl<T> Rgb<T> {
     }
 
     /// The same of each component.
-    pub fn map<U>(&self, mut convert: impl FnMut(&T) -> U) -> Rgb<U> {
+    pub fn map<'s, U>(&'s self, mut convert: impl FnMut(&'s T) -> U) -> Rgb<U> {
         Rgb::from_fn(|component| convert(self.of(component)))
     }
 

@@ -72,6 +72,13 @@ impl ColorSpace {
         Rgb::from(self.to_xyz().0[1])
     }
 
+    /// The sum that makes the luminance: `0.2126 R + 0.7152 G + 0.0722 B`.
+    #[must_use]
+    pub fn luminance_text(self) -> String {
+        let [red, green, blue] = self.luminance_weights().into_array();
+        format!("{red:.4} R + {green:.4} G + {blue:.4} B")
+    }
+
     /// From linear RGB of this space to linear RGB of sRGB's primaries, white to white (Bradford's adaptation where the
     /// whites differ). The amounts may be negative: sRGB does not hold every colour.
     #[must_use]

@@ -3,6 +3,7 @@
 //! | channel of the map | in the file |
 //! |---|---|
 //! | brightness | `Y` |
+//! | color | `R`, `G`, `B` |
 //! | irradiance, diffuse, specular | `irradiance.Y`, `diffuse.Y`, `specular.Y` |
 //! | depth (along the ray) | `Z` |
 //! | position, normal | `P.X` `P.Y` `P.Z`, `N.X` `N.Y` `N.Z` |
@@ -75,6 +76,7 @@ fn channel_names(map: &Map) -> Vec<Vec<String>> {
     let axes = |layer: &str| ["X", "Y", "Z"].map(|axis| format!("{layer}.{axis}")).to_vec();
     let in_file = |(channel, name): (&Channel, String)| match channel.quantity {
         Quantity::Brightness => vec!["Y".into()],
+        Quantity::Color => ["R", "G", "B"].map(String::from).to_vec(),
         Quantity::Depth => vec!["Z".into()],
         Quantity::Position => axes("P"),
         Quantity::Normal => axes("N"),

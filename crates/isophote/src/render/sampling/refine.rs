@@ -58,6 +58,7 @@ impl Averages {
             Quantity::Depth
             | Quantity::Position
             | Quantity::Normal
+            | Quantity::Color
             | Quantity::Shape
             | Quantity::Samples
             | Quantity::Coverage
