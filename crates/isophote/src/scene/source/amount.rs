@@ -4,6 +4,7 @@ use schemars::{Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
 
 use super::SceneSource;
+use crate::color::{Component, Rgb};
 
 /// One number for all components of the light, or one for each.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -20,6 +21,24 @@ impl Amount {
     #[must_use]
     pub fn is_colored(self) -> bool {
         matches!(self, Self::Rgb(_))
+    }
+
+    /// What it has of a component.
+    #[must_use]
+    pub fn of(self, component: Component) -> f64 {
+        match self {
+            Self::Number(number) => number,
+            Self::Rgb(numbers) => *Rgb::from(numbers).of(component),
+        }
+    }
+
+    /// The same with other numbers.
+    #[must_use]
+    pub fn map(self, convert: impl Fn(f64) -> f64) -> Self {
+        match self {
+            Self::Number(number) => Self::Number(convert(number)),
+            Self::Rgb(numbers) => Self::Rgb(numbers.map(convert)),
+        }
     }
 
     /// Whether nothing of any component is there.

@@ -5,6 +5,7 @@ use crate::color::{ColorSpace, Component, Lighting, Rgb, SceneColor};
 use crate::scene::document::Path;
 use crate::scene::read::Problems;
 use crate::scene::source::{Amount, SceneSource};
+use crate::units::Choice;
 
 /// Which one number an amount of three becomes.
 #[derive(Clone, Copy)]
@@ -20,7 +21,7 @@ impl Collapse {
         match (amount, self) {
             (Amount::Number(number), _) => number,
             (Amount::Rgb(numbers), Self::Luminance(space)) => Rgb::from(numbers).weighted_by(space.luminance_weights()),
-            (Amount::Rgb(numbers), Self::Component(component)) => *Rgb::from(numbers).of(component),
+            (amount, Self::Component(component)) => amount.of(component),
         }
     }
 }
@@ -93,14 +94,11 @@ impl Validator {
 
     /// How much a material reflects of what it receives; the most of all components.
     pub(super) fn most_reflected(diffuse: Amount, specular: Amount) -> (f64, Option<Component>) {
-        let sum = |component| {
-            let one = |amount| Collapse::Component(component).one(amount);
-            one(diffuse) + one(specular)
-        };
+        let sum = |component| diffuse.of(component) + specular.of(component);
         if !diffuse.is_colored() && !specular.is_colored() {
             return (sum(Component::Red), None);
         }
-        let sums = <Component as crate::units::Choice>::ALL.iter().map(|component| (sum(*component), Some(*component)));
+        let sums = Component::ALL.iter().map(|component| (sum(*component), Some(*component)));
         sums.reduce(|most, next| if next.0 > most.0 { next } else { most }).unwrap_or((0.0, None))
     }
 }
