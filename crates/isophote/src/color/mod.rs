@@ -5,7 +5,8 @@
 
 mod space;
 
-pub use space::ColorSpace;
+pub use space::{Chromaticity, ColorSpace};
+pub(crate) use space::Matrix;
 
 use crate::light::{Ambient, Light};
 use crate::scene::Material;

@@ -56,8 +56,11 @@ pub struct PictureMetadata {
     pub gamma: f64,
     /// Bits of a sample: 8 or 16.
     pub depth: u8,
-    /// Name of the colour map; none for grey.
+    /// Name of the colour map; none for grey, and for colours that are shown as they are.
     pub colormap: Option<String>,
+    /// How those are encoded: `sRGB`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub encoding: Option<String>,
 }
 
 impl FileMetadata {
