@@ -67,7 +67,8 @@ fn the_sun_is_as_strong_everywhere() {
 fn a_spot_lights_its_cone() {
     let mut source = scene_file("sun.toml");
     source.probe.clear();
-    let isotropic = LightSource { position: Some([0.0, 0.0, 3.0]), intensity: Some(50.0.into()), ..LightSource::default() };
+    let isotropic =
+        LightSource { position: Some([0.0, 0.0, 3.0]), intensity: Some(50.0.into()), ..LightSource::default() };
     let spot = LightSource {
         emission: Some(EmissionName::Spot),
         axis: Some([0.0, 0.0, -2.0]),

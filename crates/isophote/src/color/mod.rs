@@ -5,8 +5,8 @@
 
 mod space;
 
-pub use space::{Chromaticity, ColorSpace};
 pub(crate) use space::Matrix;
+pub use space::{Chromaticity, ColorSpace};
 
 use crate::light::{Ambient, Light};
 use crate::scene::Material;

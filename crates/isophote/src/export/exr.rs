@@ -128,7 +128,8 @@ fn layer_attributes(map: &Map, names: &[Vec<String>]) -> LayerAttributes {
 fn image_attributes(map: &Map, names: &[Vec<String>]) -> ImageAttributes {
     let full = IntegerBounds::from_dimensions((map.full.width as usize, map.full.height as usize));
     let mut attributes = ImageAttributes::new(full);
-    attributes.chromaticities = map.provenance.color_space.as_deref().and_then(ColorSpace::from_name).map(chromaticities);
+    attributes.chromaticities =
+        map.provenance.color_space.as_deref().and_then(ColorSpace::from_name).map(chromaticities);
     let line = |(channel, names): (&Channel, &Vec<String>)| {
         let unit = match channel.unit.as_str() {
             "" => "index",

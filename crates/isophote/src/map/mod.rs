@@ -145,10 +145,16 @@ impl Quantity {
         }
     }
 
-    /// Whether it is one number at a pixel, of which pictures, levels and statistics can be made.
+    /// Whether it is one number at a pixel, of which levels and statistics can be made.
     #[must_use]
     pub fn is_scalar(&self) -> bool {
         !matches!(self, Self::Position | Self::Normal | Self::Shape | Self::Color)
+    }
+
+    /// Whether pictures can be made of it: of one number at a pixel, or of colours.
+    #[must_use]
+    pub fn can_be_picture(&self) -> bool {
+        self.is_scalar() || *self == Self::Color
     }
 
     /// The quantity with this [name](Self::name).

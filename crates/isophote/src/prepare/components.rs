@@ -50,7 +50,13 @@ impl PreparedScene {
     fn lit_by(&self, lighting: &Lighting) -> Self {
         let Lighting { materials, lights, ambient } = lighting.clone();
         let scene = Scene { materials, lights, ambient, color: None, ..self.scene.clone() };
-        Self { formulas: super::formulas(&scene), source_text: OnceLock::new(), components: None, scene, ..self.clone() }
+        Self {
+            formulas: super::formulas(&scene),
+            source_text: OnceLock::new(),
+            components: None,
+            scene,
+            ..self.clone()
+        }
     }
 
     /// What would be wrong without a word: a scene with colours is shaded by its components.

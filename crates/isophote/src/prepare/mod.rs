@@ -129,7 +129,8 @@ impl PreparedScene {
         for shape in &mut other.shapes {
             shape.outline = OnceLock::new();
         }
-        other.components = self.components.as_ref().map(|components| components.map(|one| one.at_resolution(resolution)));
+        other.components =
+            self.components.as_ref().map(|components| components.map(|one| one.at_resolution(resolution)));
         other
     }
 

@@ -23,8 +23,7 @@ pub fn map_of_components<E>(
 ) -> Result<Map, E> {
     let Some(components) = scene.components() else { return compute(scene, quantities) };
     let weights = components.space.luminance_weights();
-    let mut compute =
-        |component| compute(components.of(component), &wanted(quantities, component, sees_the_same));
+    let mut compute = |component| compute(components.of(component), &wanted(quantities, component, sees_the_same));
     let (red, green, blue) = (compute(Component::Red)?, compute(Component::Green)?, compute(Component::Blue)?);
     let mut map = combined(Rgb { red, green, blue }, quantities, weights, sees_the_same);
     map.provenance = band::provenance(scene, map.provenance.renderer);

@@ -111,7 +111,8 @@ pub enum RenderError {
 }
 
 /// Why there is no channel `color`.
-pub(crate) const NO_COLOR: &str = "there is no channel `color`: no coefficient and no strength of the scene is written as [R, G, B]";
+pub(crate) const NO_COLOR: &str =
+    "there is no channel `color`: no coefficient and no strength of the scene is written as [R, G, B]";
 
 impl Region {
     /// The whole image.

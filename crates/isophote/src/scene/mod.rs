@@ -309,6 +309,13 @@ impl Scene {
         self.color.as_deref()
     }
 
+    /// How one number is made of its colours, if it has any: `rec709, Y = 0.2126 R + 0.7152 G + 0.0722 B (3.10)`.
+    #[must_use]
+    pub fn color_label(&self) -> Option<String> {
+        let space = self.color()?.space;
+        Some(format!("{}, Y = {} (3.10)", crate::units::Choice::name(space), space.luminance_text()))
+    }
+
     /// The materials, by name.
     #[must_use]
     pub fn materials(&self) -> &[Material] {

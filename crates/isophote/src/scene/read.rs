@@ -10,8 +10,8 @@ use std::path::PathBuf;
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
-    AmbientSource, Amount, CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource,
-    ScreenSource, ShadowSource, SphereSource, WindowSource,
+    AmbientSource, Amount, CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource,
+    SceneSource, ScreenSource, ShadowSource, SphereSource, WindowSource,
 };
 use crate::units::Choice;
 

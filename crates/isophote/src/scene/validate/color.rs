@@ -32,10 +32,10 @@ impl Validator {
     pub(super) fn color(&mut self, source: &SceneSource) -> Option<SceneColor> {
         let space = source.color_space.unwrap_or_default();
         if source.is_colored() {
-            return self.problems.is_empty().then(|| SceneColor {
-                space,
-                lighting: Rgb::from_fn(|component| self.lighting(source, component)),
-            });
+            return self
+                .problems
+                .is_empty()
+                .then(|| SceneColor { space, lighting: Rgb::from_fn(|component| self.lighting(source, component)) });
         }
         // A triple that was written and not understood is a mistake already.
         if source.color_space.is_some() && self.problems.is_empty() {
