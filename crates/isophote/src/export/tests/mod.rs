@@ -1,5 +1,6 @@
 //! Every format written from one small map and read back by a reader that is not ours.
 
+mod color;
 mod damage;
 mod exr;
 mod metadata;
