@@ -82,7 +82,7 @@ fn a_scene_with_colours_is_checked_with_them() {
     let json = folder.ok("check color.toml --json").json();
     assert_eq!(json["color_space"], "rec709");
     assert_eq!(json["lights"][0]["intensity"], json!([9.0, 6.2, 3.6]));
-    assert_eq!(json["ambient"]["radiance"], json!([0.10, 0.11, 0.13]));
+    assert_eq!(json["ambient"]["radiance"], json!([0.16, 0.18, 0.21]));
     let white = json["materials"].as_array().unwrap().iter().find(|material| material["name"] == "white").unwrap();
     assert_eq!(white["diffuse"], 0.75);
 }
