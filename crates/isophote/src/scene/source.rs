@@ -267,11 +267,11 @@ pub struct SamplingSource {
 #[serde(deny_unknown_fields)]
 pub struct MaterialSource {
     /// Diffuse coefficient k_d, or those of red, green and blue.
-    #[schemars(required, schema_with = "amount::coefficient")]
+    #[schemars(required, with = "Option<amount::Coefficient>")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diffuse: Option<Amount>,
     /// Specular coefficient k_s, or those of red, green and blue.
-    #[schemars(schema_with = "amount::coefficient", extend("default" = 0))]
+    #[schemars(with = "Option<amount::Coefficient>", extend("default" = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub specular: Option<Amount>,
     /// Shininess n, the exponent of the highlight. Must be given where `specular` is not 0.
@@ -328,12 +328,12 @@ pub struct LightSource {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub position: Option<[f64; 3]>,
     /// Intensity on the axis in W/sr or cd. Either this or `power`.
-    #[schemars(schema_with = "amount::strength")]
+    #[schemars(with = "Option<amount::Strength>")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub intensity: Option<Amount>,
     /// Power sent out in all directions, in W or lm; isotropic: 4π times the intensity, lambertian: π times,
     /// spot: π (2 − cos α − cos β) times, for the half angles α and β of its cones.
-    #[schemars(schema_with = "amount::strength")]
+    #[schemars(with = "Option<amount::Strength>")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub power: Option<Amount>,
     /// How the intensity depends on the direction: not at all, as the cosine of the angle from the axis, or by two cones;
@@ -360,7 +360,7 @@ pub struct LightSource {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
     /// What a parallel light gives to a plane at right angles to its direction, in W/m² or lx.
-    #[schemars(schema_with = "amount::strength")]
+    #[schemars(with = "Option<amount::Strength>")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub irradiance: Option<Amount>,
     /// Whether shapes keep its light from each other, if the scene has shadows.
@@ -374,7 +374,7 @@ pub struct LightSource {
 #[serde(deny_unknown_fields)]
 pub struct AmbientSource {
     /// Its radiance L_a in W/(m²·sr) or cd/m²: every surface receives π L_a of it.
-    #[schemars(required, schema_with = "amount::strength")]
+    #[schemars(required, with = "Option<amount::Strength>")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radiance: Option<Amount>,
     /// Whether shapes keep it from each other.

@@ -1,6 +1,8 @@
 //! Coefficients and strengths: a number, or three of them.
 
-use schemars::{Schema, SchemaGenerator, json_schema};
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
 
 use super::SceneSource;
@@ -69,13 +71,37 @@ impl SceneSource {
 }
 
 /// A coefficient, as the schema has it.
-pub(super) fn coefficient(_: &mut SchemaGenerator) -> Schema {
-    one_or_three(&json_schema!({"type": "number", "minimum": 0.0, "maximum": 1.0}))
-}
+pub(super) struct Coefficient;
 
 /// An intensity, an irradiance, a radiance or a power, as the schema has it.
-pub(super) fn strength(_: &mut SchemaGenerator) -> Schema {
-    one_or_three(&json_schema!({"type": "number", "minimum": 0.0}))
+pub(super) struct Strength;
+
+impl JsonSchema for Coefficient {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Coefficient".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        one_or_three(&json_schema!({"type": "number", "minimum": 0.0, "maximum": 1.0}))
+    }
+}
+
+impl JsonSchema for Strength {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Strength".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        one_or_three(&json_schema!({"type": "number", "minimum": 0.0}))
+    }
 }
 
 fn one_or_three(number: &Schema) -> Schema {
