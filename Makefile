@@ -7,7 +7,7 @@ TESTED := $(or $(CARGO_TARGET_DIR),target)/debug/isophote
 PYTHON_ENV := target/python
 GENERATED := target/generated
 # The scenes of docs/gallery.md that are rendered as they are.
-GALLERY := solids room mesh spheres shadows overcast spot sun orthographic fisheye panorama
+GALLERY := solids room mesh spheres shadows overcast spot color sun orthographic fisheye panorama
 # gungraun refuses a runner of another version than its own.
 GUNGRAUN := 0.20.0
 GUNGRAUN_RUNNER := target/gungraun/bin/gungraun-runner

@@ -106,14 +106,15 @@ pub struct RenderArguments {
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
 
-    /// Draw the map with axes, colour bar and isophotes into FILE: .svg or .png; may be given several times
+    /// Draw the map with axes, colour bar and isophotes (of colours without the two) into FILE: .svg or .png; may be given
+    /// several times
     #[arg(long, value_name = "FILE")]
     pub figure: Vec<PathBuf>,
 
-    /// Channel: brightness, irradiance, ambient, diffuse, specular, depth, position, normal, shape, samples, coverage
-    /// or light.NAME; may be given
-    /// several times. The first one is summarised and pictured. By default the picture shows the brightness, and files
-    /// with many channels get all
+    /// Channel: brightness, color, irradiance, ambient, diffuse, specular, depth, position, normal, shape, samples,
+    /// coverage or light.NAME; may be given
+    /// several times. The first one is summarised and pictured. By default the picture shows the brightness, or its
+    /// colours in a scene that has them, and files with many channels get all
     #[arg(short, long, value_name = "NAME")]
     pub channel: Vec<String>,
 
@@ -317,7 +318,7 @@ pub struct SurfaceArguments {
     #[arg(long, value_name = "SIDE", default_value = "front", value_parser = choice::<Side>())]
     pub side: Side,
 
-    /// Channel: irradiance, light.NAME, position, normal, or brightness, diffuse or specular as the eye sees them; may be
+    /// Channel: irradiance, light.NAME, position, normal, or brightness, color, diffuse or specular as the eye sees them; may be
     /// given several times. The first one is summed up and pictured (by default the irradiance)
     #[arg(short, long, value_name = "NAME")]
     pub channel: Vec<String>,

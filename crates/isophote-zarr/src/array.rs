@@ -222,6 +222,9 @@ fn attributes(quantity: &Quantity, unit: &str) -> JsonMap<String, Value> {
     if matches!(quantity, Quantity::Position | Quantity::Normal) {
         attributes["components"] = json!(["x", "y", "z"]);
     }
+    if *quantity == Quantity::Color {
+        attributes["components"] = json!(["red", "green", "blue"]);
+    }
     object(attributes)
 }
 

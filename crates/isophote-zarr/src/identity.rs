@@ -70,6 +70,9 @@ impl Identity {
             "isophote": self.metadata,
             "isophote_plan": self.plan,
         });
+        if let Some(color_space) = &self.metadata.color_space {
+            attributes["color_space"] = json!(color_space);
+        }
         if let Some(statistics) = statistics {
             attributes["statistics"] = statistics;
         }

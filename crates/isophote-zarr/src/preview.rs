@@ -109,6 +109,7 @@ impl Preview {
             scene: metadata.scene.clone(),
             convention: metadata.convention.clone(),
             renderer: metadata.renderer.clone(),
+            color_space: metadata.color_space.clone(),
         };
         let map = Map::new(self.size, metadata.window, provenance, channels);
         let map = map.map_err(|error| StoreError::Encode { quantity: quantity.clone(), reason: error.to_string() })?;

@@ -3,6 +3,7 @@
 pub mod accelerate;
 pub mod analysis;
 pub mod camera;
+pub mod color;
 pub mod conformance;
 pub mod double_double;
 pub mod export;

@@ -42,6 +42,7 @@ pub(crate) fn map_over(size: Resolution, window: Window, seen: impl Fn(f64, f64)
             scene: String::new(),
             convention: "lab (3.3)".into(),
             renderer: "double reference".into(),
+            color_space: None,
         },
         channels: vec![
             channel(Quantity::Brightness, "W/m²", Values::Scalar(brightness)),

@@ -116,7 +116,7 @@ fn with_many_lights(count: u32) -> SceneSource {
             return LightSource {
                 emission: Some(EmissionName::Parallel),
                 direction: Some([ring * turn.cos(), height, ring * turn.sin()]),
-                irradiance: Some(0.25),
+                irradiance: Some(0.25.into()),
                 ..LightSource::default()
             };
         }
@@ -128,7 +128,7 @@ fn with_many_lights(count: u32) -> SceneSource {
             position: Some([distance * ring * turn.cos(), distance * height, 5.0 + distance * ring * turn.sin()]),
             emission: Some([EmissionName::Lambertian, EmissionName::Spot, EmissionName::Isotropic][index as usize % 3]),
             target: (is_lambertian || is_spot).then_some([0.3, 0.0, 5.0]),
-            intensity: Some(f64::from(index % 5)),
+            intensity: Some(f64::from(index % 5).into()),
             ..lamp.clone()
         }
     };
@@ -214,7 +214,7 @@ fn single_precision_keeps_its_bound_for_lights_anywhere() {
         let mut source = scene_file("lab.toml");
         source.probe.clear();
         source.light[0].position = Some([0.0, 0.0, z]);
-        source.light[0].intensity = Some(intensity);
+        source.light[0].intensity = Some(intensity.into());
         source.camera.get_or_insert_default().resolution = Some([41, 31]);
         prepared(source)
     };
@@ -277,7 +277,7 @@ fn distant_spheres_keep_their_digits() {
     for distance in [1e2, 1e4, 1e6] {
         let mut source = scene_file("closed-form-5.5.toml");
         source.light[0].position = Some([3.0, 4.0, 5.0]);
-        source.light[0].intensity = Some(100.0);
+        source.light[0].intensity = Some(100.0.into());
         let camera = source.camera.get_or_insert_default();
         camera.eye = Some([0.3 * distance, 0.2 * distance, distance]);
         camera.screen.get_or_insert_default().distance = Some(distance);
@@ -293,7 +293,7 @@ fn distant_spheres_keep_their_digits() {
 fn crossing_spheres_are_told_apart_to_the_last_digit() {
     let mut source = scene_file("lab.toml");
     source.probe.clear();
-    let dark = MaterialSource { diffuse: Some(0.1), ..MaterialSource::default() };
+    let dark = MaterialSource { diffuse: Some(0.1.into()), ..MaterialSource::default() };
     source.material.insert("dark".into(), dark);
     source.sphere.push(source.sphere[0].clone());
     source.sphere[0].center = Some([-0.3, 0.0, 5.0]);

@@ -67,7 +67,8 @@ fn the_sun_is_as_strong_everywhere() {
 fn a_spot_lights_its_cone() {
     let mut source = scene_file("sun.toml");
     source.probe.clear();
-    let isotropic = LightSource { position: Some([0.0, 0.0, 3.0]), intensity: Some(50.0), ..LightSource::default() };
+    let isotropic =
+        LightSource { position: Some([0.0, 0.0, 3.0]), intensity: Some(50.0.into()), ..LightSource::default() };
     let spot = LightSource {
         emission: Some(EmissionName::Spot),
         axis: Some([0.0, 0.0, -2.0]),
@@ -95,7 +96,7 @@ fn ambient_light_alone_gives_the_same_irradiance_everywhere() {
     for convention in [Convention::Irradiance, Convention::Lambert, Convention::Lab, Convention::Radiance] {
         let mut source = scene_file("two-lights.toml");
         source.light.clear();
-        source.ambient = Some(AmbientSource { radiance: Some(7.0), ..AmbientSource::default() });
+        source.ambient = Some(AmbientSource { radiance: Some(7.0.into()), ..AmbientSource::default() });
         source.convention = Some(convention);
         let scene = prepared(source);
         let renderers: [&dyn Renderer; 3] =

@@ -73,7 +73,7 @@ proptest! {
     fn brightness_is_linear_in_the_intensities(mut source in random::scenes(), factor in 0.1..50.0_f64) {
         let before = render(&source);
         for light in &mut source.light {
-            light.intensity = light.intensity.map(|intensity| intensity * factor);
+            light.intensity = light.intensity.map(|intensity| intensity.map(|number| number * factor));
         }
         assert_equal(&render(&source), &before, factor, 1e-15);
     }

@@ -103,6 +103,15 @@ mistakes! {
     a_fisheye_of_more_than_a_turn: "screen = { distance = 5, x = [-4, 4], y = [-3, 3] }" => "projection = \"fisheye-equidistant\"\nfield_of_view = 400", 1;
     a_panorama_of_more_than_a_turn: "screen = { distance = 5, x = [-4, 4], y = [-3, 3] }" => "projection = \"panorama\"\nlongitude = [-200, 200]\nlatitude = [0, 100]", 2;
     a_field_of_view_of_a_panorama: "screen = { distance = 5, x = [-4, 4], y = [-3, 3] }" => "projection = \"panorama\"\nfield_of_view = 90", 1;
+    a_color_of_two: "diffuse = 0.7" => "diffuse = [0.7, 0.2]", 1;
+    a_text_in_a_color: "diffuse = 0.7" => "diffuse = [0.7, \"green\", 0.2]", 1;
+    a_color_that_is_a_text: "diffuse = 0.7" => "diffuse = \"red\"", 1;
+    a_color_with_nan: "intensity = 100" => "intensity = [100, nan, 30]", 1;
+    a_color_out_of_bounds_twice: "diffuse = 0.7" => "diffuse = [1.7, 0.2, -0.1]", 2;
+    a_negative_light_of_one_color: "intensity = 100" => "intensity = [100, -1, 30]", 1;
+    a_shininess_of_three_numbers: "shininess = 20" => "shininess = [20, 30, 40]", 1;
+    a_color_space_without_color: "version = 1" => "version = 1\ncolor_space = \"rec2020\"", 1;
+    an_unknown_color_space: "version = 1" => "version = 1\ncolor_space = \"srgb\"", 1;
     a_key_given_twice: "radius = 1" => "radius = 1\nradius = 2", 1;
 }
 

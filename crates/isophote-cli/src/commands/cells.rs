@@ -11,7 +11,9 @@ use isophote::map::{CoordinateAxis, Map, Quantity};
 use isophote::scene::Scene;
 use isophote::text::significant;
 
-use super::output::{FigureFormat, MapFile, MapStyle, figure_format, refuse_twice, write_figure};
+use super::output::{
+    FigureFormat, MapFile, MapStyle, figure_format, formula_label, refuse_colormap, refuse_twice, write_figure,
+};
 use crate::args::CellStyleArguments;
 use crate::failure::{self, Usage};
 
@@ -37,7 +39,8 @@ impl<'a> CellFiles<'a> {
     /// Known before anything is computed.
     pub fn refuse_impossible_pictures(&self, main: &Quantity) -> Result<(), Usage> {
         let is_picture = !self.figures.is_empty() || self.files.iter().any(MapFile::is_picture);
-        if is_picture && !main.is_scalar() {
+        refuse_colormap(main, self.style.colormap)?;
+        if is_picture && !main.can_be_picture() {
             let message = "cannot be a picture: it is not one quantity a cell; put another --channel first";
             return Err(Usage(format!("the channel `{}` {message}", main.name())));
         }
@@ -78,7 +81,7 @@ impl<'a> CellFiles<'a> {
         const MOST: f64 = 6.0;
         let title = if options.title.is_empty() { scene.title().to_owned() } else { options.title };
         let label = match options.quantity {
-            Quantity::Brightness => format!("{}, {}", options.label, map.provenance.convention),
+            Quantity::Brightness => format!("{}, {}", options.label, formula_label(map)),
             _ => options.label,
         };
         let [width, height] =

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use anyhow::Result;
 use isophote::camera::{Camera, CameraFrame, Extent, Fisheye, Mapping, Projection, Screen};
+use isophote::color::Lighting;
 use isophote::light::{Emission, Light, LightKind};
 use isophote::reflectance::Reflectance;
 use isophote::render::Sampling;
@@ -38,6 +39,9 @@ fn to_text(scene: &Scene) -> String {
     row("handedness", format!("{} (2.3)", camera.handedness.name()));
     row("convention", format!("{}: {}", convention.label(), convention.formula()));
     row("quantities", format!("{}: B in {}", scene.quantities().name(), convention.unit(scene.quantities())));
+    if let Some(color) = scene.color_label() {
+        row("color space", color);
+    }
     if scene.shadows() {
         row("shadows", "shapes stand in each other's light".into());
     }
@@ -55,7 +59,9 @@ fn to_text(scene: &Scene) -> String {
         let unit = scene.quantities().radiance_unit();
         let obstructed =
             ambient.obstruction.map_or(String::new(), |samples| format!(", obstructed: {samples} directions a point"));
-        row("ambient", format!("{} {unit}{obstructed}", short(ambient.radiance)));
+        let radiance =
+            amount(scene, |lighting| lighting.ambient.map_or(0.0, |ambient| ambient.radiance), ambient.radiance);
+        row("ambient", format!("{radiance} {unit}{obstructed}"));
     }
     for (title, table) in [
         ("materials", materials(scene)),
@@ -97,10 +103,12 @@ fn projection_text(projection: &Projection) -> [String; 2] {
 
 fn materials(scene: &Scene) -> Option<String> {
     let columns = [("name", Align::Left), ("k_d", Align::Right), ("k_s", Align::Right), ("n", Align::Right)];
-    let rows = scene.materials().iter().map(|material| {
+    let rows = scene.materials().iter().enumerate().map(|(index, material)| {
         let Reflectance { diffuse, specular, shininess } = material.reflectance;
         let shininess = if specular == 0.0 { "–".into() } else { short(shininess) };
-        vec![material.name.clone(), short(diffuse), short(specular), shininess]
+        let diffuse = amount(scene, |lighting| lighting.materials[index].reflectance.diffuse, diffuse);
+        let specular = amount(scene, |lighting| lighting.materials[index].reflectance.specular, specular);
+        vec![material.name.clone(), diffuse, specular, shininess]
     });
     filled(&columns, &rows.collect::<Vec<_>>())
 }
@@ -131,22 +139,55 @@ fn lights(scene: &Scene) -> Option<String> {
         (power.as_str(), Align::Right),
         ("emission", Align::Left),
     ];
-    let rows = scene.lights().iter().map(|light| {
+    let rows = scene.lights().iter().enumerate().map(|(index, light)| {
+        let strength = |of: fn(&Light) -> f64| amount(scene, |lighting| of(&lighting.lights[index]), of(light));
         let light_row =
             |position, intensity, power, emission| vec![light.name.clone(), position, intensity, power, emission];
         match &light.kind {
             LightKind::Point(point) => {
                 let emission = emission_text(&point.emission);
-                light_row(vector(point.position), short(point.intensity), short(point.power()), emission)
+                light_row(vector(point.position), strength(intensity_of), strength(power_of), emission)
             }
             LightKind::Parallel(parallel) => {
-                let irradiance = format!("{} {}", short(parallel.irradiance), scene.quantities().irradiance_unit());
+                let irradiance = format!("{} {}", strength(intensity_of), scene.quantities().irradiance_unit());
                 let emission = format!("parallel, direction {}, E₀ {irradiance}", vector(parallel.direction));
                 light_row("–".into(), "–".into(), "–".into(), emission)
             }
         }
     });
     filled(&columns, &rows.collect::<Vec<_>>())
+}
+
+/// I₀ of a point light, E₀ of a parallel one.
+fn intensity_of(light: &Light) -> f64 {
+    match &light.kind {
+        LightKind::Point(point) => point.intensity,
+        LightKind::Parallel(parallel) => parallel.irradiance,
+    }
+}
+
+fn power_of(light: &Light) -> f64 {
+    match &light.kind {
+        LightKind::Point(point) => point.power(),
+        LightKind::Parallel(_) => 0.0,
+    }
+}
+
+/// An amount of each component, where they differ; else the one number that it is.
+fn components(scene: &Scene, of: impl Fn(&Lighting) -> f64, one: f64) -> std::result::Result<[f64; 3], f64> {
+    let Some(color) = scene.color() else { return Err(one) };
+    let amounts = color.lighting.map(of);
+    if amounts.is_even() { Err(amounts.red) } else { Ok(amounts.into_array()) }
+}
+
+/// As a text.
+fn amount(scene: &Scene, of: impl Fn(&Lighting) -> f64, one: f64) -> String {
+    components(scene, of, one).map_or_else(short, |amounts| format!("[{}]", amounts.map(short).join(", ")))
+}
+
+/// For programs.
+fn amount_json(scene: &Scene, of: impl Fn(&Lighting) -> f64, one: f64) -> Value {
+    components(scene, of, one).map_or_else(|one| json!(one), |amounts| json!(amounts))
 }
 
 fn emission_text(emission: &Emission) -> String {
@@ -193,13 +234,14 @@ fn to_json(scene: &Scene) -> Value {
         "formula": scene.convention().formula_number(),
         "quantities": scene.quantities().name(),
         "unit": scene.convention().unit(scene.quantities()),
+        "color_space": scene.color().map(|color| color.space.name()),
         "shadows": scene.shadows(),
         "sampling": sampling_json(scene.sampling()),
         "camera": camera_json(scene.camera()),
-        "materials": scene.materials().iter().map(material_json).collect::<Vec<_>>(),
+        "materials": scene.materials().iter().enumerate().map(|(index, material)| material_json(scene, index, material)).collect::<Vec<_>>(),
         "shapes": scene.shapes().iter().map(|shape| shape_json(shape, scene)).collect::<Vec<_>>(),
-        "lights": scene.lights().iter().map(light_json).collect::<Vec<_>>(),
-        "ambient": scene.ambient().map(|ambient| json!({"radiance": ambient.radiance, "obstructed": ambient.obstruction.is_some(), "samples": ambient.obstruction})),
+        "lights": scene.lights().iter().enumerate().map(|(index, light)| light_json(scene, index, light)).collect::<Vec<_>>(),
+        "ambient": scene.ambient().map(|ambient| json!({"radiance": amount_json(scene, |lighting| lighting.ambient.map_or(0.0, |ambient| ambient.radiance), ambient.radiance), "obstructed": ambient.obstruction.is_some(), "samples": ambient.obstruction})),
         "probes": scene.probes().iter().map(probe_json).collect::<Vec<_>>(),
         "warnings": scene.warnings().iter().map(warning_json).collect::<Vec<_>>(),
     })
@@ -235,8 +277,10 @@ fn camera_json(camera: &Camera) -> Value {
     value
 }
 
-fn material_json(material: &Material) -> Value {
+fn material_json(scene: &Scene, index: usize, material: &Material) -> Value {
     let Reflectance { diffuse, specular, shininess } = material.reflectance;
+    let diffuse = amount_json(scene, |lighting| lighting.materials[index].reflectance.diffuse, diffuse);
+    let specular = amount_json(scene, |lighting| lighting.materials[index].reflectance.specular, specular);
     json!({"name": material.name, "diffuse": diffuse, "specular": specular, "shininess": shininess})
 }
 
@@ -256,13 +300,14 @@ fn shape_json(shape: &Shape, scene: &Scene) -> Value {
     json
 }
 
-fn light_json(light: &Light) -> Value {
+fn light_json(scene: &Scene, index: usize, light: &Light) -> Value {
+    let strength = |of: fn(&Light) -> f64| amount_json(scene, |lighting| of(&lighting.lights[index]), of(light));
     let point = match &light.kind {
         LightKind::Point(point) => point,
         LightKind::Parallel(parallel) => {
             return json!({
                 "name": light.name, "emission": "parallel", "direction": parallel.direction.to_array(),
-                "irradiance": parallel.irradiance,
+                "irradiance": strength(intensity_of),
             });
         }
     };
@@ -272,8 +317,8 @@ fn light_json(light: &Light) -> Value {
         Emission::Spot(spot) => ("spot", Some(spot.axis.to_array())),
     };
     let mut value = json!({
-        "name": light.name, "position": point.position.to_array(), "intensity": point.intensity,
-        "power": point.power(), "emission": emission, "axis": axis,
+        "name": light.name, "position": point.position.to_array(), "intensity": strength(intensity_of),
+        "power": strength(power_of), "emission": emission, "axis": axis,
     });
     if let Emission::Spot(spot) = point.emission {
         value["inner_angle"] = spot.inner_angle().to_degrees().into();

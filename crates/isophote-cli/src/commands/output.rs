@@ -44,7 +44,7 @@ impl MapFile {
         Ok(Self { path: path.into(), format })
     }
 
-    /// Whether it is a picture of one scalar channel.
+    /// Whether it is a picture of one channel.
     pub fn is_picture(&self) -> bool {
         self.format == Format::Png
     }
@@ -102,6 +102,22 @@ fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<S
         }
     }
     Ok(note)
+}
+
+/// Colours are shown as they are.
+pub fn refuse_colormap(quantity: &Quantity, colormap: Option<Colormap>) -> Result<(), Usage> {
+    if *quantity == Quantity::Color && colormap.is_some() {
+        let message =
+            "--colormap does not go with the channel `color`, which is shown as it is; put -c brightness first";
+        return Err(Usage(message.into()));
+    }
+    Ok(())
+}
+
+/// The map's convention, and the luminance that one number of a scene with colours is.
+pub fn formula_label(map: &Map) -> String {
+    let space = map.provenance.color_space.as_ref().map_or(String::new(), |space| format!(", luminance in {space}"));
+    format!("{}{space}", map.provenance.convention)
 }
 
 /// A file that is asked for twice would keep what is written last, and nobody would miss the other.

@@ -4,8 +4,10 @@ use std::fmt::Write;
 
 use anyhow::Result;
 use isophote::analysis::probe::{Place, ProbeError, ProbeReading, SeenFromEye};
+use isophote::color::Component;
 use isophote::prepare::PreparedScene;
 use isophote::scene::{Scene, limits};
+use isophote::shade::Shading;
 use isophote::text::significant;
 use isophote::units::Choice;
 use isophote::vector::Vector;
@@ -39,7 +41,8 @@ pub fn run(arguments: &ProbeArguments) -> Result<String> {
     if arguments.json {
         let probes =
             readings.iter().map(|(name, reading, published)| ProbeJson::new(name, reading, *published, &scene));
-        return numbers::json(&ProbesJson { length: scene.scene().length().name(), probes: probes.collect() });
+        let (length, color_space) = (scene.scene().length().name(), scene.components().map(|parts| parts.space.name()));
+        return numbers::json(&ProbesJson { length, color_space, probes: probes.collect() });
     }
     if arguments.explain {
         let explanations: Vec<String> =
@@ -168,7 +171,15 @@ pub fn table_text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &Prepa
         }
         row
     };
-    let mut text = table(&columns, &readings.iter().map(row).collect::<Vec<_>>());
+    let rows = readings.iter().flat_map(|reading| std::iter::once(row(reading)).chain(color_rows(reading.1)));
+    // Nobody publishes components: their rows end before that column.
+    let filled = |row: Vec<String>| row.into_iter().chain(has_published.then(String::new)).take(columns.len());
+    let rows: Vec<Vec<String>> = rows.map(|row| filled(row).collect()).collect();
+    let mut text = table(&columns, &rows);
+    if let Some(color) = description.color_label() {
+        // Writing to a text cannot fail.
+        let _ = writeln!(text, "  {color}");
+    }
     for (name, reading, _) in readings {
         if let Some(note) = unseen_note(reading, description) {
             // Writing to a text cannot fail.
@@ -176,6 +187,22 @@ pub fn table_text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &Prepa
         }
     }
     text
+}
+
+/// A row for each component, below that of the luminance.
+fn color_rows(reading: &ProbeReading) -> Vec<Vec<String>> {
+    let Some(readings) = reading.components.as_deref() else { return Vec::new() };
+    let row = |component: &Component| {
+        let shading = &readings.of(*component).shading;
+        let [irradiance, brightness] = [shading.irradiance, shading.brightness()].map(|value| significant(value, 15));
+        vec![format!("  {}", component.name()), String::new(), irradiance, brightness]
+    };
+    Component::ALL.iter().map(row).collect()
+}
+
+/// Something of each component, in a scene with colours.
+fn rgb(reading: &ProbeReading, of: &dyn Fn(&ProbeReading) -> f64) -> Option<[f64; 3]> {
+    reading.components.as_deref().map(|readings| readings.map(of).into_array())
 }
 
 fn unseen_note(reading: &ProbeReading, scene: &Scene) -> Option<String> {
@@ -190,6 +217,8 @@ fn unseen_note(reading: &ProbeReading, scene: &Scene) -> Option<String> {
 #[derive(Serialize)]
 struct ProbesJson {
     length: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    color_space: Option<&'static str>,
     probes: Vec<ProbeJson>,
 }
 
@@ -220,14 +249,20 @@ struct ChannelsJson {
 
 #[derive(Serialize)]
 struct ValueJson {
+    /// The luminance, in a scene with colours.
     value: f64,
     unit: &'static str,
+    /// The components.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rgb: Option<[f64; 3]>,
 }
 
 #[derive(Serialize)]
 struct LightJson {
     name: String,
     irradiance: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    irradiance_rgb: Option<[f64; 3]>,
     cos_theta_i: f64,
     cos_theta_h: f64,
     /// None of a parallel light.
@@ -245,19 +280,27 @@ impl ProbeJson {
     pub fn new(name: &str, reading: &ProbeReading, published: Option<f64>, scene: &PreparedScene) -> Self {
         let description = scene.scene();
         let length = description.length();
-        let brightness = |value| ValueJson { value, unit: description.convention().unit(description.quantities()) };
-        let irradiance = |value| ValueJson { value, unit: description.quantities().irradiance_unit() };
-        let formula = scene.formula(reading.hit.primitive);
-        let lights = reading.terms.iter().zip(description.lights()).map(|(term, light)| LightJson {
+        let of_all =
+            |of: &dyn Fn(&ProbeReading) -> f64, unit| ValueJson { value: of(reading), unit, rgb: rgb(reading, of) };
+        let brightness = |of: fn(&Shading) -> f64| {
+            of_all(&|reading| of(&reading.shading), description.convention().unit(description.quantities()))
+        };
+        let irradiance = |of: fn(&Shading) -> f64| {
+            of_all(&|reading| of(&reading.shading), description.quantities().irradiance_unit())
+        };
+        let terms = reading.terms.iter().zip(description.lights()).enumerate();
+        let lights = terms.map(|(index, (term, light))| (reading.light_shares(scene, index), index, term, light));
+        let lights = lights.map(|([diffuse, specular], index, term, light)| LightJson {
             name: light.name.clone(),
             irradiance: term.irradiance,
+            irradiance_rgb: rgb(reading, &|reading| reading.terms[index].irradiance),
             cos_theta_i: term.cos_theta_i,
             cos_theta_h: term.cos_theta_h,
             distance: light.position().map(|_| length.from_metres(term.distance)),
             intensity: light.position().map(|_| term.intensity),
             visibility: term.visibility,
-            diffuse: term.diffuse(formula, &reading.hit.point),
-            specular: term.specular(formula, &reading.hit.point),
+            diffuse,
+            specular,
         });
         Self {
             name: name.into(),
@@ -267,11 +310,11 @@ impl ProbeJson {
             seen: reading.is_seen(),
             cos_theta_o: reading.hit.point.cos_theta_o,
             channels: ChannelsJson {
-                brightness: brightness(reading.shading.brightness()),
-                irradiance: irradiance(reading.shading.irradiance),
-                ambient: description.ambient().map(|_| irradiance(reading.shading.ambient)),
-                diffuse: brightness(reading.shading.diffuse),
-                specular: brightness(reading.shading.specular),
+                brightness: brightness(Shading::brightness),
+                irradiance: irradiance(|shading| shading.irradiance),
+                ambient: description.ambient().map(|_| irradiance(|shading| shading.ambient)),
+                diffuse: brightness(|shading| shading.diffuse),
+                specular: brightness(|shading| shading.specular),
             },
             published,
             lights: lights.collect(),

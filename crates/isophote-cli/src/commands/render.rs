@@ -13,7 +13,9 @@ use isophote::prepare::PreparedScene;
 use isophote::render::{Lanes, RenderError, RenderSettings, Renderer};
 use isophote::scene::Scene;
 
-use super::output::{FigureFormat, MapFile, MapStyle, figure_format, refuse_twice, write_figure};
+use super::output::{
+    FigureFormat, MapFile, MapStyle, figure_format, formula_label, refuse_colormap, refuse_twice, write_figure,
+};
 use super::store;
 use super::summary::Summary;
 use crate::args::RenderArguments;
@@ -53,8 +55,10 @@ impl RenderArguments {
 /// Valid arguments.
 struct Job<'a> {
     arguments: &'a RenderArguments,
-    /// The channel that is summarised and pictured.
+    /// The channel that is summarised.
     main: Quantity,
+    /// The channel that is pictured: the same, or colours.
+    pictured: Quantity,
     /// The channels that files get.
     wanted: Vec<Quantity>,
     files: Vec<MapFile>,
@@ -65,7 +69,9 @@ struct Job<'a> {
 impl<'a> Job<'a> {
     fn new(arguments: &'a RenderArguments, scene: &Scene) -> Result<Self> {
         let mut wanted = channels(&arguments.channel, scene)?;
-        let main = wanted.first().cloned().unwrap_or(Quantity::Brightness);
+        let default = if scene.color().is_some() { Quantity::Color } else { Quantity::Brightness };
+        let pictured = wanted.first().cloned().unwrap_or(default);
+        let main = if pictured == Quantity::Color { Quantity::Brightness } else { pictured.clone() };
         let outputs = if arguments.scene.scene.is_none() && arguments.output.is_empty() && arguments.figure.is_empty() {
             vec![PathBuf::from("lab.png")]
         } else {
@@ -76,7 +82,7 @@ impl<'a> Job<'a> {
         let figures = arguments.figure.iter().map(|path| Ok((path.clone(), figure_format(path)?)));
         let figures = figures.collect::<Result<Vec<_>>>()?;
         if wanted.is_empty() {
-            wanted.push(main.clone());
+            wanted.extend([main.clone(), pictured.clone()]);
             if files.iter().any(MapFile::holds_many_channels) {
                 // Without ambient light its channel is nothing but zeros.
                 let has_ambient = scene.ambient().is_some();
@@ -93,14 +99,14 @@ impl<'a> Job<'a> {
         }
         let depth = if arguments.bits == "16" { Depth::Sixteen } else { Depth::Eight };
         let style = MapStyle {
-            quantity: main.clone(),
+            quantity: pictured.clone(),
             range: arguments.range,
             gamma: arguments.gamma,
             depth,
             colormap: arguments.colormap,
             rows: if arguments.visible_only { Rows::Visible } else { Rows::All },
         };
-        let job = Self { arguments, main, wanted, files, figures, style };
+        let job = Self { arguments, main, pictured, wanted, files, figures, style };
         job.refuse_impossible_pictures()?;
         Ok(job)
     }
@@ -108,10 +114,16 @@ impl<'a> Job<'a> {
     /// Known before anything is computed.
     fn refuse_impossible_pictures(&self) -> Result<(), Usage> {
         let has_picture = self.files.iter().any(MapFile::is_picture);
-        let is_scalar = self.main.is_scalar();
-        if !is_scalar && (has_picture || !self.figures.is_empty()) {
+        refuse_colormap(&self.pictured, self.style.colormap)?;
+        if self.pictured == Quantity::Color && self.style.gamma != 1.0 {
+            let message =
+                "--gamma does not go with the channel `color`, which is shown with sRGB's; put -c brightness first";
+            return Err(Usage(message.into()));
+        }
+        let can_be_picture = self.pictured.can_be_picture();
+        if !can_be_picture && (has_picture || !self.figures.is_empty()) {
             let message = "cannot be a picture: it is not one quantity a pixel; put another --channel first";
-            return Err(Usage(format!("the channel `{}` {message}", self.main.name())));
+            return Err(Usage(format!("the channel `{}` {message}", self.pictured.name())));
         }
         if has_picture && self.style.depth == Depth::Sixteen && self.style.colormap.is_some() {
             let message = "--bits 16 does not go with --colormap: colours have 8 bits, only grey pictures have 16";
@@ -124,7 +136,8 @@ impl<'a> Job<'a> {
         let arguments = self.arguments;
         // The irradiance tells which pixels are lit.
         let sampled = scene.scene().sampling().is_more_than_centres().then_some(Quantity::Samples);
-        let quantities = self.wanted.iter().cloned().chain([Quantity::Irradiance]).chain(sampled).collect();
+        let quantities =
+            self.wanted.iter().cloned().chain([Quantity::Irradiance, self.main.clone()]).chain(sampled).collect();
         let region = arguments.region.unwrap_or(Region::all(scene.scene().camera().resolution));
         let progress = Progress::new(region.size.pixels() as u64, arguments.quiet);
         let settings = RenderSettings { region: Some(region), quantities, observer: Some(&progress) };
@@ -148,7 +161,7 @@ impl<'a> Job<'a> {
         for file in &self.files {
             file.write(map, &self.style, &mut notes)?;
         }
-        let metadata = map.channel(&self.main).map(|channel| FileMetadata::of_channel(map, channel));
+        let metadata = map.channel(&self.pictured).map(|channel| FileMetadata::of_channel(map, channel));
         for (path, format) in &self.figures {
             write_figure(&svg, metadata.as_ref(), path, *format, &mut notes)?;
         }
@@ -163,10 +176,11 @@ impl<'a> Job<'a> {
         };
         let has_figure = !self.figures.is_empty();
         let has_either = has_picture || has_figure;
+        let has_isophotes = has_figure && self.pictured != Quantity::Color;
         [
             note(!has_either && arguments.range.is_some(), "--range", ".png or figure"),
             note(!has_either && arguments.colormap.is_some(), "--colormap", ".png or figure"),
-            note(!has_figure && arguments.isophotes != DEFAULT_ISOPHOTES, "--isophotes", "figure"),
+            note(!has_isophotes && arguments.isophotes != DEFAULT_ISOPHOTES, "--isophotes", "figure of numbers"),
             note(!has_picture && arguments.gamma != 1.0, "--gamma", ".png"),
             note(!has_picture && self.style.depth == Depth::Sixteen, "--bits", ".png"),
             note(arguments.visible_only && !self.files.iter().any(MapFile::is_table), "--visible-only", ".csv"),
@@ -177,9 +191,9 @@ impl<'a> Job<'a> {
     }
 
     fn figure_options(&self, map: &Map, scene: &PreparedScene) -> FigureOptions {
-        let label = match self.main {
-            Quantity::Brightness => format!("brightness, {}", map.provenance.convention),
-            _ => self.main.name(),
+        let label = match self.pictured {
+            Quantity::Brightness => format!("brightness, {}", formula_label(map)),
+            _ => self.pictured.name(),
         };
         FigureOptions {
             title: scene.scene().title().to_owned(),
@@ -187,7 +201,7 @@ impl<'a> Job<'a> {
             range: self.arguments.range,
             isophotes: self.arguments.isophotes.into(),
             marks: marks(map, scene),
-            ..FigureOptions::new(self.main.clone(), &label)
+            ..FigureOptions::new(self.pictured.clone(), &label)
         }
     }
 }
@@ -196,9 +210,14 @@ impl<'a> Job<'a> {
 pub fn channels(names: &[String], scene: &Scene) -> Result<Vec<Quantity>> {
     let lights: Vec<Quantity> = scene.lights().iter().map(|light| Quantity::Light(light.name.clone())).collect();
     let known = |quantity: &Quantity| !matches!(quantity, Quantity::Light(_)) || lights.contains(quantity);
+    let color = scene.color().map(|_| Quantity::Color);
     let channel = |name: &String| {
+        if color.is_none() && *name == Quantity::Color.name() {
+            return Err(Usage(RenderError::NoColor.to_string()).into());
+        }
         Quantity::from_name(name).filter(known).ok_or_else(|| {
-            let known = Quantity::COMMON.iter().chain(&Quantity::OF_SAMPLING).chain(lights.iter().take(20));
+            let known =
+                Quantity::COMMON.iter().chain(&Quantity::OF_SAMPLING).chain(&color).chain(lights.iter().take(20));
             let names: Vec<String> = known.map(Quantity::name).collect();
             Usage(format!("there is no channel `{name}`; allowed: {}", names.join(", "))).into()
         })

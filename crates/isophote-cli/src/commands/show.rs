@@ -31,6 +31,9 @@ fn to_text(metadata: &FileMetadata) -> String {
     row("title", metadata.title.clone());
     row("made by", format!("{}, {}", metadata.program, metadata.renderer));
     row("convention", metadata.convention.clone());
+    if let Some(space) = &metadata.color_space {
+        row("color space", format!("{space}; one number is a luminance in it"));
+    }
     row("image", format!("{} × {} pixels", full.width, full.height));
     if region.size != *full {
         let (corner, size) = (region.corner, region.size);
@@ -53,10 +56,8 @@ fn to_text(metadata: &FileMetadata) -> String {
     }
     if let Some(picture) = &metadata.picture {
         let [black, white] = picture.range.map(|value| significant(value, 12));
-        row(
-            "picture",
-            format!("{black} to {white} from black to white, {} bits, gamma {}", picture.depth, picture.gamma),
-        );
+        let level = picture.encoding.clone().unwrap_or_else(|| format!("gamma {}", picture.gamma));
+        row("picture", format!("{black} to {white} from black to white, {} bits, {level}", picture.depth));
         if let Some(colormap) = &picture.colormap {
             row("colours", colormap.clone());
         }

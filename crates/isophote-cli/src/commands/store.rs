@@ -108,11 +108,12 @@ fn printed(statistics: &MapStatistics, scene: &PreparedScene, as_json: bool) -> 
     if as_json { numbers::json(&summary.to_json(scene)) } else { Ok(summary.to_text(scene)) }
 }
 
-/// The channels of the store: the brightness, unless others are named.
+/// The channels of the store: the brightness, and its colours if it has any, unless others are named.
 fn wanted(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Quantity>> {
     let mut named = channels(&arguments.channel, scene)?;
     if named.is_empty() {
         named.push(Quantity::Brightness);
+        named.extend(scene.color().map(|_| Quantity::Color));
     }
     if arguments.lights {
         named.extend(scene.lights().iter().map(|light| Quantity::Light(light.name.clone())));

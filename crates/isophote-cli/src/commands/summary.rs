@@ -86,6 +86,9 @@ impl Summary {
         let separator = if unit.is_empty() { "" } else { ", " };
         row("channel", format!("{}{separator}{unit}", self.main.name()));
         row("convention", format!("{}: {}", convention.label(), convention.formula()));
+        if let Some(color) = description.color_label() {
+            row("color space", color);
+        }
         match &self.statistics {
             Some(statistics) => {
                 row("maximum", extreme_text(&statistics.max, &unit, scene));
@@ -134,6 +137,7 @@ impl Summary {
             length: description.length().name(),
             convention: description.convention().name(),
             formula: description.convention().formula_number(),
+            color_space: description.color().map(|color| color.space.name()),
             channel: self.main.name(),
             unit: unit(&self.main, description),
             refined: self.refined.map(|refined| refined.pixels),
@@ -173,6 +177,8 @@ pub struct SummaryJson {
     length: &'static str,
     convention: &'static str,
     formula: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    color_space: Option<&'static str>,
     channel: String,
     unit: String,
     /// Pixels with more rays than one, where the scene asks for more.

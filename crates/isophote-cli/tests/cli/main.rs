@@ -2,6 +2,7 @@
 
 mod carried;
 mod check;
+mod color;
 mod common;
 mod explain;
 mod figures;

@@ -50,11 +50,14 @@ fn the_schema_refuses_what_the_program_refuses() {
         ("/camera/screen", json!({"distance": 5, "x": [-4, 4]})),
         ("/camera/screen/distance", json!(-5)),
         ("/material/clay/diffuse", json!(1.5)),
+        ("/material/clay/diffuse", json!([0.5, 0.5])),
+        ("/material/clay/diffuse", json!([0.5, 0.5, 1.5])),
         ("/material/clay/shininess", json!(0)),
         ("/sphere/0/radius", json!(0)),
         ("/sphere/0", json!({"center": [0, 0, 5], "raduis": 1})),
         ("/light/0/emission", json!("laser")),
         ("/light/0/intensity", json!(-1)),
+        ("/light/0/intensity", json!([1, -1, 1])),
         ("/probe/0/at", Value::Null),
     ] {
         let mut scene = lab.clone();
@@ -153,6 +156,7 @@ fn violations(root: &Value, schema: &Value, value: &Value) -> Vec<String> {
             "oneOf" => {
                 rule.as_array().unwrap().iter().filter(|one| violations(root, one, value).is_empty()).count() == 1
             }
+            "anyOf" => rule.as_array().unwrap().iter().any(|one| violations(root, one, value).is_empty()),
             "minimum" => number().is_none_or(|(value, bound)| value >= bound),
             "maximum" => number().is_none_or(|(value, bound)| value <= bound),
             "exclusiveMinimum" => number().is_none_or(|(value, bound)| value > bound),

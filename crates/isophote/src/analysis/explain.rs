@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use super::probe::{ProbeReading, SeenFromEye};
 use crate::camera::Projection;
+use crate::color::{Component, Rgb};
 use crate::light::{Ambient, Emission, Light, LightKind, ParallelLight, PointLight};
-use crate::prepare::PreparedScene;
+use crate::prepare::{Components, PreparedScene};
 use crate::reflectance::{Convention, Reflectance, lobe_constant};
 use crate::shade::LightTerm;
 use crate::text::significant;
@@ -19,14 +20,22 @@ impl ProbeReading {
     pub fn explain(&self, scene: &PreparedScene, name: &str) -> String {
         let mut text = String::new();
         self.explain_geometry(&mut text, scene, name);
+        match (scene.components(), self.components.as_deref()) {
+            (Some(components), Some(readings)) => explain_components(&mut text, components, readings),
+            _ => self.explain_numbers(&mut text, scene),
+        }
+        text
+    }
+
+    /// Every light, and their sum.
+    fn explain_numbers(&self, text: &mut String, scene: &PreparedScene) {
         for (index, term) in self.terms.iter().enumerate() {
-            self.explain_light(&mut text, scene, index, term);
+            self.explain_light(text, scene, index, term);
         }
         if let Some(ambient) = scene.scene().ambient() {
-            self.explain_ambient(&mut text, scene, ambient);
+            self.explain_ambient(text, scene, ambient);
         }
-        self.explain_sum(&mut text, scene);
-        text
+        self.explain_sum(text, scene);
     }
 
     fn explain_geometry(&self, text: &mut String, scene: &PreparedScene, name: &str) {
@@ -241,6 +250,28 @@ impl ProbeReading {
         let number = convention.formula_number();
         line(text, format_args!("  B = {} {unit}   ({number})", full(self.shading.brightness())));
     }
+}
+
+/// The calculation of each component, and the luminance of their results.
+fn explain_components(text: &mut String, components: &Components, readings: &Rgb<ProbeReading>) {
+    let space = components.space;
+    for component in Component::ALL {
+        line(text, format_args!(""));
+        line(text, format_args!("── {} ({}) ──", component.name(), space.name()));
+        readings.of(*component).explain_numbers(text, components.of(*component));
+    }
+    let scene = components.of(Component::Red).scene();
+    let (convention, quantities) = (scene.convention(), scene.quantities());
+    let weights = space.luminance_weights();
+    line(text, format_args!(""));
+    line(text, format_args!("Luminance Y = {}   (3.10), {}", space.luminance_text(), space.name()));
+    let mut sum = |symbol: &str, values: Rgb, unit: &str| {
+        let terms = Rgb::from_fn(|one| format!("{} × {}", digits(*weights.of(one)), digits(*values.of(one))));
+        let sum = full(values.weighted_by(weights));
+        line(text, format_args!("  {symbol}_Y = {} = {sum} {unit}", terms.into_array().join(" + ")));
+    };
+    sum("E", readings.map(|reading| reading.shading.irradiance), quantities.irradiance_unit());
+    sum("B", readings.map(|reading| reading.shading.brightness()), convention.unit(quantities));
 }
 
 fn explain_emission(text: &mut String, light: &PointLight, term: &LightTerm, unit: &str) {

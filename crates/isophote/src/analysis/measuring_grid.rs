@@ -3,6 +3,7 @@
 use crate::analysis::cells::{self, Cell, Layout};
 use crate::map::{Coordinates, Map, Pixel, Quantity, Resolution, Window};
 use crate::prepare::PreparedScene;
+use crate::render::color::map_of_components;
 use crate::scene::Grid;
 use crate::shade::ByLight;
 use crate::shape::SurfacePoint;
@@ -57,6 +58,10 @@ impl PreparedScene {
                 return Err(GridError::LightAtPoint { light: light.name.clone(), grid: grid.name.clone(), cell });
             }
         }
+        map_of_components(self, quantities, true, |scene, quantities| scene.grid_of_numbers(grid, quantities))
+    }
+
+    fn grid_of_numbers(&self, grid: &Grid, quantities: &[Quantity]) -> Result<Map, GridError> {
         let lights = cells::lights(self, quantities).map_err(|name| GridError::NoSuchLight { name })?;
         let length = self.scene().length();
         let edge = |edge: Vector| [0.0, length.from_metres(edge.length())];

@@ -1,8 +1,10 @@
 //! Exact values at a point.
 
 use crate::camera::ScreenPosition;
+use crate::color::Rgb;
 use crate::map::Pixel;
 use crate::prepare::{Hit, PreparedScene};
+use crate::render::color::luminance;
 use crate::shade::{LightTerm, Shading};
 use crate::shape::{Located, Miss, Primitive, surface_at};
 use crate::units::LengthUnit;
@@ -30,6 +32,8 @@ pub enum Place {
 }
 
 /// Values at a point of a surface, in double precision: within 1e-12 relative where cosθ_i and cosθ_o exceed 1e-3.
+///
+/// Those of a scene with colours are luminances (3.10), and the components have readings of their own.
 #[derive(Clone, Debug)]
 pub struct ProbeReading {
     /// The point, what it is on, and its directions.
@@ -42,6 +46,8 @@ pub struct ProbeReading {
     pub blockers: Vec<Option<Primitive>>,
     /// Whether the eye sees the point.
     pub seen: SeenFromEye,
+    /// The readings of the components of a scene with colours.
+    pub components: Option<Box<Rgb<Self>>>,
 }
 
 /// Whether the eye would see a point if it looked there, in the picture or not.
@@ -62,6 +68,40 @@ impl ProbeReading {
     #[must_use]
     pub fn position(&self, length: LengthUnit) -> [f64; 3] {
         self.hit.point.position().to_array().map(|metres| length.from_metres(metres))
+    }
+
+    /// The luminances of a scene with colours.
+    fn of_components(readings: Rgb<Self>, weights: Rgb) -> Self {
+        let shading = luminance(&readings.map(|reading| reading.shading), weights);
+        let term = |(index, term): (usize, &LightTerm)| {
+            let of = |number: fn(&LightTerm) -> f64| readings.map(|reading| number(&reading.terms[index]));
+            LightTerm {
+                intensity: of(|term| term.intensity).weighted_by(weights),
+                irradiance: of(|term| term.irradiance).weighted_by(weights),
+                // The same in all components that have a highlight.
+                lobe: of(|term| term.lobe).into_array().into_iter().fold(0.0, f64::max),
+                ..*term
+            }
+        };
+        let terms = readings.red.terms.iter().enumerate().map(term).collect();
+        let Self { hit, seen, ref blockers, .. } = readings.red;
+        Self { hit, shading, terms, blockers: blockers.clone(), seen, components: Some(Box::new(readings)) }
+    }
+
+    /// A light's share of the diffuse and of the specular part of B, by its index.
+    #[must_use]
+    pub fn light_shares(&self, scene: &PreparedScene, light: usize) -> [f64; 2] {
+        match (scene.components(), self.components.as_deref()) {
+            (Some(components), Some(readings)) => {
+                let weights = components.space.luminance_weights();
+                let shares = Rgb::from_fn(|one| readings.of(one).light_shares(components.of(one), light));
+                [0, 1].map(|part| shares.map(|shares| shares[part]).weighted_by(weights))
+            }
+            _ => {
+                let (term, formula) = (&self.terms[light], scene.formula(self.hit.primitive));
+                [term.diffuse(formula, &self.hit.point), term.specular(formula, &self.hit.point)]
+            }
+        }
     }
 
     /// Whether the eye sees the point.
@@ -106,6 +146,18 @@ impl PreparedScene {
     /// # Errors
     /// A place that is on no surface.
     pub fn probe(&self, place: &Place) -> Result<ProbeReading, ProbeError> {
+        match self.components() {
+            None => self.probe_numbers(place),
+            Some(components) => {
+                let Rgb { red, green, blue } = components.scenes();
+                let red = red.probe_numbers(place)?;
+                let readings = Rgb { red, green: green.probe_numbers(place)?, blue: blue.probe_numbers(place)? };
+                Ok(ProbeReading::of_components(readings, components.space.luminance_weights()))
+            }
+        }
+    }
+
+    fn probe_numbers(&self, place: &Place) -> Result<ProbeReading, ProbeError> {
         let geometries = || self.scene().shapes().iter().map(|shape| &shape.geometry);
         match *place {
             Place::Point(point) => match surface_at(geometries(), point) {
@@ -155,7 +207,7 @@ impl PreparedScene {
             if term.visibility > 0.0 { None } else { self.blocking(&hit, light).blocker }
         };
         let blockers = terms.iter().enumerate().map(blocker).collect();
-        ProbeReading { hit, shading, terms, blockers, seen }
+        ProbeReading { hit, shading, terms, blockers, seen, components: None }
     }
 
     fn seen_from_eye(&self, hit: &Hit) -> SeenFromEye {

@@ -3,6 +3,7 @@
 use crate::camera::ScreenPosition;
 use crate::map::Pixel;
 use crate::prepare::{Hit, PreparedScene};
+use crate::render::color::luminance;
 use crate::shade::Shading;
 
 /// A line on the screen.
@@ -64,10 +65,19 @@ impl PreparedScene {
     pub fn section(&self, line: SectionLine) -> Result<Vec<Sample>, SectionError> {
         let positions = self.positions(line)?;
         let sample = |position| {
-            let seen = self.trace(position).map(|hit| (hit, self.shade(&hit, Some(position), |_, _| {})));
+            let seen = self.trace(position).map(|hit| (hit, self.shade_colored(&hit, position)));
             Sample { screen: self.frame().point_on_screen(position), seen }
         };
         Ok(positions.into_iter().map(sample).collect())
+    }
+
+    /// The shading of a hit; of a scene with colours its luminance (3.10).
+    fn shade_colored(&self, hit: &Hit, position: ScreenPosition) -> Shading {
+        let shade = |scene: &Self, hit: &Hit| scene.shade(hit, Some(position), |_, _| {});
+        let Some(components) = self.components() else { return shade(self, hit) };
+        // Each component traces for itself: how exactly depends on its highlights.
+        let shading = |scene: &Self| scene.trace(position).map_or_else(|| shade(scene, hit), |hit| shade(scene, &hit));
+        luminance(&components.scenes().map(shading), components.space.luminance_weights())
     }
 
     fn positions(&self, line: SectionLine) -> Result<Vec<ScreenPosition>, SectionError> {

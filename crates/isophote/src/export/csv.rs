@@ -55,10 +55,15 @@ fn column_names(map: &Map) -> Vec<Vec<String>> {
     let names = names::unique(map.channels(), |character| !character.is_control() && !",\"#".contains(character));
     let columns = |(channel, name): (&Channel, String)| match (&channel.quantity, &channel.values) {
         (Quantity::Shape, _) => vec![],
-        (_, Values::Vector(_)) => ["x", "y", "z"].map(|axis| format!("{name}.{axis}")).to_vec(),
+        (_, Values::Vector(_)) => axes(&channel.quantity).map(|axis| format!("{name}.{axis}")).to_vec(),
         (_, Values::Scalar(_) | Values::Single(_) | Values::Index(_)) => vec![name],
     };
     map.channels().iter().zip(names).map(columns).collect()
+}
+
+/// What the three numbers of a vector are called.
+fn axes(quantity: &Quantity) -> [&'static str; 3] {
+    if *quantity == Quantity::Color { ["r", "g", "b"] } else { ["x", "y", "z"] }
 }
 
 fn write_comments(map: &Map, columns: &[Vec<String>], out: &mut impl Write) -> Result<(), ExportError> {
@@ -72,6 +77,9 @@ fn write_comments(map: &Map, columns: &[Vec<String>], out: &mut impl Write) -> R
         ),
         places(map),
     ];
+    if let Some(space) = &provenance.color_space {
+        lines.push(format!("color space: {space}; channels of one number are luminances in it"));
+    }
     if has_shapes(map) {
         lines.push("shape: index of the shape that is seen, -1 where none is".into());
     }

@@ -2,14 +2,15 @@
 //!
 //! | channel of the map | in the file |
 //! |---|---|
-//! | brightness | `Y` |
+//! | brightness | `Y`, in a scene with colours the luminance of `R`, `G`, `B` |
+//! | color | `R`, `G`, `B` |
 //! | irradiance, diffuse, specular | `irradiance.Y`, `diffuse.Y`, `specular.Y` |
 //! | depth (along the ray) | `Z` |
 //! | position, normal | `P.X` `P.Y` `P.Z`, `N.X` `N.Y` `N.Z` |
 //! | shape | `shape.index`, −1 where none is seen |
 //! | irradiance from one light | `light.<name>.Y`, all but letters, digits, `-` and `_` replaced by `_` |
 //!
-//! The data window is the map's region, the display window the full image.
+//! The standard attribute `chromaticities` tells the space of a scene with colours. The data window is the map's region, the display window the full image.
 
 mod blocks;
 
@@ -18,7 +19,7 @@ use std::io::{BufRead, Read, Seek, SeekFrom, Write};
 use exr::{
     meta::{
         BlockDescription,
-        attribute::{ChannelDescription, SampleType},
+        attribute::{ChannelDescription, Chromaticities, SampleType},
         header::Header,
     },
     prelude::{AttributeValue, Compression, ImageAttributes, IntegerBounds, LayerAttributes, LineOrder, Text, Vec2},
@@ -29,7 +30,9 @@ use super::{
     ExportError, FileMetadata, Format, names,
     read::{LONGEST_JSON, read_exactly},
 };
+use crate::color::{Chromaticity, ColorSpace, Rgb};
 use crate::map::{Channel, Map, Quantity, Region};
+use crate::units::Choice;
 
 /// Writes one part with all channels of the map, without loss beyond the rounding to 32 bits (relative 6e-8; values
 /// below 1.2e-38 lose digits and below 7e-46 become 0).
@@ -75,6 +78,7 @@ fn channel_names(map: &Map) -> Vec<Vec<String>> {
     let axes = |layer: &str| ["X", "Y", "Z"].map(|axis| format!("{layer}.{axis}")).to_vec();
     let in_file = |(channel, name): (&Channel, String)| match channel.quantity {
         Quantity::Brightness => vec!["Y".into()],
+        Quantity::Color => ["R", "G", "B"].map(String::from).to_vec(),
         Quantity::Depth => vec!["Z".into()],
         Quantity::Position => axes("P"),
         Quantity::Normal => axes("N"),
@@ -114,7 +118,8 @@ fn layer_attributes(map: &Map, names: &[Vec<String>]) -> LayerAttributes {
     let corner = map.region.corner;
     attributes.layer_position = Vec2(corner.column.cast_signed(), corner.row.cast_signed());
     attributes.software_name = Some(text(&map.provenance.program));
-    attributes.comments = Some(text(&format!("{}: {}", map.provenance.title, map.provenance.convention)));
+    let space = map.provenance.color_space.as_ref().map_or(String::new(), |space| format!(", {space}"));
+    attributes.comments = Some(text(&format!("{}: {}{space}", map.provenance.title, map.provenance.convention)));
     let json = FileMetadata::of_stored(map, names.to_vec()).to_json();
     attributes.other.insert(text("isophote"), AttributeValue::Text(text(&json)));
     attributes
@@ -123,6 +128,8 @@ fn layer_attributes(map: &Map, names: &[Vec<String>]) -> LayerAttributes {
 fn image_attributes(map: &Map, names: &[Vec<String>]) -> ImageAttributes {
     let full = IntegerBounds::from_dimensions((map.full.width as usize, map.full.height as usize));
     let mut attributes = ImageAttributes::new(full);
+    attributes.chromaticities =
+        map.provenance.color_space.as_deref().and_then(ColorSpace::from_name).map(chromaticities);
     let line = |(channel, names): (&Channel, &Vec<String>)| {
         let unit = match channel.unit.as_str() {
             "" => "index",
@@ -133,6 +140,14 @@ fn image_attributes(map: &Map, names: &[Vec<String>]) -> ImageAttributes {
     let units: Vec<_> = map.channels().iter().zip(names).map(line).collect();
     attributes.other.insert(text("units"), AttributeValue::Text(text(&units.join("\n"))));
     attributes
+}
+
+/// The standard attribute, which says what R, G, B and Y are amounts of.
+fn chromaticities(space: ColorSpace) -> Chromaticities {
+    #[expect(clippy::cast_possible_truncation, reason = "the format's numbers")]
+    let vector = |Chromaticity { x, y }: Chromaticity| Vec2(x as f32, y as f32);
+    let Rgb { red, green, blue } = space.primaries().map(|primary| vector(*primary));
+    Chromaticities { red, green, blue, white: vector(space.white()) }
 }
 
 /// The crate's own conversion refuses all but Latin-1; the libraries of `OpenEXR` pass UTF-8 on as it is.

@@ -17,6 +17,9 @@ pub struct FileMetadata {
     pub convention: String,
     /// The renderer and its precision.
     pub renderer: String,
+    /// The space of linear RGB that the scene's colours are amounts of; none where it has no colours.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color_space: Option<String>,
     /// Size of the full image, of which the file may hold a part.
     pub full: Resolution,
     /// The part that the file holds.
@@ -53,8 +56,11 @@ pub struct PictureMetadata {
     pub gamma: f64,
     /// Bits of a sample: 8 or 16.
     pub depth: u8,
-    /// Name of the colour map; none for grey.
+    /// Name of the colour map; none for grey, and for colours that are shown as they are.
     pub colormap: Option<String>,
+    /// How those are encoded: `sRGB`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub encoding: Option<String>,
 }
 
 impl FileMetadata {
@@ -70,6 +76,7 @@ impl FileMetadata {
             title: map.provenance.title.clone(),
             convention: map.provenance.convention.clone(),
             renderer: map.provenance.renderer.clone(),
+            color_space: map.provenance.color_space.clone(),
             full: map.full,
             region: map.region,
             window: map.window,

@@ -5,6 +5,7 @@
 //! [`FileMetadata`], which [`read_metadata`] finds again, and the same map gives the same bytes on every run.
 
 pub mod atomic;
+mod color_scale;
 pub mod colormap;
 mod colormap_tables;
 pub mod csv;
@@ -34,7 +35,7 @@ use crate::{
 /// What a map can be saved as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
-    /// A picture of one channel, normalised: [`png::write`].
+    /// A picture of one channel, normalised, or of colours: [`png::write`].
     Png,
     /// All channels in 32-bit floating point: [`exr::write`].
     Exr,
@@ -114,6 +115,12 @@ pub enum ExportError {
         name: String,
         /// `three numbers`, `an index`.
         holds: &'static str,
+    },
+    /// Colours are shown as they are.
+    #[error("channel ‘{name}’ is shown in its own colours: without a colour map, without gamma")]
+    ColorStyle {
+        /// The channel asked for.
+        name: String,
     },
     /// Black and white are not two finite numbers in this order.
     #[error("range {} to {} of ‘{name}’: black must be below white, both finite", range[0], range[1])]

@@ -1,5 +1,7 @@
 //! A picture of one channel, normalised: the only place where numbers become grey levels or colours.
 
+mod color;
+
 use std::io::{BufRead, Seek, Write};
 
 use super::{ExportError, FileMetadata, Format, PictureMetadata, channel, csv::Number, one_line, read::LONGEST_JSON};
@@ -12,12 +14,17 @@ pub(super) const METADATA_KEYWORD: &str = "isophote";
 /// Writes the picture, row 0 on top; missed pixels are black, with a colour map too.
 ///
 /// A value v becomes ((v − black)/(white − black))^(1/gamma), times 255 or 65535, rounded to nearest.
+/// Colours are scaled by one range, which is from 0 to the largest component by default, and shown in sRGB with its own
+/// transfer function, whatever space they are of.
 /// Text chunks `Title`, `Software`, `Description` and `isophote` (the metadata's JSON) come before the pixels.
 ///
 /// # Errors
 /// No such channel, or not a scalar one; a range, gamma or depth that makes no picture; an error of `out`.
 pub fn write(map: &Map, options: &PictureOptions, out: &mut impl Write) -> Result<PictureReport, ExportError> {
     let channel = channel(map, &options.quantity)?;
+    if let (Quantity::Color, Values::Vector(colors)) = (&channel.quantity, &channel.values) {
+        return color::write(map, channel, colors, options, out);
+    }
     let values = options.validate(channel)?;
     let range = options.range_for(map, channel, values)?;
 
@@ -45,7 +52,7 @@ pub fn write(map: &Map, options: &PictureOptions, out: &mut impl Write) -> Resul
 /// What a picture shows and how.
 #[derive(Clone)]
 pub struct PictureOptions<'a> {
-    /// The channel, a scalar one.
+    /// The channel: a scalar one, or colours.
     pub quantity: Quantity,
     /// The values of black and white in the channel's unit; by default 0 and the greatest visible value.
     pub range: Option<[f64; 2]>,
@@ -210,6 +217,7 @@ fn texts(map: &Map, channel: &Channel, options: &PictureOptions, range: [f64; 2]
         gamma: options.gamma,
         depth: options.depth.bits(),
         colormap: options.color.map(|color| color.name.into()),
+        encoding: None,
     });
     [
         ("Title", one_line(&map.provenance.title)),
@@ -232,7 +240,8 @@ fn set_compression(encoder: &mut png::Encoder<impl Write>, depth: Depth) {
 }
 
 fn description(map: &Map, channel: &Channel, options: &PictureOptions, range: [f64; 2]) -> String {
-    let (quantity, convention) = (channel.quantity.name(), &map.provenance.convention);
+    let space = map.provenance.color_space.as_ref().map_or(String::new(), |space| format!(", luminance in {space}"));
+    let (quantity, convention) = (channel.quantity.name(), format!("{}{space}", map.provenance.convention));
     let [black, white] = range.map(|value| with_unit(value, &channel.unit));
     #[expect(clippy::float_cmp, reason = "1 is the exact default")]
     let level = if options.gamma == 1.0 {

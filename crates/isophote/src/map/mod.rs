@@ -109,6 +109,9 @@ pub enum Quantity {
     Coverage,
     /// The standard error of [`Ambient`](Self::Ambient) where what obstructs it is sampled.
     AmbientError,
+    /// The brightness of each component of the light: R, G, B by the scene's colour space. In scenes with colours only,
+    /// where every other quantity is a luminance (3.10).
+    Color,
     /// Irradiance from the light with this name alone, one term of (3.1).
     Light(String),
 }
@@ -134,7 +137,7 @@ impl Quantity {
     #[must_use]
     pub fn unit(&self, convention: Convention, quantities: Quantities, length: LengthUnit) -> &'static str {
         match self {
-            Self::Brightness | Self::Diffuse | Self::Specular => convention.unit(quantities),
+            Self::Brightness | Self::Color | Self::Diffuse | Self::Specular => convention.unit(quantities),
             Self::Irradiance | Self::Ambient | Self::AmbientError | Self::Light(_) => quantities.irradiance_unit(),
             Self::Depth | Self::Position => length.name(),
             Self::Normal | Self::Samples | Self::Coverage => "1",
@@ -142,10 +145,16 @@ impl Quantity {
         }
     }
 
-    /// Whether it is one number at a pixel, of which pictures, levels and statistics can be made.
+    /// Whether it is one number at a pixel, of which levels and statistics can be made.
     #[must_use]
     pub fn is_scalar(&self) -> bool {
-        !matches!(self, Self::Position | Self::Normal | Self::Shape)
+        !matches!(self, Self::Position | Self::Normal | Self::Shape | Self::Color)
+    }
+
+    /// Whether pictures can be made of it: of one number at a pixel, or of colours.
+    #[must_use]
+    pub fn can_be_picture(&self) -> bool {
+        self.is_scalar() || *self == Self::Color
     }
 
     /// The quantity with this [name](Self::name).
@@ -153,7 +162,10 @@ impl Quantity {
     pub fn from_name(name: &str) -> Option<Self> {
         match name.strip_prefix("light.") {
             Some(light) => Some(Self::Light(light.into())),
-            None => Self::COMMON.into_iter().chain(Self::OF_SAMPLING).find(|quantity| quantity.name() == name),
+            None => {
+                let mut named = Self::COMMON.into_iter().chain(Self::OF_SAMPLING).chain([Self::Color]);
+                named.find(|quantity| quantity.name() == name)
+            }
         }
     }
 
@@ -173,6 +185,7 @@ impl Quantity {
             Self::Samples => "samples".into(),
             Self::Coverage => "coverage".into(),
             Self::AmbientError => "ambient-error".into(),
+            Self::Color => "color".into(),
             Self::Light(light) => format!("light.{light}"),
         }
     }
@@ -202,6 +215,9 @@ pub struct Provenance {
     pub convention: String,
     /// The renderer and its precision.
     pub renderer: String,
+    /// The space of linear RGB that the scene's colours are amounts of; none where it has no colours.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color_space: Option<String>,
 }
 
 /// An image of channels.

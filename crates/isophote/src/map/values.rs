@@ -8,7 +8,7 @@ pub enum Values {
     Scalar(Vec<f64>),
     /// One number a pixel, computed in single precision.
     Single(Vec<f32>),
-    /// Three numbers a pixel: x, y, z.
+    /// Three numbers a pixel: x, y, z, or red, green, blue.
     Vector(Vec<[f64; 3]>),
     /// One index a pixel.
     Index(Vec<i32>),

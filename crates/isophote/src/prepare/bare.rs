@@ -22,6 +22,7 @@ impl PreparedScene {
     /// What arrives from the lights (3.1) and the environment (3.9) at a point that has a side but is no shape's; `each`
     /// sees every light's own term.
     pub fn illuminate(&self, point: &SurfacePoint, each: impl FnMut(usize, &LightTerm)) -> Shading {
+        self.expect_single_numbers();
         let touched = self.touched(point.position());
         let precise = OnceCell::new();
         let visibility = |light| {

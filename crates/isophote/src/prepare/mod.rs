@@ -1,6 +1,7 @@
 //! A scene laid out for tracing and shading. It chooses no renderer.
 
 mod bare;
+mod components;
 mod obstruction;
 mod visibility;
 
@@ -8,6 +9,7 @@ use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
+pub use components::Components;
 pub use obstruction::AmbientIrradiance;
 use obstruction::Hemisphere;
 pub use visibility::Blocking;
@@ -43,6 +45,8 @@ pub struct PreparedScene {
     hemisphere: Option<Arc<Hemisphere>>,
     /// Written when the first map asks for it.
     source_text: OnceLock<String>,
+    /// Of a scene with colours.
+    components: Option<Components>,
 }
 
 #[derive(Clone, Debug)]
@@ -82,16 +86,6 @@ impl PreparedScene {
     /// Lays a scene out.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
-        let without_material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };
-        let materials = scene.materials.iter().map(|material| &material.reflectance);
-        let steepest_edge = scene.lights.iter().map(Light::steepest_edge).fold(0.0, f64::max);
-        let formulas = materials.chain([&without_material]).map(|material| {
-            let formula = BrightnessFormula::new(scene.convention, material);
-            let shininess = (formula.specular > 0.0).then_some(formula.shininess);
-            let accuracy = Accuracy::for_shading(shininess, steepest_edge);
-            let doubtful_in_outline = accuracy.doubtful_clearance(&TracingError::IN_OUTLINE);
-            PreparedFormula { formula, accuracy, doubtful_in_outline }
-        });
         let shapes = scene.shapes.iter().map(|shape| PreparedShape {
             geometry: shape.geometry.clone(),
             formula: shape.material.unwrap_or(scene.materials.len()),
@@ -104,28 +98,31 @@ impl PreparedScene {
             Some(*count)
         }));
         let obstruction = scene.ambient.and_then(|ambient| ambient.obstruction);
-        let prepared = Self {
+        let mut prepared = Self {
             first_primitives,
             tried_one_by_one: HANDFUL,
             accelerator: Arc::default(),
             frame: CameraFrame::new(&scene.camera),
             precise_frame: CameraFrame::new(&scene.camera),
             shapes,
-            formulas: formulas.collect(),
+            formulas: formulas(scene),
             hemisphere: obstruction.map(|directions| Arc::new(Hemisphere::new(directions))),
             source_text: OnceLock::new(),
+            components: None,
             scene: Arc::new(scene.clone()),
         };
         if prepared.primitive_count() > HANDFUL {
             prepared.accelerator();
         }
+        prepared.components = prepared.split_into_components();
         prepared
     }
 
     /// The same scene without a tree: every ray tries every primitive. This is what the tree is held to.
     #[must_use]
     pub fn by_brute_force(self) -> Self {
-        Self { tried_one_by_one: u32::MAX, ..self }
+        let components = self.components.as_ref().map(|components| components.map(|one| one.clone().by_brute_force()));
+        Self { tried_one_by_one: u32::MAX, components, ..self }
     }
 
     /// The same scene seen with another number of pixels.
@@ -137,6 +134,8 @@ impl PreparedScene {
         for shape in &mut other.shapes {
             shape.outline = OnceLock::new();
         }
+        other.components =
+            self.components.as_ref().map(|components| components.map(|one| one.at_resolution(resolution)));
         other
     }
 
@@ -306,6 +305,7 @@ impl PreparedScene {
     /// `seen_at` is the place on the screen where the hit was found: at the edge of a shadow it is found again with 32
     /// digits. A hit of a given point has none, and is taken as exact.
     pub fn shade(&self, hit: &Hit, seen_at: Option<ScreenPosition>, each: impl FnMut(usize, &LightTerm)) -> Shading {
+        self.expect_single_numbers();
         let precise = OnceCell::new();
         let find_again = || seen_at.and_then(|position| self.trace_precisely(position));
         let visibility = |light| {
@@ -345,6 +345,7 @@ impl PreparedScene {
     /// The convention applied to the material of a primitive.
     #[must_use]
     pub fn formula(&self, primitive: Primitive) -> &BrightnessFormula {
+        self.expect_single_numbers();
         &self.prepared_formula(primitive).formula
     }
 
@@ -369,6 +370,21 @@ impl PreparedScene {
         let primitive = Primitive { shape: located.shape, part: nearest.part };
         Hit { primitive, distance, point, from_inside, lift }
     }
+}
+
+/// The convention applied to each material of a scene, and last to what has none.
+fn formulas(scene: &Scene) -> Vec<PreparedFormula> {
+    let without_material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };
+    let materials = scene.materials.iter().map(|material| &material.reflectance);
+    let steepest_edge = scene.lights.iter().map(Light::steepest_edge).fold(0.0, f64::max);
+    let formulas = materials.chain([&without_material]).map(|material| {
+        let formula = BrightnessFormula::new(scene.convention, material);
+        let shininess = (formula.specular > 0.0).then_some(formula.shininess);
+        let accuracy = Accuracy::for_shading(shininess, steepest_edge);
+        let doubtful_in_outline = accuracy.doubtful_clearance(&TracingError::IN_OUTLINE);
+        PreparedFormula { formula, accuracy, doubtful_in_outline }
+    });
+    formulas.collect()
 }
 
 /// A search for the nearest primitive; in which order they are tested does not matter.

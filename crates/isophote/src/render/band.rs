@@ -9,7 +9,7 @@ use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolu
 use crate::prepare::{Hit, PreparedScene};
 use crate::scene::Scene;
 use crate::shade::ByLight;
-use crate::units::LengthUnit;
+use crate::units::{Choice, LengthUnit};
 
 /// A map of zeros (−1 for the shape) that sees nothing, with every channel that the settings ask for. In single
 /// precision the geometry (depth, position, normal) is double all the same. `memory` is cleared memory to be used
@@ -44,6 +44,7 @@ pub fn provenance(scene: &PreparedScene, renderer: String) -> Provenance {
         scene: scene.source_text().to_owned(),
         convention: scene.scene().convention.label(),
         renderer,
+        color_space: scene.components().map(|components| components.space.name().to_owned()),
     }
 }
 
@@ -72,6 +73,9 @@ fn empty_channel(
         && scene.light_named(name).is_none()
     {
         return Err(RenderError::NoSuchLight { name: name.clone() });
+    }
+    if *quantity == Quantity::Color {
+        return Err(RenderError::NoColor);
     }
     let pixels = region.size.pixels();
     let mut reuse = |fits: fn(&Values) -> bool| {
@@ -229,9 +233,12 @@ impl ScalarChannel {
             Quantity::Specular => Self::Specular,
             Quantity::Depth => Self::Depth,
             Quantity::Light(name) => Self::Light(scene.light_named(name).expect("the map was made for this scene")),
-            Quantity::Position | Quantity::Normal | Quantity::Shape | Quantity::Samples | Quantity::Coverage => {
-                unreachable!("renderers do not fill it in")
-            }
+            Quantity::Position
+            | Quantity::Normal
+            | Quantity::Shape
+            | Quantity::Samples
+            | Quantity::Coverage
+            | Quantity::Color => unreachable!("renderers do not fill it in"),
         }
     }
 

@@ -1,9 +1,11 @@
 //! From a prepared scene to a map.
 
 mod band;
+pub(crate) mod color;
 mod lanes;
 mod reference;
 mod sampling;
+mod share;
 mod tiles;
 
 use std::ops::ControlFlow;
@@ -85,6 +87,9 @@ pub enum RenderError {
         /// What was asked for.
         name: String,
     },
+    /// The channel `color` of a scene that has none.
+    #[error("{}", NO_COLOR)]
+    NoColor,
     /// Single precision cannot hold a value.
     #[error("column {}, row {}: {value:e} is more than single precision holds (3.4e38); double does", pixel.column, pixel.row)]
     Overflow {
@@ -105,6 +110,10 @@ pub enum RenderError {
         reason: String,
     },
 }
+
+/// Why there is no channel `color`.
+pub(crate) const NO_COLOR: &str =
+    "there is no channel `color`: no coefficient and no strength of the scene is written as [R, G, B]";
 
 impl Region {
     /// The whole image.

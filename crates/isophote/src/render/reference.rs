@@ -1,6 +1,6 @@
 //! The reference: one pixel after the other, in double precision.
 
-use super::{RenderError, RenderSettings, Renderer, band, sampling};
+use super::{RenderError, RenderSettings, Renderer, band, color, sampling};
 use crate::lanes::Precision;
 use crate::map::Map;
 use crate::prepare::PreparedScene;
@@ -15,11 +15,13 @@ impl Renderer for Reference {
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
-        if scene.scene().sampling().is_more_than_centres() {
-            sampling::render(scene, settings, None, &|_, scene, settings| self.centres(scene, settings))
-        } else {
-            self.centres(scene, settings)
-        }
+        color::render(scene, settings, |scene, settings| {
+            if scene.scene().sampling().is_more_than_centres() {
+                sampling::render(scene, settings, None, &|_, scene, settings| self.centres(scene, settings))
+            } else {
+                self.centres(scene, settings)
+            }
+        })
     }
 }
 

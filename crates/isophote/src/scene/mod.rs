@@ -17,6 +17,7 @@ use source::{GridSource, SamplingSource, ShadowSource};
 pub use validate::limits;
 
 use crate::camera::Camera;
+use crate::color::SceneColor;
 use crate::light::{Ambient, Light};
 use crate::map::Resolution;
 use crate::reflectance::{Convention, Reflectance};
@@ -42,6 +43,8 @@ pub struct Scene {
     pub(crate) shapes: Vec<Shape>,
     pub(crate) lights: Vec<Light>,
     pub(crate) ambient: Option<Ambient>,
+    /// Of a scene with colours: its materials and lights above then hold luminances, which nothing may be shaded by.
+    pub(crate) color: Option<Box<SceneColor>>,
     pub(crate) probes: Vec<Probe>,
     pub(crate) grids: Vec<Grid>,
     pub(crate) warnings: Vec<Problem>,
@@ -297,6 +300,20 @@ impl Scene {
     #[must_use]
     pub fn camera(&self) -> &Camera {
         &self.camera
+    }
+
+    /// What the scene has three of, if it has colours. Its [materials](Self::materials), [lights](Self::lights) and
+    /// [ambient light](Self::ambient) are then luminances, for listings alone.
+    #[must_use]
+    pub fn color(&self) -> Option<&SceneColor> {
+        self.color.as_deref()
+    }
+
+    /// How one number is made of its colours, if it has any: `rec709, Y = 0.2126 R + 0.7152 G + 0.0722 B (3.10)`.
+    #[must_use]
+    pub fn color_label(&self) -> Option<String> {
+        let space = self.color()?.space;
+        Some(format!("{}, Y = {} (3.10)", crate::units::Choice::name(space), space.luminance_text()))
     }
 
     /// The materials, by name.

@@ -10,8 +10,8 @@ use std::path::PathBuf;
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
 use super::source::{
-    AmbientSource, CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource, SceneSource,
-    ScreenSource, ShadowSource, SphereSource, WindowSource,
+    AmbientSource, Amount, CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource,
+    SceneSource, ScreenSource, ShadowSource, SphereSource, WindowSource,
 };
 use crate::units::Choice;
 
@@ -36,6 +36,7 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         convention: table.choice("convention"),
         quantities: table.choice("quantities"),
         shadows: table.boolean("shadows"),
+        color_space: table.choice("color_space"),
         camera: table.table("camera", read_camera),
         sampling: table.table("sampling", read_sampling),
         material: table.named_tables("material", read_material),
@@ -90,8 +91,8 @@ fn read_window(table: &mut Table<'_>) -> WindowSource {
 
 fn read_material(table: &mut Table<'_>) -> MaterialSource {
     MaterialSource {
-        diffuse: table.number("diffuse"),
-        specular: table.number("specular"),
+        diffuse: table.amount("diffuse"),
+        specular: table.amount("specular"),
         shininess: table.number("shininess"),
     }
 }
@@ -114,22 +115,22 @@ fn read_light(table: &mut Table<'_>) -> LightSource {
     LightSource {
         name: table.text("name"),
         position: table.numbers("position"),
-        intensity: table.number("intensity"),
-        power: table.number("power"),
+        intensity: table.amount("intensity"),
+        power: table.amount("power"),
         emission: table.choice("emission"),
         axis: table.numbers("axis"),
         target: table.numbers("target"),
         inner_angle: table.number("inner_angle"),
         outer_angle: table.number("outer_angle"),
         direction: table.numbers("direction"),
-        irradiance: table.number("irradiance"),
+        irradiance: table.amount("irradiance"),
         casts_shadows: table.boolean("casts_shadows"),
     }
 }
 
 fn read_ambient(table: &mut Table<'_>) -> AmbientSource {
     AmbientSource {
-        radiance: table.number("radiance"),
+        radiance: table.amount("radiance"),
         obstructed: table.boolean("obstructed"),
         samples: table.count("samples"),
     }
@@ -242,6 +243,19 @@ impl<'t> Table<'t> {
         self.finite(&self.path.key(key), number)
     }
 
+    /// A number, or three.
+    fn amount(&mut self, key: &'static str) -> Option<Amount> {
+        const EXPECTED: &str = "a number, or a list of three: [red, green, blue]";
+        let entry = self.entries.iter().find(|entry| entry.key == key);
+        match entry.map(|entry| &entry.node.value) {
+            Some(Value::Array(_)) => self.numbers_expected(key, EXPECTED).map(Amount::Rgb),
+            _ => {
+                let number = self.value(key, EXPECTED, as_number)?;
+                self.finite(&self.path.key(key), number).map(Amount::Number)
+            }
+        }
+    }
+
     fn boolean(&mut self, key: &'static str) -> Option<bool> {
         self.value(key, "true or false", |value| match value {
             Value::Boolean(value) => Some(*value),
@@ -254,7 +268,11 @@ impl<'t> Table<'t> {
     }
 
     fn numbers<const N: usize>(&mut self, key: &'static str) -> Option<[f64; N]> {
-        let numbers: [f64; N] = self.list(key, &format!("a list of {N} numbers"), as_number)?;
+        self.numbers_expected(key, &format!("a list of {N} numbers"))
+    }
+
+    fn numbers_expected<const N: usize>(&mut self, key: &'static str, expected: &str) -> Option<[f64; N]> {
+        let numbers: [f64; N] = self.list(key, expected, as_number)?;
         let mut all_finite = true;
         for (index, number) in numbers.into_iter().enumerate() {
             all_finite &= self.finite(&self.path.key(key).index(index), number).is_some();

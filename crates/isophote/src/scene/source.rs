@@ -1,5 +1,6 @@
 //! A scene exactly as it is written: nothing checked, nothing filled in. The schema is generated from here.
 
+mod amount;
 mod files;
 mod grid;
 mod shapes;
@@ -7,6 +8,7 @@ mod shapes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+pub use amount::Amount;
 pub use files::{MeshSource, SpheresSource};
 pub use grid::GridSource;
 use schemars::{JsonSchema, Schema, transform::RecursiveTransform, transform::Transform};
@@ -16,6 +18,7 @@ pub use shapes::{
 };
 
 use crate::camera::Handedness;
+use crate::color::ColorSpace;
 use crate::reflectance::Convention;
 use crate::render::Filter;
 use crate::units::{LengthUnit, Quantities};
@@ -57,6 +60,10 @@ pub struct SceneSource {
     #[schemars(extend("default" = "radiometric"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quantities: Option<Quantities>,
+    /// Which lights the three numbers of an amount that is written as [R, G, B] are amounts of: a space of linear RGB.
+    #[schemars(extend("default" = "rec709"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color_space: Option<ColorSpace>,
     /// The observer.
     #[schemars(required)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -259,14 +266,14 @@ pub struct SamplingSource {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialSource {
-    /// Diffuse coefficient k_d.
-    #[schemars(required, range(min = 0.0, max = 1.0))]
+    /// Diffuse coefficient k_d, or those of red, green and blue.
+    #[schemars(required, with = "Option<amount::Coefficient>")]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub diffuse: Option<f64>,
-    /// Specular coefficient k_s.
-    #[schemars(range(min = 0.0, max = 1.0), extend("default" = 0))]
+    pub diffuse: Option<Amount>,
+    /// Specular coefficient k_s, or those of red, green and blue.
+    #[schemars(with = "Option<amount::Coefficient>", extend("default" = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub specular: Option<f64>,
+    pub specular: Option<Amount>,
     /// Shininess n, the exponent of the highlight. Must be given where `specular` is not 0.
     #[schemars(extend("exclusiveMinimum" = 0), range(max = 100_000.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -321,14 +328,14 @@ pub struct LightSource {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub position: Option<[f64; 3]>,
     /// Intensity on the axis in W/sr or cd. Either this or `power`.
-    #[schemars(range(min = 0.0))]
+    #[schemars(with = "Option<amount::Strength>")]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub intensity: Option<f64>,
+    pub intensity: Option<Amount>,
     /// Power sent out in all directions, in W or lm; isotropic: 4π times the intensity, lambertian: π times,
     /// spot: π (2 − cos α − cos β) times, for the half angles α and β of its cones.
-    #[schemars(range(min = 0.0))]
+    #[schemars(with = "Option<amount::Strength>")]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub power: Option<f64>,
+    pub power: Option<Amount>,
     /// How the intensity depends on the direction: not at all, as the cosine of the angle from the axis, or by two cones;
     /// or that the light comes from one direction, like the sun's.
     #[schemars(extend("default" = "isotropic"))]
@@ -353,9 +360,9 @@ pub struct LightSource {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
     /// What a parallel light gives to a plane at right angles to its direction, in W/m² or lx.
-    #[schemars(range(min = 0.0))]
+    #[schemars(with = "Option<amount::Strength>")]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub irradiance: Option<f64>,
+    pub irradiance: Option<Amount>,
     /// Whether shapes keep its light from each other, if the scene has shadows.
     #[schemars(extend("default" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -367,9 +374,9 @@ pub struct LightSource {
 #[serde(deny_unknown_fields)]
 pub struct AmbientSource {
     /// Its radiance L_a in W/(m²·sr) or cd/m²: every surface receives π L_a of it.
-    #[schemars(required, range(min = 0.0))]
+    #[schemars(required, with = "Option<amount::Strength>")]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub radiance: Option<f64>,
+    pub radiance: Option<Amount>,
     /// Whether shapes keep it from each other.
     #[schemars(extend("default" = false))]
     #[serde(skip_serializing_if = "Option::is_none")]

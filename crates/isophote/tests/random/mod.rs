@@ -154,11 +154,11 @@ pub fn worlds() -> impl Strategy<Value = SceneSource> {
         source.light.extend(suns.into_iter().map(|(direction, irradiance)| LightSource {
             emission: Some(EmissionName::Parallel),
             direction: Some(direction),
-            irradiance: Some(irradiance),
+            irradiance: Some(irradiance.into()),
             ..LightSource::default()
         }));
         source.ambient =
-            radiance.map(|radiance| AmbientSource { radiance: Some(radiance), ..AmbientSource::default() });
+            radiance.map(|radiance| AmbientSource { radiance: Some(radiance.into()), ..AmbientSource::default() });
         source
     })
 }
@@ -177,7 +177,7 @@ type RandomLight = ([f64; 3], f64, f64, (EmissionName, Option<[f64; 2]>), [f64; 
 fn light((from, distance, intensity, (emission, angles), target): RandomLight) -> LightSource {
     LightSource {
         position: Some(from.map(|component| component * distance)),
-        intensity: Some(intensity),
+        intensity: Some(intensity.into()),
         emission: Some(emission),
         target: (emission != EmissionName::Isotropic).then_some(target),
         inner_angle: angles.map(|[inner, _]| inner),
@@ -189,8 +189,8 @@ fn light((from, distance, intensity, (emission, angles), target): RandomLight) -
 fn material() -> impl Strategy<Value = MaterialSource> {
     (0.0..=1.0_f64, 0.0..=1.0_f64, prop_oneof![(1_u8..100).prop_map(f64::from), 0.1..300.0_f64]).prop_map(
         |(diffuse, specular, shininess)| MaterialSource {
-            diffuse: Some(diffuse),
-            specular: Some(specular),
+            diffuse: Some(diffuse.into()),
+            specular: Some(specular.into()),
             shininess: Some(shininess),
         },
     )

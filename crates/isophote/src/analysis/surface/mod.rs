@@ -13,6 +13,7 @@ use crate::analysis::cells::{self, Cell, Layout};
 use crate::camera::{Sight, between};
 use crate::map::{Map, Pixel, Quantity, Resolution, Window};
 use crate::prepare::{Hit, PreparedScene};
+use crate::render::color::map_of_components;
 use crate::shade::ByLight;
 use crate::shape::{Primitive, Side, SurfacePoint};
 use crate::units::Choice;
@@ -92,6 +93,9 @@ pub enum SurfaceError {
         /// The channel.
         name: String,
     },
+    /// The channel `color` of a scene that has none.
+    #[error("{}", crate::render::NO_COLOR)]
+    NoColor,
     /// A channel of a light that the scene does not have.
     #[error("the scene has no light named \"{name}\"")]
     NoSuchLight {
@@ -148,7 +152,7 @@ impl Surface<'_> {
     /// that are turned away from the eye (θ_o ≥ 90°) are left out.
     ///
     /// # Errors
-    /// A channel of a camera, or of a light that there is not.
+    /// A channel of a camera, of a light that there is not, or of colours that there are not.
     pub fn map(&self, quantities: &[Quantity]) -> Result<Map, SurfaceError> {
         let of_camera = |quantity: &&Quantity| {
             matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage | Quantity::AmbientError)
@@ -156,7 +160,15 @@ impl Surface<'_> {
         if let Some(quantity) = quantities.iter().find(of_camera) {
             return Err(SurfaceError::ChannelOfCamera { name: quantity.name() });
         }
-        let lights = cells::lights(self.scene, quantities).map_err(|name| SurfaceError::NoSuchLight { name })?;
+        if quantities.contains(&Quantity::Color) && self.scene.components().is_none() {
+            return Err(SurfaceError::NoColor);
+        }
+        map_of_components(self.scene, quantities, true, |scene, quantities| self.map_lit_by(scene, quantities))
+    }
+
+    /// The map of single numbers.
+    fn map_lit_by(&self, scene: &PreparedScene, quantities: &[Quantity]) -> Result<Map, SurfaceError> {
+        let lights = cells::lights(scene, quantities).map_err(|name| SurfaceError::NoSuchLight { name })?;
         let needs_eye = quantities.iter().any(depends_on_eye);
         let layout = Layout {
             size: self.size,
@@ -164,13 +176,13 @@ impl Surface<'_> {
             renderer: self.description(),
             shape: u32::try_from(self.request.primitive.shape).unwrap_or(u32::MAX),
         };
-        Ok(cells::map(self.scene, layout, quantities, |cell| {
+        Ok(cells::map(scene, layout, quantities, |cell| {
             let hit = self.hit(cell);
             if needs_eye && hit.point.cos_theta_o <= 0.0 {
                 return None;
             }
             let mut by_light = ByLight::of(lights.iter().copied());
-            let shading = self.scene.shade(&hit, None, |light, term| by_light.take(light, term));
+            let shading = scene.shade(&hit, None, |light, term| by_light.take(light, term));
             Some(Cell { position: hit.point.position(), normal: hit.point.normal, shading, lights: by_light })
         }))
     }
@@ -274,7 +286,7 @@ impl Surface<'_> {
 /// Whether a quantity is what an eye sees.
 #[must_use]
 pub fn depends_on_eye(quantity: &Quantity) -> bool {
-    matches!(quantity, Quantity::Brightness | Quantity::Diffuse | Quantity::Specular)
+    matches!(quantity, Quantity::Brightness | Quantity::Color | Quantity::Diffuse | Quantity::Specular)
 }
 
 fn centre([first, last]: [f64; 2], index: u32, count: u32) -> f64 {

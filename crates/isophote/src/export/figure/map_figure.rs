@@ -1,16 +1,14 @@
 //! A map as a figure.
 
-use crate::analysis::isophotes::{Isophote, isophotes, nice_levels};
 use crate::export::colormap::Colormap;
-use crate::export::figure::color_bar::ColorBar;
-use crate::export::figure::frame::{Axis, Frame, TICK_SIZE, TITLE_SIZE};
+use crate::export::figure::frame::{Axis, Frame, TICK_SIZE};
 use crate::export::figure::marks::{self, Mark, PlacedMark};
 use crate::export::figure::page::{MARGIN, Page};
-use crate::export::figure::raster::{self, Scale};
+use crate::export::figure::picture::Picture;
 use crate::export::figure::svg::{Anchor, INK, Place, Rectangle, Svg, Text};
 use crate::export::figure::ticks::{self, Ticks};
-use crate::export::figure::{FigureError, level_lines, text};
-use crate::map::{CoordinateAxis, Map, Quantity, Scalars};
+use crate::export::figure::{FigureError, text};
+use crate::map::{CoordinateAxis, Map, Quantity};
 
 /// Longer side of the picture in px.
 const PICTURE: f64 = 480.0;
@@ -24,7 +22,7 @@ const LEGEND_SIZE: f64 = 9.5;
 pub struct FigureOptions {
     /// Above the picture; broken into lines where it is long. None where empty.
     pub title: String,
-    /// The scalar channel that is shown.
+    /// The channel that is shown: a scalar one, or colours, which have no colour bar and no isophotes.
     pub quantity: Quantity,
     /// What the values are, beside the colour bar: "brightness B, lab (3.3)".
     pub label: String,
@@ -73,7 +71,7 @@ impl FigureOptions {
 /// Pixels without a surface are hatched, so that "nothing there" is not taken for "dark".
 ///
 /// # Errors
-/// [`FigureError`]: the channel is missing or not scalar, a value is not finite, the range is not one, nothing is seen,
+/// [`FigureError`]: the channel is missing, or neither scalar nor colours, a value is not finite, the range is not one, nothing is seen,
 /// or a mark lies outside the window.
 pub fn map_figure_svg(map: &Map, options: &FigureOptions) -> Result<String, FigureError> {
     let content = Content::new(map, options)?;
@@ -91,24 +89,16 @@ pub fn map_figure_svg(map: &Map, options: &FigureOptions) -> Result<String, Figu
 struct Content<'figure> {
     map: &'figure Map,
     options: &'figure FigureOptions,
-    values: Scalars<'figure>,
-    isophotes: Vec<Isophote>,
+    picture: Picture<'figure>,
     has_gaps: bool,
     /// Width and height of the picture in px.
     size: [f64; 2],
     x: Axis,
     y: Axis,
-    bar: ColorBar,
 }
 
 impl<'figure> Content<'figure> {
     fn new(map: &'figure Map, options: &'figure FigureOptions) -> Result<Self, FigureError> {
-        // Asked first without levels: it checks the channel, and says best what is wrong with it.
-        isophotes(map, &options.quantity, &[])?;
-        let values = map.scalar(&options.quantity).unwrap_or(Scalars::Double(&[]));
-        let seen = seen_range(map, &options.quantity, values)?;
-        let range = range(options.range, seen)?;
-        let levels = nice_levels(range[0], range[1], options.isophotes);
         let window = &map.window;
         let sides = [window.x[1] - window.x[0], window.y[1] - window.y[0]];
         let [width, height] = options.proportions.unwrap_or(sides);
@@ -122,8 +112,7 @@ impl<'figure> Content<'figure> {
         Ok(Self {
             map,
             options,
-            values,
-            isophotes: isophotes(map, &options.quantity, &levels)?,
+            picture: Picture::new(map, options, size[1])?,
             has_gaps: map.mask().visible() < map.region.size.pixels(),
             size,
             x: if goes_round(x, window.x) {
@@ -136,7 +125,6 @@ impl<'figure> Content<'figure> {
             } else {
                 axis(y, Ticks::stacked(window.y, size[1]))
             },
-            bar: color_bar(map, options, range, seen, levels, size[1]),
         })
     }
 
@@ -145,10 +133,9 @@ impl<'figure> Content<'figure> {
             svg.raw(HATCHING);
             svg.rectangle(frame.rectangle, "fill=\"url(#no-surface)\"");
         }
-        raster::draw_map(svg, self.map, self.values, self.bar.scale, frame.rectangle)?;
         let taken = marks.iter().flat_map(PlacedMark::rooms).collect();
         let is_surface = |place: Place| is_surface(self.map, &frame.rectangle, place);
-        level_lines::draw(svg, frame, &self.isophotes, self.bar.scale, self.bar.ticks.exponent, taken, &is_surface);
+        self.picture.draw(svg, self.map, frame, taken, &is_surface)?;
         for mark in marks {
             mark.draw(svg);
         }
@@ -158,7 +145,7 @@ impl<'figure> Content<'figure> {
     fn draw_color_bar(&self, svg: &mut Svg, layout: &Layout) -> Result<(), FigureError> {
         let Rectangle { top, height, .. } = layout.frame.rectangle;
         let left = layout.frame.right() + BAR_GAP;
-        self.bar.draw(svg, left, top, height)?;
+        self.picture.draw_bar(svg, left, top, height)?;
         if self.has_gaps {
             let middle = layout.frame.bottom() + 20.0;
             let swatch = Rectangle { left, top: middle - 5.0, width: 16.0, height: 10.0 };
@@ -172,7 +159,7 @@ impl<'figure> Content<'figure> {
     /// Room in px right of the picture.
     fn right_width(&self) -> f64 {
         let legend = if self.has_gaps { 21.0 + text::width(&self.options.no_surface, LEGEND_SIZE) } else { 0.0 };
-        BAR_GAP + self.bar.width().max(legend)
+        BAR_GAP + self.picture.bar_width().max(legend)
     }
 }
 
@@ -191,11 +178,12 @@ impl Layout {
         let natural = 2.0 * MARGIN + content.y.width() + picture_width + content.right_width();
         let width = natural.max(NARROWEST);
         let provenance = &content.map.provenance;
-        let made_by = [provenance.program.as_str(), provenance.renderer.as_str()];
+        let caption = content.picture.caption().unwrap_or_default();
+        let made_by = [caption.as_str(), provenance.program.as_str(), provenance.renderer.as_str()];
         let footer = made_by.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ");
         let page = Page::new(width, &content.options.title, &footer);
         // The colour bar's title is read along the picture's side, and may be longer than that side.
-        let overhang = 0.5 * (text::widest(&content.bar.title, TITLE_SIZE) - picture_height).max(0.0);
+        let overhang = 0.5 * (content.picture.bar_title_length() - picture_height).max(0.0);
         let rectangle = Rectangle {
             left: MARGIN + content.y.width() + 0.5 * (width - natural),
             top: page.top() + overhang.max(0.5 * TICK_SIZE),
@@ -215,48 +203,6 @@ const HATCHING: &str = "<defs><pattern id=\"no-surface\" width=\"6\" height=\"6\
 /// Whether so many degrees are read by right angles and their parts.
 fn goes_round(axis: CoordinateAxis, [first, last]: [f64; 2]) -> bool {
     axis.unit == "°" && last - first >= 90.0
-}
-
-/// The least and the greatest value seen; `None` where no surface is seen.
-fn seen_range(map: &Map, quantity: &Quantity, values: Scalars<'_>) -> Result<Option<[f64; 2]>, FigureError> {
-    let mut seen: Option<[f64; 2]> = None;
-    for index in map.mask().indices() {
-        let value = values.at(index);
-        if !value.is_finite() {
-            return Err(FigureError::NotFinite { name: format!("{}[{index}]", quantity.name()), value });
-        }
-        let [low, high] = seen.unwrap_or([value; 2]);
-        seen = Some([low.min(value), high.max(value)]);
-    }
-    Ok(seen)
-}
-
-/// The range asked for, or that of what is seen, widened about a constant.
-fn range(asked: Option<[f64; 2]>, seen: Option<[f64; 2]>) -> Result<[f64; 2], FigureError> {
-    match (asked, seen) {
-        (Some([low, high]), _) if (high - low).is_normal() && low < high => Ok([low, high]),
-        (Some([low, high]), _) => Err(FigureError::Range { low, high }),
-        (None, None) => Err(FigureError::NothingSeen),
-        (None, Some([low, high])) if (high - low) > 1e-12 * high.abs().max(low.abs()) => Ok([low, high]),
-        (None, Some([0.0, _])) => Ok([0.0, 1.0]),
-        (None, Some([value, _])) => Ok([value - 0.5 * value.abs(), value + 0.5 * value.abs()]),
-    }
-}
-
-fn color_bar(
-    map: &Map,
-    options: &FigureOptions,
-    range: [f64; 2],
-    seen: Option<[f64; 2]>,
-    levels: Vec<f64>,
-    height: f64,
-) -> ColorBar {
-    let ticks = Ticks::stacked(range, height);
-    let channel_unit = map.channel(&options.quantity).map_or("", |channel| channel.unit.as_str());
-    let title = ticks::title(&options.label, options.unit.as_deref().unwrap_or(channel_unit), ticks.exponent);
-    let beyond = seen.map_or([false; 2], |[low, high]| [low < range[0], high > range[1]]);
-    let scale = Scale { colormap: options.colormap, range };
-    ColorBar { scale, ticks, title: text::wrap(&title, TITLE_SIZE, height.max(160.0)), levels, beyond }
 }
 
 /// Whether the pixel at a place of the page shows a surface.

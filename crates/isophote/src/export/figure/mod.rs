@@ -13,6 +13,7 @@ mod level_lines;
 mod map_figure;
 mod marks;
 mod page;
+mod picture;
 mod png_picture;
 mod raster;
 #[cfg(test)]

@@ -6,7 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 use crate::export::colormap::Colormap;
 use crate::export::figure::FigureError;
 use crate::export::figure::svg::{Rectangle, Svg, number};
-use crate::map::{Map, Resolution, Scalars};
+use crate::map::{Map, Resolution};
 
 /// From values to colours.
 #[derive(Clone, Copy)]
@@ -22,18 +22,17 @@ impl Scale {
     }
 }
 
-/// The map's pixels, each a pixel of the image; transparent where no surface is seen.
+/// The map's pixels, each a pixel of the image, in the colour of its index; transparent where no surface is seen.
 pub(super) fn draw_map(
     svg: &mut Svg,
     map: &Map,
-    values: Scalars<'_>,
-    scale: Scale,
+    color: impl Fn(usize) -> [u8; 3],
     place: Rectangle,
 ) -> Result<(), FigureError> {
     let size = map.region.size;
     let mut pixels = vec![0; 4 * size.pixels()];
     for index in map.mask().indices() {
-        let [red, green, blue] = scale.color(values.at(index));
+        let [red, green, blue] = color(index);
         pixels[4 * index..][..4].copy_from_slice(&[red, green, blue, 255]);
     }
     // More map pixels than px on the page: let the viewer average, or thin features would drop out.

@@ -8,7 +8,7 @@ use crate::{
     map::{Channel, Map, Quantity, Values},
 };
 
-fn image(map: &Map) -> FlatImage {
+pub(super) fn image(map: &Map) -> FlatImage {
     let bytes = encoded(map, Format::Exr).unwrap();
     read()
         .no_deep_data()
@@ -21,7 +21,7 @@ fn image(map: &Map) -> FlatImage {
         .unwrap()
 }
 
-fn channels(image: &FlatImage) -> BTreeMap<String, Vec<f32>> {
+pub(super) fn channels(image: &FlatImage) -> BTreeMap<String, Vec<f32>> {
     let values = |channel: &AnyChannel<FlatSamples>| match &channel.sample_data {
         FlatSamples::F32(samples) => samples.clone(),
         other => panic!("not 32-bit: {other:?}"),

@@ -1,5 +1,6 @@
 //! Every format written from one small map and read back by a reader that is not ours.
 
+mod color;
 mod damage;
 mod exr;
 mod metadata;
@@ -46,6 +47,7 @@ fn sample() -> Map {
             scene: "version = 1\n[sphere]\nradius = 1.0 # мм\n".into(),
             convention: "lab (3.3)".into(),
             renderer: "cpu, double".into(),
+            color_space: None,
         },
         channels: vec![
             scalar(Quantity::Brightness, "W/m²", [0.5, 0.0, 2.0, 0.1, 1.0, 0.0]),

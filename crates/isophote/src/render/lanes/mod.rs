@@ -17,6 +17,7 @@ use rayon::prelude::*;
 use self::kernel::BandJob;
 use self::visible::Candidate;
 use super::band::{self, Band};
+use super::color;
 use super::sampling;
 use super::tiles::{self, Tiles};
 use super::{RenderError, RenderSettings, Renderer};
@@ -182,7 +183,7 @@ impl Renderer for Lanes {
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
-        self.render_in(Vec::new(), scene, settings)
+        color::render(scene, settings, |scene, settings| self.render_in(Vec::new(), scene, settings))
     }
 
     fn render_again(
@@ -191,6 +192,10 @@ impl Renderer for Lanes {
         settings: &RenderSettings<'_>,
         earlier: Map,
     ) -> Result<Map, RenderError> {
+        if scene.components().is_some() {
+            drop(earlier);
+            return self.render(scene, settings);
+        }
         self.render_in(band::recycle(earlier), scene, settings)
     }
 }

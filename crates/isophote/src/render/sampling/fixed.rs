@@ -1,8 +1,5 @@
 //! As many rays through every pixel: an image of each of their places, by what renders the centres, and the means of all.
 
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
@@ -11,6 +8,7 @@ use super::refine::{is_mean, offsets, put, put_exactly};
 use super::{Centres, Filter, Sampling};
 use crate::map::{Map, Mask, Quantity, Run, Scalars, Values};
 use crate::prepare::PreparedScene;
+use crate::render::share::Share;
 use crate::render::{Observer, RenderError, RenderSettings, band};
 
 /// Renders every place in the pixels of a region and takes the means.
@@ -224,25 +222,5 @@ fn copy_geometry(map: &mut Map, to: usize, other: &Map, from: usize) {
             }
             _ => {}
         }
-    }
-}
-
-/// Hears one of several renders of the same pixels.
-struct Share<'o> {
-    whole: &'o dyn Observer,
-    renders: u64,
-    pixels: AtomicU64,
-}
-
-impl<'o> Share<'o> {
-    fn new(whole: &'o dyn Observer, renders: u64) -> Self {
-        Self { whole, renders, pixels: AtomicU64::new(0) }
-    }
-}
-
-impl Observer for Share<'_> {
-    fn advance(&self, pixels: u64) -> ControlFlow<()> {
-        let before = self.pixels.fetch_add(pixels, Ordering::Relaxed);
-        self.whole.advance((before + pixels) / self.renders - before / self.renders)
     }
 }

@@ -83,6 +83,7 @@ pub fn is_mean(quantity: &Quantity) -> bool {
         Quantity::Depth
         | Quantity::Position
         | Quantity::Normal
+        | Quantity::Color
         | Quantity::Shape
         | Quantity::Samples
         | Quantity::Coverage

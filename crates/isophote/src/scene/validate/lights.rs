@@ -136,15 +136,6 @@ impl Validator {
         Some(ParallelLight { direction: direction?.normalized(), irradiance: irradiance? })
     }
 
-    fn strength(&mut self, path: &Path, value: f64) -> Option<f64> {
-        if (0.0..=limits::INTENSITY).contains(&value) {
-            return Some(value);
-        }
-        let help = format!("allowed: 0 to {:e}", limits::INTENSITY);
-        self.wrong(path, format!("`{path}` is {value}"), &help);
-        None
-    }
-
     /// A key that belongs to lights of another emission.
     fn refuse_keys_without_meaning(&mut self, path: &Path, light: &LightSource, emission: EmissionName) {
         use EmissionName::{Isotropic, Lambertian, Parallel, Spot};

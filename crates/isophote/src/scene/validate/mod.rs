@@ -1,6 +1,7 @@
 //! From what is written to what is valid: every check of a scene, once.
 
 mod camera;
+mod color;
 mod files;
 mod grids;
 mod lights;
@@ -13,6 +14,7 @@ mod things;
 use std::collections::HashSet;
 use std::path::PathBuf;
 
+use self::color::Collapse;
 use super::document::Path;
 use super::error::{Problem, ProblemKind};
 use super::read::{Problems, short};
@@ -59,6 +61,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
         length: source.length.unwrap_or(LengthUnit::Metre),
         convention: source.convention.unwrap_or(Convention::Radiance),
         shadows: source.shadows.unwrap_or(false),
+        collapse: Collapse::Luminance(source.color_space.unwrap_or_default()),
         directory: source.directory.clone(),
         materials: source.material.keys().cloned().collect(),
         problems,
@@ -77,6 +80,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
     validator.probes_against_shapes(&probes, &shapes);
     validator.words_of_advice(&source, camera.as_ref(), &shapes);
+    let color = validator.color(&source);
     let Validator { length, convention, shadows, problems, warnings, .. } = validator;
     match camera {
         Some(camera) if problems.is_empty() => Ok(Scene {
@@ -91,6 +95,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
             shapes: shapes.into_iter().flatten().collect(),
             lights: lights.into_iter().flatten().collect(),
             ambient,
+            color: color.map(Box::new),
             probes: probes.into_iter().flatten().collect(),
             grids: grids.into_iter().flatten().collect(),
             warnings: warnings.into_list(),
@@ -107,6 +112,8 @@ struct Validator {
     length: LengthUnit,
     convention: Convention,
     shadows: bool,
+    /// Which one number three become.
+    collapse: Collapse,
     /// Where relative paths start.
     directory: PathBuf,
     /// The names of the materials, in their order.

@@ -110,14 +110,6 @@ impl Validator {
             }
         }
     }
-
-    pub(super) fn fraction(&mut self, path: &Path, value: f64) -> Option<f64> {
-        if (0.0..=1.0).contains(&value) {
-            return Some(value);
-        }
-        self.wrong(path, format!("`{path}` is {value}"), "allowed: 0 to 1");
-        None
-    }
 }
 
 pub(super) fn vector_text(vector: [f64; 3]) -> String {

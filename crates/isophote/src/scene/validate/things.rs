@@ -6,8 +6,9 @@ use super::{Checked, Validator, limits};
 use crate::reflectance::{Convention, Reflectance};
 use crate::scene::document::Path;
 use crate::scene::read::{closest, short, suggestion};
-use crate::scene::source::{MaterialSource, ProbeSource, SceneSource};
+use crate::scene::source::{Amount, MaterialSource, ProbeSource, SceneSource};
 use crate::scene::{Material, Probe};
+use crate::units::Choice;
 
 impl Validator {
     pub(super) fn materials(&mut self, source: &SceneSource) -> Checked<Material> {
@@ -19,9 +20,10 @@ impl Validator {
         if material.diffuse.is_none() {
             self.problems.missing(&path, "diffuse", "write the diffuse coefficient k_d, 0 to 1");
         }
-        let diffuse = self.fraction(&path.key("diffuse"), material.diffuse.unwrap_or(0.0));
-        let specular = self.fraction(&path.key("specular"), material.specular.unwrap_or(0.0));
-        if material.shininess.is_none() && material.specular.is_some_and(|specular| specular != 0.0) {
+        let written = [material.diffuse, material.specular].map(|amount| amount.unwrap_or(Amount::Number(0.0)));
+        let diffuse = self.coefficient(&path.key("diffuse"), written[0]);
+        let specular = self.coefficient(&path.key("specular"), written[1]);
+        if material.shininess.is_none() && !written[1].is_zero() {
             self.problems.missing(&path, "shininess", "write the shininess n > 0: `specular` is not 0");
         }
         let shininess = material.shininess.unwrap_or(1.0);
@@ -32,9 +34,10 @@ impl Validator {
             return None;
         }
         let reflectance = Reflectance { diffuse: diffuse?, specular: specular?, shininess };
-        let reflected = reflectance.diffuse + reflectance.specular;
+        let (reflected, component) = Self::most_reflected(written[0], written[1]);
         if reflected > 1.0 && matches!(self.convention, Convention::CoursePi | Convention::Radiance) {
-            let message = format!("`{path}` reflects more than it receives: k_d + k_s = {reflected}");
+            let which = component.map_or(String::new(), |component| format!(" in {}", component.name()));
+            let message = format!("`{path}` reflects more than it receives: k_d + k_s = {reflected}{which}");
             self.warn(&path, message, "a real surface has k_d + k_s ≤ 1 in this convention");
         }
         Some(Material { name: name.into(), reflectance })

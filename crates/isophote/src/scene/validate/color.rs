@@ -1,0 +1,105 @@
+//! Coefficients and strengths that may be three numbers.
+
+use super::{Validator, limits};
+use crate::color::{ColorSpace, Component, Lighting, Rgb, SceneColor};
+use crate::scene::document::Path;
+use crate::scene::read::Problems;
+use crate::scene::source::{Amount, SceneSource};
+use crate::units::Choice;
+
+/// Which one number an amount of three becomes.
+#[derive(Clone, Copy)]
+pub(super) enum Collapse {
+    /// Its luminance (3.10), for listings.
+    Luminance(ColorSpace),
+    /// What it has of a component.
+    Component(Component),
+}
+
+impl Collapse {
+    pub(super) fn one(self, amount: Amount) -> f64 {
+        match (amount, self) {
+            (Amount::Number(number), _) => number,
+            (Amount::Rgb(numbers), Self::Luminance(space)) => Rgb::from(numbers).weighted_by(space.luminance_weights()),
+            (amount, Self::Component(component)) => amount.of(component),
+        }
+    }
+}
+
+impl Validator {
+    /// What depends on the component, of a scene in which any amount is written as three numbers; its other parts, and
+    /// all mistakes, have been found by then.
+    pub(super) fn color(&mut self, source: &SceneSource) -> Option<SceneColor> {
+        let space = source.color_space.unwrap_or_default();
+        if source.is_colored() {
+            return self
+                .problems
+                .is_empty()
+                .then(|| SceneColor { space, lighting: Rgb::from_fn(|component| self.lighting(source, component)) });
+        }
+        // A triple that was written and not understood is a mistake already.
+        if source.color_space.is_some() && self.problems.is_empty() {
+            let message = "`color_space` means nothing in a scene without colours";
+            let help = "leave it out, or write a coefficient, an intensity, an irradiance or a radiance as [R, G, B]";
+            self.wrong(&Path::root().key("color_space"), message.into(), help);
+        }
+        None
+    }
+
+    fn lighting(&self, source: &SceneSource, component: Component) -> Lighting {
+        let mut validator = Self {
+            length: self.length,
+            convention: self.convention,
+            shadows: self.shadows,
+            collapse: Collapse::Component(component),
+            directory: self.directory.clone(),
+            materials: Vec::new(),
+            problems: Problems::default(),
+            warnings: Problems::default(),
+        };
+        Lighting {
+            materials: validator.materials(source).into_iter().flatten().collect(),
+            lights: validator.lights(source).into_iter().flatten().collect(),
+            ambient: validator.ambient(source),
+        }
+    }
+
+    /// A coefficient between 0 and 1.
+    pub(super) fn coefficient(&mut self, path: &Path, amount: Amount) -> Option<f64> {
+        self.amount(path, amount, 1.0, "allowed: 0 to 1")
+    }
+
+    /// An intensity, a power, an irradiance or a radiance.
+    pub(super) fn strength(&mut self, path: &Path, amount: Amount) -> Option<f64> {
+        self.amount(path, amount, limits::INTENSITY, &format!("allowed: 0 to {:e}", limits::INTENSITY))
+    }
+
+    fn amount(&mut self, path: &Path, amount: Amount, most: f64, help: &str) -> Option<f64> {
+        let mut is_allowed = |path: &Path, number: f64| {
+            let is_allowed = (0.0..=most).contains(&number);
+            if !is_allowed {
+                self.wrong(path, format!("`{path}` is {number}"), help);
+            }
+            is_allowed
+        };
+        let all_allowed = match amount {
+            Amount::Number(number) => is_allowed(path, number),
+            Amount::Rgb(numbers) => {
+                let check = |(index, number)| is_allowed(&path.index(index), number);
+                // Not `all`, which stops at the first mistake.
+                numbers.into_iter().enumerate().map(check).filter(|is_allowed| !is_allowed).count() == 0
+            }
+        };
+        all_allowed.then(|| self.collapse.one(amount))
+    }
+
+    /// How much a material reflects of what it receives; the most of all components.
+    pub(super) fn most_reflected(diffuse: Amount, specular: Amount) -> (f64, Option<Component>) {
+        let sum = |component| diffuse.of(component) + specular.of(component);
+        if !diffuse.is_colored() && !specular.is_colored() {
+            return (sum(Component::Red), None);
+        }
+        let sums = Component::ALL.iter().map(|component| (sum(*component), Some(*component)));
+        sums.reduce(|most, next| if next.0 > most.0 { next } else { most }).unwrap_or((0.0, None))
+    }
+}
