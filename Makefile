@@ -2,6 +2,8 @@
 
 CARGO := cargo
 ISOPHOTE := $(CARGO) run --quiet --release --
+# As the tests build it, so that nothing is compiled twice.
+TESTED := $(or $(CARGO_TARGET_DIR),target)/debug/isophote
 PYTHON_ENV := target/python
 GENERATED := target/generated
 # The scenes of docs/gallery.md that are rendered as they are.
@@ -73,19 +75,20 @@ generated-is-current: $(GENERATED)
 
 .PHONY: $(GENERATED)
 $(GENERATED):
+	$(CARGO) build --quiet --workspace --tests
 	@rm -rf $@ && mkdir -p $@/schema $@/docs/images
-	$(CARGO) run --quiet -- schema > $@/schema/scene.schema.json
-	$(CARGO) run --quiet -- render --quiet --figure $@/docs/images/lab.png > /dev/null
-	$(CARGO) run --quiet -- render --quiet scenes/two-lights.toml --figure $@/docs/images/two-lights.png > /dev/null
-	$(CARGO) run --quiet -- section --quiet --row 300 -c brightness -c diffuse -c specular \
+	$(TESTED) schema > $@/schema/scene.schema.json
+	$(TESTED) render --quiet --figure $@/docs/images/lab.png > /dev/null
+	$(TESTED) render --quiet scenes/two-lights.toml --figure $@/docs/images/two-lights.png > /dev/null
+	$(TESTED) section --quiet --row 300 -c brightness -c diffuse -c specular \
 		-o $@/docs/images/lab-section.png
 	@mkdir -p $@/docs/images/gallery
 	for scene in $(GALLERY); do \
-		$(CARGO) run --quiet -- render --quiet scenes/$$scene.toml --size 400x300 --figure $@/docs/images/gallery/$$scene.png \
+		$(TESTED) render --quiet scenes/$$scene.toml --size 400x300 --figure $@/docs/images/gallery/$$scene.png \
 			> /dev/null || exit 1; \
 	done
-	$(CARGO) run --quiet -- surface --quiet scenes/surface.toml --figure $@/docs/images/gallery/surface.png > /dev/null
-	$(CARGO) run --quiet -- grid --quiet scenes/grid.toml --name floor --figure $@/docs/images/gallery/grid.png > /dev/null
+	$(TESTED) surface --quiet scenes/surface.toml --figure $@/docs/images/gallery/surface.png > /dev/null
+	$(TESTED) grid --quiet scenes/grid.toml --name floor --figure $@/docs/images/gallery/grid.png > /dev/null
 
 # NumPy, zarr and xarray read what we write for them. Without them two tests say that they are skipped, and all others run.
 .PHONY: python-env

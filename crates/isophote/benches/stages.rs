@@ -55,6 +55,21 @@ fn kernel(criterion: &mut Criterion) {
     }
 }
 
+/// What smooth edges cost: beside "render 800×600, lanes".
+fn samples(criterion: &mut Criterion) {
+    let brightness = [Quantity::Brightness];
+    let lanes = Lanes::new(Precision::Double, None);
+    let mut group = criterion.benchmark_group("samples 800×600");
+    group.sample_size(20);
+    for (name, sampling) in [("16 everywhere", "samples = 16"), ("tolerance 0.01", "tolerance = 0.01")] {
+        let text = format!("{}\n[sampling]\n{sampling}\n", Starter::Lab.text());
+        let scene = Scene::from_text("lab", &text, Syntax::Toml).expect("the lab's scene is valid");
+        let scene = PreparedScene::new(&scene);
+        group.bench_function(name, |bencher| bencher.iter(|| black_box(render(&lanes, &scene, &brightness))));
+    }
+    group.finish();
+}
+
 fn many_lights(criterion: &mut Criterion) {
     let mut source = lab().source().clone();
     let light = source.light[0].clone();
@@ -120,5 +135,5 @@ fn large(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(stages, read, prepare, kernel, many_lights, export, large);
+criterion_group!(stages, read, prepare, kernel, samples, many_lights, export, large);
 criterion_main!(stages);

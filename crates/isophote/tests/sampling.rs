@@ -172,3 +172,50 @@ fn pixels_that_are_seen_in_part_have_a_depth_and_a_shape() {
         assert!(shapes[index] < 0 || (2.3..2.7).contains(&depth[index]), "{index}: {}", depth[index]);
     }
 }
+
+/// Pixels that a tolerance refines trace each of their rays by itself; the same rays come from whole images of one place in
+/// every pixel when all have as many. Both find the same, in lanes, in tiles and through the tree.
+#[test]
+fn rays_one_by_one_and_images_of_each_place_find_the_same() {
+    let ball = |index: u32| {
+        let place = f64::from(index) * 0.37 - 1.5;
+        format!(
+            "[[sphere]]\ncenter = [{place}, {}, 5]\nradius = 0.3\nmaterial = \"white\"\n",
+            0.3 * (3.0 * place).sin()
+        )
+    };
+    let balls = |count: u32| (0..count).map(ball).collect::<String>();
+    let cases = [
+        (balls(2), "shadows = false"),
+        (balls(9), "shadows = true"),
+        (balls(3) + "[[box]]\ncenter = [0, -0.6, 5]\nsize = [4, 0.2, 1]\nmaterial = \"white\"", "shadows = true"),
+    ];
+    for (shapes, shadows) in cases {
+        let scene = |sampling: &str| {
+            let text = format!(
+                "version = 1\nlength = \"m\"\nconvention = \"lambert\"\n{shadows}
+                [camera]\neye = [0, 0, 0]\nforward = [0, 0, 1]\nresolution = [80, 60]
+                screen = {{ distance = 3, x = [-0.8, 0.8], y = [-0.6, 0.6] }}
+                [sampling]\n{sampling}
+                [material.white]\ndiffuse = 1
+                [[light]]\nposition = [3, 2, -3]\nintensity = 10\n{shapes}"
+            );
+            PreparedScene::new(&Scene::from_text("test", &text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}")))
+        };
+        let fixed = values(&render(&scene("samples = 16"), None), &Quantity::Brightness);
+        let map = render(&scene("samples = 16\ntolerance = 0.0001"), None);
+        let adaptive = values(&map, &Quantity::Brightness);
+        let peak = fixed.iter().copied().fold(0.0, f64::max);
+        let refined: Vec<usize> = values(&map, &Quantity::Samples)
+            .iter()
+            .enumerate()
+            .filter(|(_, n)| **n == 16.0)
+            .map(|(at, _)| at)
+            .collect();
+        assert!(refined.len() > 200, "{}", refined.len());
+        for index in refined {
+            let (fixed, adaptive) = (fixed[index], adaptive[index]);
+            assert!((fixed - adaptive).abs() <= 1e-12 * peak, "{fixed} {adaptive} at {:?}", map.pixel(index));
+        }
+    }
+}

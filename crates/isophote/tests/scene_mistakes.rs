@@ -225,6 +225,70 @@ fn too_many_shapes_of_all_kinds_together_are_refused() {
     assert_eq!(error.problems[0].message, "the scene has 100001 shapes");
 }
 
+/// Shapes that come from files, here from `tests/files`.
+const IMPORTS: &str = r#"version = 1
+length = "m"
+convention = "radiance"
+shadows = true
+camera = { eye = [0, 0, -10], target = [0, 0, 0], screen = { distance = 5, x = [-4, 4], y = [-3, 3] } }
+light = [{ position = [0, 0, -40], intensity = 1 }]
+material = { clay = { diffuse = 0.5 } }
+
+[[mesh]]
+file = "square.obj"
+scale = [1, 2, 3]
+position = [0, 0, 5]
+
+[[spheres]]
+file = "points.csv"
+"#;
+
+fn with_files(text: &str) -> Result<Scene, SceneError> {
+    Scene::from_text_in(std::path::Path::new("tests/files"), "imports.toml", text, Syntax::Toml)
+}
+
+/// As `mistakes!`, in the scene above.
+macro_rules! mistakes_of_imports {
+    ($($name:ident: $from:expr => $to:expr, $count:expr;)*) => {
+        $(
+            #[test]
+            fn $name() {
+                assert!(IMPORTS.contains($from), "the scene has no {:?}", $from);
+                let error = with_files(&IMPORTS.replacen($from, $to, 1)).expect_err("a mistake is refused");
+                insta::assert_snapshot!(stringify!($name), error.report(false));
+                assert_eq!(error.problems.len(), $count);
+            }
+        )*
+    };
+}
+
+mistakes_of_imports! {
+    a_mesh_without_file: "file = \"square.obj\"\n" => "", 1;
+    a_mesh_that_is_not_there: "square.obj" => "circle.obj", 1;
+    a_mesh_that_is_a_directory: "square.obj" => "../files", 1;
+    a_mesh_in_a_format_of_points: "square.obj" => "points.csv", 1;
+    a_mesh_that_is_a_picture: "square.obj" => "picture.glb", 1;
+    a_mesh_with_a_corner_too_many: "square.obj" => "index.obj", 1;
+    a_mesh_with_nan: "square.obj" => "nan.obj", 1;
+    a_mesh_without_area: "square.obj" => "flat.obj", 1;
+    a_mesh_whose_header_lies: "square.obj" => "lying.ply", 1;
+    a_mesh_that_ends_too_early: "square.obj" => "truncated.stl", 1;
+    a_mesh_flattened_by_its_scale: "scale = [1, 2, 3]" => "scale = [1, 0, -3]", 2;
+    a_mesh_with_two_scales: "scale = [1, 2, 3]" => "scale = [1, 2]", 1;
+    files_whose_material_is_not_in_the_scene: "clay = " => "chalk = ", 2;
+    spheres_without_file: "file = \"points.csv\"" => "", 1;
+    spheres_of_negative_radius: "points.csv" => "negative.csv", 1;
+    spheres_without_radius: "points.csv" => "short.csv", 1;
+    spheres_from_a_mesh: "points.csv" => "square.obj", 1;
+}
+
+#[test]
+fn triangles_without_area_are_counted_in_a_warning() {
+    let scene = with_files(IMPORTS).unwrap_or_else(|error| panic!("{error}"));
+    let warnings: Vec<String> = scene.warnings().iter().map(|warning| warning.message.clone()).collect();
+    assert_eq!(warnings, ["1 triangles of `mesh[0]` have no area and were left out"]);
+}
+
 #[test]
 fn all_mistakes_of_a_file_are_reported_in_one_run() {
     let text = LAB

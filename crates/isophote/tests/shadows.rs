@@ -168,3 +168,39 @@ fn shadows_take_light_away_and_never_add_any() {
     }
     assert!(darker > 20 && same > 50, "{darker} darker, {same} the same");
 }
+
+/// Whether drawn in tiles or through the tree, a light inside a closed shape lights nothing outside, and its inside as if
+/// there were no more.
+#[test]
+fn a_lamp_in_a_ball_lights_only_the_inside_of_it() {
+    let scene = |eye: &str, more: &str| {
+        prepared(&format!(
+            "version = 1\nlength = \"m\"\nconvention = \"radiance\"\nshadows = true
+            material = {{ chalk = {{ diffuse = 0.5 }} }}
+            [camera]\neye = {eye}\ntarget = [0, 0, 0]\nresolution = [64, 48]
+            screen = {{ distance = 1, x = [-0.4, 0.4], y = [-0.3, 0.3] }}
+            [[sphere]]\nname = \"shade\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"chalk\"
+            [[sphere]]\nname = \"neighbour\"\ncenter = [1.5, 0, 0]\nradius = 0.4\nmaterial = \"chalk\"
+            [[light]]\nname = \"lamp\"\nposition = [0.5, 0, 0]\nintensity = 10\n{more}"
+        ))
+    };
+    let box_behind = "[[box]]\ncenter = [0, -3, 0]\nsize = [4, 1, 4]\nmaterial = \"chalk\"";
+    for more in ["", box_behind] {
+        let outside = map(&scene("[0, 2, -9]", more));
+        assert!(outside.mask().runs().len() > 10, "something is seen");
+        assert!(brightness(&outside).iter().all(|bits| *bits == 0), "and all is dark");
+        let inside = scene("[-0.5, 0.1, 0]", more);
+        let lit = inside.probe(&Place::Point(Vector::new(-1.0, 0.0, 0.0))).expect("it is on the shade");
+        // (3.1), 1.5 m away and straight on.
+        assert!((lit.shading.irradiance - 10.0 / 2.25).abs() < 1e-14, "{}", lit.shading.irradiance);
+        let reference = Reference
+            .render(&inside, &RenderSettings { quantities: vec![Quantity::Irradiance], ..RenderSettings::default() });
+        let reference = reference.expect("it renders");
+        let [expected, found] = [&reference, &map(&inside)]
+            .map(|map| map.scalar(&Quantity::Irradiance).expect("it was asked for").iter().collect::<Vec<f64>>());
+        assert!(found.iter().all(|value| *value > 1.0), "all that is seen is lit");
+        for (expected, found) in expected.iter().zip(&found) {
+            assert!((found - expected).abs() <= 1e-12 * expected, "{found} instead of {expected}");
+        }
+    }
+}

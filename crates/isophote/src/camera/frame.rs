@@ -20,6 +20,8 @@ pub struct CameraFrame<T = f64> {
     pub forward: Vector<T>,
     pub(crate) projection: Projection,
     pub(crate) resolution: Resolution,
+    /// Where the ray of a pixel goes through it: parts of its width and height, from its upper left corner.
+    pub(crate) place: [f64; 2],
     extent: Extent,
     /// `right` and `up` in 32 digits, for rays that start beside the eye.
     across: [Vector<DoubleDouble>; 2],
@@ -50,6 +52,7 @@ impl<T: Scalar> CameraFrame<T> {
             forward: axes.forward,
             projection,
             resolution,
+            place: [0.5; 2],
             extent: projection.extent(resolution),
             across: [precise.right, precise.up],
         }
@@ -74,8 +77,7 @@ impl<T: Scalar> CameraFrame<T> {
                 self.out_of_axes(panorama::direction(longitude, latitude)?)
             }
         };
-        let nothing = T::zero();
-        let offset = Vector::new(nothing, nothing, nothing);
+        let offset = Vector::zero();
         Some(Ray { anchor: self.eye, offset, direction: direction.normalized() })
     }
 
@@ -96,7 +98,9 @@ impl<T: Scalar> CameraFrame<T> {
 
     fn screen_point<U: Scalar>(&self, position: ScreenPosition) -> (U, U) {
         match position {
-            ScreenPosition::PixelCenter(pixel) => self.screen_point(ScreenPosition::InPixel { pixel, place: [0.5; 2] }),
+            ScreenPosition::PixelCenter(pixel) => {
+                self.screen_point(ScreenPosition::InPixel { pixel, place: self.place })
+            }
             ScreenPosition::InPixel { pixel, place: [across, down] } => {
                 let Resolution { width, height } = self.resolution;
                 let [left, right] = self.extent.x;

@@ -50,15 +50,11 @@ impl Spot {
         std::f64::consts::PI * (self.outer - 0.5 / self.steepness)
     }
 
-    /// The largest growth of I/I₀ with γ, per radian, to a few percent: that of a step from α to β.
+    /// A bound of the growth of I/I₀ with γ, per radian: the step is steepest in its middle, by 3/2 of its height over
+    /// cosα − cosβ, and sinγ is largest at the outer edge.
     #[must_use]
     pub fn steepest(&self) -> f64 {
-        let [inner, outer] = [self.inner_angle(), self.outer_angle()];
-        // The step is steepest in its middle, by 3/2 of its height over cos inner − cos outer.
-        let [middle, half] = [0.5 * (outer + inner), 0.5 * (outer - inner)];
-        let has_right_angle = (inner..=outer).contains(&std::f64::consts::FRAC_PI_2);
-        let sine = if has_right_angle { 1.0 } else { libm::sin(inner).max(libm::sin(outer)) };
-        1.5 * sine / (2.0 * libm::sin(middle) * libm::sin(half))
+        3.0 * self.steepness * libm::sin(self.outer_angle())
     }
 
     /// By what part of itself I grows with γ, per radian, towards a point that the light sees in a direction (a unit

@@ -47,18 +47,18 @@ impl PreparedScene {
         if let Some(wall) = self.wall_before(touched, to_light, source.position()) {
             return Blocking { blocker: Some(wall), is_doubtful: false };
         }
-        self.blocking_from(&touched.own, point, Vector::from_f64(Vector::default()), light)
+        self.blocking_from(&touched.own, point, Vector::zero(), light)
     }
 
     fn ambient_of_bare(&self, touched: &Touched, point: &SurfacePoint) -> f64 {
         let Some(ambient) = &self.scene.ambient else { return 0.0 };
-        let samples = ambient.obstruction.filter(|_| !self.shapes.is_empty());
+        let hemisphere = self.hemisphere.as_deref().filter(|_| !self.shapes.is_empty());
         let sees_the_environment = |direction: Vector| {
             let ray = Ray { anchor: point.anchor, offset: point.offset, direction };
             self.wall_before(touched, direction, None).is_none()
                 && self.nearest_blocker(&touched.own, &ray, None).blocker.is_none()
         };
-        sampled(ambient, samples, point.normal, sees_the_environment).irradiance
+        sampled(ambient, hemisphere, point.normal, sees_the_environment).irradiance
     }
 
     /// The closed shape behind whose surface something is in a direction: something at a place, or without end.

@@ -49,12 +49,12 @@ impl PreparedScene {
 
     fn lit_by(&self, lighting: &Lighting) -> Self {
         let Lighting { materials, lights, ambient } = lighting.clone();
-        let scene = Scene { materials, lights, ambient, color: None, ..self.scene.clone() };
+        let scene = Scene { materials, lights, ambient, color: None, ..(*self.scene).clone() };
         Self {
             formulas: super::formulas(&scene),
             source_text: OnceLock::new(),
             components: None,
-            scene,
+            scene: Arc::new(scene),
             ..self.clone()
         }
     }

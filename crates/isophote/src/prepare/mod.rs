@@ -11,6 +11,7 @@ use std::sync::{Arc, OnceLock};
 
 pub use components::Components;
 pub use obstruction::AmbientIrradiance;
+use obstruction::Hemisphere;
 pub use visibility::Blocking;
 
 use crate::accelerate::Accelerator;
@@ -28,7 +29,7 @@ use crate::vector::Vector;
 /// A scene with everything computed that does not depend on the pixel.
 #[derive(Clone, Debug)]
 pub struct PreparedScene {
-    scene: Scene,
+    scene: Arc<Scene>,
     frame: CameraFrame<f64>,
     precise_frame: CameraFrame<DoubleDouble>,
     shapes: Vec<PreparedShape>,
@@ -40,6 +41,8 @@ pub struct PreparedScene {
     tried_one_by_one: u32,
     /// Over all primitives; with so few that each is tried, built only when a renderer asks for it.
     accelerator: Arc<OnceLock<Accelerator>>,
+    /// Where surface points look for what obstructs the ambient light, if anything does.
+    hemisphere: Option<Arc<Hemisphere>>,
     /// Written when the first map asks for it.
     source_text: OnceLock<String>,
     /// Of a scene with colours.
@@ -94,6 +97,7 @@ impl PreparedScene {
             *count += shape.geometry.parts();
             Some(*count)
         }));
+        let obstruction = scene.ambient.and_then(|ambient| ambient.obstruction);
         let mut prepared = Self {
             first_primitives,
             tried_one_by_one: HANDFUL,
@@ -104,7 +108,8 @@ impl PreparedScene {
             formulas: formulas(scene),
             source_text: OnceLock::new(),
             components: None,
-            scene: scene.clone(),
+            hemisphere: obstruction.map(|directions| Arc::new(Hemisphere::new(directions))),
+            scene: Arc::new(scene.clone()),
         };
         if prepared.primitive_count() > HANDFUL {
             prepared.accelerator();
@@ -122,8 +127,8 @@ impl PreparedScene {
 
     /// The same scene seen with another number of pixels.
     pub(crate) fn at_resolution(&self, resolution: Resolution) -> Self {
-        let mut other = Self { source_text: OnceLock::new(), ..self.clone() };
-        other.scene.camera.resolution = resolution;
+        let mut other = self.clone();
+        Arc::make_mut(&mut other.scene).camera.resolution = resolution;
         other.frame = CameraFrame::new(&other.scene.camera);
         other.precise_frame = CameraFrame::new(&other.scene.camera);
         for shape in &mut other.shapes {
@@ -131,6 +136,18 @@ impl PreparedScene {
         }
         other.components =
             self.components.as_ref().map(|components| components.map(|one| one.at_resolution(resolution)));
+        other
+    }
+
+    /// The same with rays through another place of the pixels than their centres: parts of their width and height.
+    pub(crate) fn seen_through(&self, place: [f64; 2]) -> Self {
+        let mut other = self.clone();
+        other.frame.place = place;
+        other.precise_frame.place = place;
+        for shape in &mut other.shapes {
+            shape.outline = OnceLock::new();
+        }
+        other.components = self.components.as_ref().map(|components| components.map(|one| one.seen_through(place)));
         other
     }
 
@@ -189,13 +206,8 @@ impl PreparedScene {
         shape.outline.get_or_init(|| shape.geometry.outline(&self.precise_frame))
     }
 
-    /// For which clearances in its outline a shape has to be traced with 32 digits.
-    pub(crate) fn doubtful_in_outline(&self, shape: usize) -> &Range<f64> {
-        &self.formulas[self.shapes[shape].formula].doubtful_in_outline
-    }
-
-    /// The same for a primitive.
-    pub(crate) fn doubtful_in_outline_of(&self, primitive: Primitive) -> &Range<f64> {
+    /// For which clearances in its outline a primitive has to be traced with 32 digits.
+    pub(crate) fn doubtful_in_outline(&self, primitive: Primitive) -> &Range<f64> {
         &self.prepared_formula(primitive).doubtful_in_outline
     }
 
@@ -220,7 +232,7 @@ impl PreparedScene {
     }
 
     fn has_shapes_beside_one(&self) -> bool {
-        self.primitives().nth(1).is_some()
+        self.primitive_count() > 1
     }
 
     /// How many primitives there are.

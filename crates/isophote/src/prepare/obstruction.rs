@@ -32,38 +32,56 @@ impl PreparedScene {
         if is_walled_in {
             return AmbientIrradiance::default();
         }
-        let samples = ambient.obstruction.filter(|_| self.has_shapes_beside_one());
-        sampled(ambient, samples, hit.point.normal, |direction| {
+        let hemisphere = self.hemisphere.as_deref().filter(|_| self.has_shapes_beside_one());
+        sampled(ambient, hemisphere, hit.point.normal, |direction| {
             let ray = Ray { anchor: hit.point.anchor, offset: hit.point.offset + hit.lift, direction };
             self.nearest_blocker(&[hit.primitive], &ray, None).blocker.is_none()
         })
     }
 }
 
-/// E_a on the side of a normal: all of it, or the part of so many samples that see the environment.
+/// Directions of a hemisphere, spread in proportion to the cosine. They lie over points of a disc that are spread evenly:
+/// the density of their feet goes as the cosine.
+#[derive(Clone, Debug)]
+pub(super) struct Hemisphere {
+    /// cosφ and sinφ around the normal, the part across it and the part along it.
+    directions: Vec<[f64; 4]>,
+}
+
+impl Hemisphere {
+    /// With so many directions.
+    pub(super) fn new(count: u32) -> Self {
+        let direction = |[across, around]: [f64; 2]| {
+            let angle = std::f64::consts::TAU * around;
+            [libm::cos(angle), libm::sin(angle), across.sqrt(), (1.0 - across).sqrt()]
+        };
+        Self { directions: points(count).into_iter().map(direction).collect() }
+    }
+
+    /// The directions about a normal, unit vectors.
+    fn about(&self, normal: Vector) -> impl Iterator<Item = Vector> {
+        let [first, second] = perpendiculars(normal);
+        self.directions.iter().map(move |[cosine, sine, across, along]| {
+            ((first * *cosine + second * *sine) * *across + normal * *along).normalized()
+        })
+    }
+}
+
+/// E_a on the side of a normal: all of it, or the part of the directions of a hemisphere that see the environment.
 pub(super) fn sampled(
     ambient: &Ambient,
-    samples: Option<u32>,
+    hemisphere: Option<&Hemisphere>,
     normal: Vector,
     sees_the_environment: impl Fn(Vector) -> bool,
 ) -> AmbientIrradiance {
     let whole = ambient.unobstructed_irradiance();
-    let Some(samples) = samples else { return AmbientIrradiance { irradiance: whole, standard_error: 0.0 } };
-    let direction = |point: &[f64; 2]| direction_about(normal, *point);
-    let free = points(samples).iter().filter(|point| sees_the_environment(direction(point))).count();
+    let Some(hemisphere) = hemisphere else { return AmbientIrradiance { irradiance: whole, standard_error: 0.0 } };
+    let free = hemisphere.about(normal).filter(|direction| sees_the_environment(*direction)).count();
     #[expect(clippy::cast_precision_loss, reason = "there are few")]
-    let share = free as f64 / f64::from(samples);
-    let standard_error = whole * (share * (1.0 - share) / f64::from(samples)).sqrt();
+    let (free, samples) = (free as f64, hemisphere.directions.len() as f64);
+    let share = free / samples;
+    let standard_error = whole * (share * (1.0 - share) / samples).sqrt();
     AmbientIrradiance { irradiance: whole * share, standard_error }
-}
-
-/// One of the directions about a normal: that of a point of the unit square.
-fn direction_about(normal: Vector, [across, around]: [f64; 2]) -> Vector {
-    let [first, second] = perpendiculars(normal);
-    let angle = std::f64::consts::TAU * around;
-    let ring = first * libm::cos(angle) + second * libm::sin(angle);
-    // Points of a disc, spread evenly, under the hemisphere: their density on it goes as the cosine.
-    (ring * across.sqrt() + normal * (1.0 - across).sqrt()).normalized()
 }
 
 /// Two unit vectors at right angles to a unit vector and to each other. (Duff et al., "Building an orthonormal basis,

@@ -71,7 +71,7 @@ impl PreparedScene {
         let mut nearest: Option<(T, Primitive)> = None;
         let mut doubtful_from: Option<T> = None;
         let is_neighbour = |primitive: Primitive, at: T| {
-            let least = |own: &Primitive| self.shapes[own.shape].geometry.least_shadow_distance(own.part);
+            let least = |own: &Primitive| self.shapes[own.shape].geometry.least_shadow_distance();
             own.iter().any(|own| own.shape == primitive.shape && at.is_less(T::from_f64(least(own))))
         };
         let farthest = distance.map_or(f64::INFINITY, T::rounded);

@@ -17,7 +17,7 @@ impl Renderer for Reference {
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
         color::render(scene, settings, |scene, settings| {
             if scene.scene().sampling().is_more_than_centres() {
-                sampling::render(scene, settings, None, &|scene, settings| self.centres(scene, settings))
+                sampling::render(scene, settings, None, &|_, scene, settings| self.centres(scene, settings))
             } else {
                 self.centres(scene, settings)
             }

@@ -1,7 +1,7 @@
 //! What flat shapes share: the plane z = 0 of their own axes (2.4).
 
 use super::placement::Placement;
-use super::{Accuracy, Intersection, Meeting, PLACE_ERROR, Ray, SurfacePoint};
+use super::{Accuracy, Intersection, Meeting, NearestPoint, PLACE_ERROR, Ray, SurfacePoint};
 use crate::real::Scalar;
 use crate::vector::Vector;
 
@@ -54,4 +54,12 @@ pub fn meet<T: Scalar>(
     };
     let hit = Intersection { distance, point, from_inside: false, lift: Vector::zero() };
     Meeting { hit: Some(hit), doubtful_from }
+}
+
+/// The point of a flat shape nearest to a point, with N on that side. `nearest_place` finds it in the shape's own axes.
+pub fn nearest(placement: &Placement, point: Vector, nearest_place: impl Fn(Vector) -> Vector) -> NearestPoint {
+    let place = placement.place_of(point);
+    let offset = placement.to_scene(nearest_place(place));
+    let side = 1.0_f64.copysign(place.z);
+    NearestPoint::new(placement.origin, offset, placement.axis(2) * side)
 }

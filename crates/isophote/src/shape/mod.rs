@@ -137,6 +137,11 @@ impl Geometry {
         self.material_of(0).is_some()
     }
 
+    /// The materials that its parts have of their own, again and again.
+    pub fn materials_of_parts(&self) -> impl Iterator<Item = usize> {
+        (0..self.parts()).filter_map(|part| self.material_of(part))
+    }
+
     /// How many parts there are.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "the reader of the file counted in 32 bits")]
@@ -200,7 +205,7 @@ impl Geometry {
     /// In metres: what is nearer to a point of a part is no blocker of its light if it is another part of the shape.
     /// Neighbours touch along an edge, where rounding alone would tell whether they stand in each other's light.
     #[must_use]
-    pub fn least_shadow_distance(&self, _part: u32) -> f64 {
+    pub fn least_shadow_distance(&self) -> f64 {
         match self {
             Self::Mesh(mesh) => 1e-12 * mesh.size(),
             _ => 0.0,

@@ -325,14 +325,15 @@ impl Grid {
         let Resolution { width, height } = frame.resolution;
         let [left, right] = window.x;
         let [bottom, top] = window.y;
+        let [across, down] = frame.place;
         let (column_step, row_step) = (step(left, right, width), step(top, bottom, height));
         Self {
             eye: frame.eye,
             right: frame.right,
             up: frame.up,
             forward: frame.forward,
-            first_x: between::<DoubleDouble>(left, right, 0.0, width) * per_distance,
-            first_y: between::<DoubleDouble>(top, bottom, 0.0, height) * per_distance,
+            first_x: between::<DoubleDouble>(left, right, across - 0.5, width) * per_distance,
+            first_y: between::<DoubleDouble>(top, bottom, down - 0.5, height) * per_distance,
             column_step,
             row_step,
             per_column: exact(1.0) / column_step,

@@ -18,7 +18,7 @@ impl Plane {
         Self { placement: Placement::along(point, Vector::from_f64(normal)) }
     }
 
-    /// A hit of the plane that is within its borders.
+    /// How a ray meets it.
     pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
         flat::meet(&self.placement, None, ray, accuracy, |_, _| -T::from_f64(f64::INFINITY))
     }
@@ -32,10 +32,7 @@ impl Plane {
     /// The point of it nearest to a point, with N on that side.
     #[must_use]
     pub fn nearest(&self, point: Vector) -> NearestPoint {
-        let place = self.placement.place_of(point);
-        let offset = self.placement.to_scene(Vector::new(place.x, place.y, 0.0));
-        let side = 1.0_f64.copysign(place.z);
-        NearestPoint::new(self.placement.origin, offset, self.placement.axis(2) * side)
+        flat::nearest(&self.placement, point, |place| Vector::new(place.x, place.y, 0.0))
     }
 
     /// What stands for its size at a point, in metres: how far that is from Q, and a millionth of how far Q is from the

@@ -42,10 +42,7 @@ impl Rectangle {
     /// The point of it nearest to a point, with N on that side.
     #[must_use]
     pub fn nearest(&self, point: Vector) -> NearestPoint {
-        let place = self.placement.place_of(point);
-        let offset = self.placement.to_scene(self.nearest_place(place));
-        let side = 1.0_f64.copysign(place.z);
-        NearestPoint::new(self.placement.origin, offset, self.placement.axis(2) * side)
+        flat::nearest(&self.placement, point, |place| self.nearest_place(place))
     }
 
     fn nearest_place(&self, place: Vector) -> Vector {

@@ -54,7 +54,7 @@ impl Sphere {
         };
         let normal = offset * (outwards / radius);
         let point = SurfacePoint { anchor: self.center, offset, normal, view: -ray.direction, cos_theta_o };
-        let lift = Vector::from_f64(Vector::default());
+        let lift = Vector::zero();
         Meeting { hit: Some(Intersection { distance, point, from_inside, lift }), doubtful_from }
     }
 

@@ -1,6 +1,6 @@
 //! A cloud of spheres, which counts as one shape.
 
-use super::{Bounds, NearestPoint, Sphere};
+use super::{NearestPoint, Sphere};
 use crate::vector::Vector;
 
 /// Many spheres of one scene entry, read from a file of points.
@@ -10,28 +10,20 @@ pub struct Spheres {
     pub spheres: Vec<Sphere>,
     /// For each sphere, the index of its material; empty where all have the shape's own.
     pub materials: Vec<u32>,
-    bounds: Bounds,
 }
 
 impl Spheres {
     /// A cloud of at least one sphere.
     #[must_use]
     pub fn new(spheres: Vec<Sphere>, materials: Vec<u32>) -> Self {
-        let bounds = spheres.iter().map(Sphere::bounds).reduce(Bounds::union).unwrap_or_default();
-        Self { spheres, materials, bounds }
-    }
-
-    /// The box around all of them.
-    #[must_use]
-    pub fn bounds(&self) -> Bounds {
-        self.bounds
+        Self { spheres, materials }
     }
 
     /// The part whose surface is nearest to a point.
     #[must_use]
     pub fn nearest_part(&self, point: Vector) -> u32 {
-        let distance = |sphere: &Sphere| sphere.signed_distance(point).abs();
-        let nearest = (0..).zip(&self.spheres).min_by(|first, second| distance(first.1).total_cmp(&distance(second.1)));
+        let distances = self.spheres.iter().map(|sphere| sphere.signed_distance(point).abs());
+        let nearest = (0..).zip(distances).min_by(|(_, first), (_, second)| first.total_cmp(second));
         nearest.map_or(0, |(part, _)| part)
     }
 

@@ -24,7 +24,7 @@ use super::{RenderError, RenderSettings, Renderer};
 use crate::lanes::{Instructions, Precision};
 use crate::map::{Map, Run, Values};
 use crate::prepare::PreparedScene;
-use crate::shape::Outline;
+use crate::shape::{Outline, Primitive};
 use crate::units::Choice;
 
 /// The fast renderer, on one thread or several. The bytes do not depend on how many.
@@ -72,7 +72,7 @@ impl Lanes {
         if scene.scene().sampling().is_more_than_centres() {
             let pool = if self.threads == 1 { None } else { Some(self.pool()?) };
             let centres =
-                |scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(Vec::new(), scene, settings);
+                |memory, scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(memory, scene, settings);
             sampling::render(scene, settings, pool, &centres)
         } else {
             self.centres(memory, scene, settings)
@@ -86,30 +86,49 @@ impl Lanes {
         settings: &RenderSettings<'_>,
     ) -> Result<Map, RenderError> {
         let mut map = band::empty_map(scene, settings, self.name(), self.precision, memory)?;
-        if tiles::suit(scene) {
+        let suits_tiles = tiles::suit(scene);
+        if suits_tiles {
             // Here, where all threads are free: those of the renderer would wait for each other.
             scene.accelerator();
         }
         let height = map.region.size.height;
         let order = lights::by_place(scene.scene().lights());
         let threads = self.threads;
-        let runs = if threads == 1 || estimated_time(scene, &map) < WORTH_THREADS {
+        let fill = |band: Band<'_>| {
+            if suits_tiles {
+                self.fill_by_tiles(band, scene, &order, settings)
+            } else {
+                self.fill_by_rows(band, scene, &order, settings)
+            }
+        };
+        let runs = if threads == 1 || estimated_time(scene, &map, suits_tiles) < WORTH_THREADS {
             let bands = band::split(&mut map, scene, height).into_iter();
-            bands.map(|band| self.render_band(band, scene, &order, settings)).collect::<Result<Vec<_>, _>>()?
+            bands.map(fill).collect::<Result<Vec<_>, _>>()?
         } else {
             let parts = u32::try_from(threads).unwrap_or(u32::MAX).saturating_mul(BANDS_A_THREAD);
-            let rows = if tiles::suit(scene) { tiles::HEIGHT } else { height.div_ceil(parts) };
+            let rows = if suits_tiles { tiles::HEIGHT } else { height.div_ceil(parts) };
             let bands = band::split(&mut map, scene, rows);
             self.pool()?.install(|| {
                 let bands = bands.into_par_iter().with_max_len(1);
-                bands.map(|band| self.render_band(band, scene, &order, settings)).collect::<Result<Vec<_>, _>>()
+                bands.map(fill).collect::<Result<Vec<_>, _>>()
             })?
         };
         band::finish(&mut map, runs.into_iter().flatten().collect());
         Ok(map)
     }
 
-    fn render_band(
+    fn fill_by_tiles(
+        &self,
+        band: Band<'_>,
+        scene: &PreparedScene,
+        order: &[usize],
+        settings: &RenderSettings<'_>,
+    ) -> Result<Vec<Run>, RenderError> {
+        let (precision, instructions) = (self.precision, self.instructions);
+        Tiles { scene, order, precision, instructions, observer: settings.observer }.fill(band)
+    }
+
+    fn fill_by_rows(
         &self,
         mut band: Band<'_>,
         scene: &PreparedScene,
@@ -118,10 +137,6 @@ impl Lanes {
     ) -> Result<Vec<Run>, RenderError> {
         let observer = settings.observer;
         let rows = band.first.row..band.first.row + band.size.height;
-        if tiles::suit(scene) {
-            let (precision, instructions) = (self.precision, self.instructions);
-            return Tiles { scene, order, precision, instructions, observer }.fill(band);
-        }
         match Candidate::all(scene, rows) {
             Some(candidates) => {
                 let job = BandJob { scene, band, candidates, order, precision: self.precision, observer };
@@ -139,17 +154,17 @@ const WORTH_THREADS: f64 = 200_000.0;
 const BANDS_A_THREAD: u32 = 8;
 
 /// About the time that one thread takes, in nanoseconds.
-fn estimated_time(scene: &PreparedScene, map: &Map) -> f64 {
+fn estimated_time(scene: &PreparedScene, map: &Map, suits_tiles: bool) -> f64 {
     let region = map.region;
     let pixels = f64::from(region.size.width) * f64::from(region.size.height);
-    if tiles::suit(scene) {
+    if suits_tiles {
         return 50.0 * pixels;
     }
     let covered = |shape| match scene.outline(shape) {
         Outline::Unseen => 0.0,
         Outline::Unknown => 20.0 * pixels,
         // Traced again with 32 digits, all of it.
-        Outline::Ellipse(ellipse) if scene.doubtful_in_outline(shape).end.is_infinite() => {
+        Outline::Ellipse(ellipse) if scene.doubtful_in_outline(Primitive { shape, part: 0 }).end.is_infinite() => {
             500.0 * ellipse.area().min(pixels)
         }
         Outline::Ellipse(ellipse) => ellipse.area().min(pixels),

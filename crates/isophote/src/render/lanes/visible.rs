@@ -83,7 +83,7 @@ impl<'s> Candidate<'s> {
                     let [first, last] = ellipse.rows.map(|row| row + ellipse.row);
                     let rows = bound(first - 1.0)..bound(last + 3.0);
                     if !rows.is_empty() {
-                        let doubtful = scene.doubtful_in_outline(shape);
+                        let doubtful = scene.doubtful_in_outline(Primitive { shape, part: 0 });
                         candidates.push(Self { shape, ellipse, rows, sphere: *sphere, doubtful });
                     }
                 }

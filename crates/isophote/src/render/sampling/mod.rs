@@ -1,15 +1,19 @@
 //! Pixels as means over their area instead of values at their centres.
 
 mod filter;
+mod fixed;
 mod pattern;
 mod refine;
+mod uncertain;
 
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
 pub use filter::Filter;
 
-use self::refine::{Averages, Refinement, Uncertain, Wanted};
+use self::pattern::Patterns;
+use self::refine::{Averages, Refinement, Wanted};
+use self::uncertain::Uncertain;
 use super::band::{self, advance};
 use super::{RenderError, RenderSettings};
 use crate::analysis::statistics::totals;
@@ -62,10 +66,10 @@ const FIRST_SAMPLES: u32 = 16;
 /// So many uncertain pixels are shared by several threads.
 const WORTH_THREADS: usize = 100;
 
-/// What renders the centres of pixels.
-pub type Centres<'c> = dyn Fn(&PreparedScene, &RenderSettings<'_>) -> Result<Map, RenderError> + 'c;
+/// What renders the centres of pixels, in memory of an earlier map if there is any.
+pub type Centres<'c> = dyn Fn(Vec<Values>, &PreparedScene, &RenderSettings<'_>) -> Result<Map, RenderError> + 'c;
 
-/// Renders the centres of the pixels and refines those whose value is uncertain.
+/// Renders means over pixels: of as many samples as the scene asks for, or of more where the value is uncertain.
 ///
 /// The same pixels come out whatever the region and the threads: what a pixel gets depends on its neighbours and on
 /// the scene as a whole, never on what else is computed.
@@ -80,17 +84,37 @@ pub fn render(
     let full = scene.scene().camera().resolution;
     let region = settings.region.unwrap_or(Region::all(full));
     band::check(region, full)?;
+    let settings = RenderSettings { region: Some(grown(region, reach, full)), ..settings.clone() };
+    let map = match sampling.tolerance {
+        Some(tolerance) => refined(scene, &settings, tolerance, pool, centres)?,
+        None => fixed::render(scene, &settings, pool, centres)?,
+    };
+    let mut map = cropped(map, region, scene);
+    map.retain(|quantity| settings.quantities.contains(quantity));
+    map.provenance.renderer = format!("{}, {}", map.provenance.renderer, sampling.describe());
+    Ok(map)
+}
+
+/// The centres of a region, with what is uncertain of them refined.
+fn refined(
+    scene: &PreparedScene,
+    settings: &RenderSettings<'_>,
+    tolerance: f64,
+    pool: Option<&ThreadPool>,
+    centres: &Centres<'_>,
+) -> Result<Map, RenderError> {
+    let sampling = scene.scene().sampling();
+    let full = scene.scene().camera().resolution;
+    let region = settings.region.unwrap_or(Region::all(full));
     let mut quantities = settings.quantities.clone();
     quantities.push(Quantity::Brightness);
-    let wide = RenderSettings { region: Some(grown(region, reach + 1, full)), quantities, ..settings.clone() };
-    let mut map = centres(scene, &wide)?;
-    let tolerance = match sampling.tolerance {
-        Some(tolerance) => Some(tolerance * peak(scene, centres)?),
-        None => None,
-    };
+    let wide = RenderSettings { region: Some(grown(region, 1, full)), quantities, ..settings.clone() };
+    let mut map = centres(Vec::new(), scene, &wide)?;
+    let tolerance = tolerance * peak(scene, centres)?;
     let averages = Averages::of(&map, scene);
-    let wanted = Wanted { averages: &averages, sampling, tolerance };
-    let pixels = uncertain_pixels(&map, grown(region, reach, full), tolerance);
+    let (patterns, offsets) = (Patterns::new(sampling.samples), refine::offsets(sampling.filter));
+    let wanted = Wanted { averages: &averages, sampling, patterns: &patterns, offsets: &offsets, tolerance };
+    let pixels = uncertain::pixels(&map, region, tolerance, pool);
     let refine = |uncertain: &Uncertain| {
         advance(settings.observer, 0)?;
         Ok(Refinement::new(scene, &wanted, map.pixel(uncertain.index), uncertain))
@@ -102,9 +126,6 @@ pub fn render(
         _ => pixels.iter().map(refine).collect::<Result<Vec<_>, RenderError>>()?,
     };
     refine::apply(&mut map, &averages, sampling.filter, &refined)?;
-    let mut map = cropped(map, region, scene);
-    map.retain(|quantity| settings.quantities.contains(quantity));
-    map.provenance.renderer = format!("{}, {}", map.provenance.renderer, sampling.describe());
     Ok(map)
 }
 
@@ -130,53 +151,8 @@ fn peak(scene: &PreparedScene, centres: &Centres<'_>) -> Result<f64, RenderError
     let side = |side: u32| ((f64::from(side) * f64::from(GLANCE) / longer).ceil() as u32).clamp(1, side);
     let small = scene.at_resolution(Resolution { width: side(full.width), height: side(full.height) });
     let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
-    let map = centres(&small, &settings)?;
+    let map = centres(Vec::new(), &small, &settings)?;
     Ok(totals(&map, &Quantity::Brightness).map_or(0.0, |totals| totals.max.value))
-}
-
-/// The pixels of a region that need more than the value at their centre: all of them
-/// without a tolerance; else those where the brightness bends by more than the tolerance on one of the four lines
-/// through the pixel and two of its neighbours, or differs by more from a neighbour that sees something else. A slope
-/// alone needs nothing: its mean is the value at the centre. But across a limb it may be an accident.
-fn uncertain_pixels(map: &Map, region: Region, tolerance: Option<f64>) -> Vec<Uncertain> {
-    let Region { corner, size } = map.region;
-    let width = size.width as usize;
-    let columns = (region.corner.column - corner.column) as usize;
-    let columns = columns..columns + region.size.width as usize;
-    let rows = (region.corner.row - corner.row) as usize;
-    let rows = rows..rows + region.size.height as usize;
-    let all = rows.flat_map(|row| columns.clone().map(move |column| (row, column)));
-    let brightness = map.scalar(&Quantity::Brightness).expect("it was asked for");
-    let Some(tolerance) = tolerance else {
-        return all.map(|(row, column)| Uncertain { index: row * width + column, contrast: 0.0 }).collect();
-    };
-    let height = size.height as usize;
-    let shapes = map.mask().shapes();
-    let at = |row: usize, column: usize| brightness.at(row * width + column);
-    let uncertain = |(row, column): (usize, usize)| {
-        let here = at(row, column);
-        let shape = shapes[row * width + column];
-        let (mut is_uncertain, mut contrast) = (false, 0.0_f64);
-        for (down, across) in [(0_isize, 1_isize), (1, 0), (1, 1), (1, -1)] {
-            let neighbour = |sign: isize| {
-                let row = row.checked_add_signed(sign * down).filter(|row| *row < height)?;
-                let column = column.checked_add_signed(sign * across).filter(|column| *column < width)?;
-                Some((at(row, column), shapes[row * width + column]))
-            };
-            for (value, other) in [neighbour(1), neighbour(-1)].into_iter().flatten() {
-                contrast = contrast.max((value - here).abs());
-                is_uncertain |= other != shape && (value - here).abs() > tolerance;
-            }
-            let bend = match (neighbour(1), neighbour(-1)) {
-                (Some((after, _)), Some((before, _))) => before + after - 2.0 * here,
-                (Some((only, _)), None) | (None, Some((only, _))) => only - here,
-                (None, None) => 0.0,
-            };
-            is_uncertain |= bend.abs() > tolerance;
-        }
-        is_uncertain.then_some(Uncertain { index: row * width + column, contrast })
-    };
-    all.filter_map(uncertain).collect()
 }
 
 /// A part of a map.

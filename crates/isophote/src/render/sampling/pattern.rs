@@ -1,4 +1,26 @@
-//! How many samples of a pixel are enough.
+//! How many samples of a pixel are enough, and where they are.
+
+use crate::hammersley::points;
+
+/// The places of the samples in a pixel, for every number of them that [`enough`] may name.
+pub struct Patterns(Vec<Vec<[f64; 2]>>);
+
+impl Patterns {
+    /// For up to so many samples.
+    pub fn new(most: u32) -> Self {
+        let powers = (0..32).map(|exponent| 1_u32 << exponent).take_while(|count| *count < most);
+        // Few digits, so that no column loses any of them.
+        let short = |part: f64| (part * 16_777_216.0).round() / 16_777_216.0;
+        let places = |count| points(count).into_iter().map(|place| place.map(short)).collect();
+        Self(powers.chain([most]).map(places).collect())
+    }
+
+    /// The places of so many samples: a power of two, or the most.
+    pub fn of(&self, count: u32) -> &[[f64; 2]] {
+        let places = self.0.iter().find(|places| places.len() == count as usize);
+        places.expect("a power of two, or the most")
+    }
+}
 
 /// How far the share of n points on one side of a straight edge may be from the share of the area, times n^(3/4), for up to
 /// 1024 points. The worst edges run along the diagonal.
@@ -16,7 +38,6 @@ pub fn enough(contrast: f64, tolerance: f64, most: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hammersley::points;
 
     /// The area of the unit square where `x cosφ + y sinφ < d`, by a fine sum over columns.
     fn area_below(angle: f64, distance: f64) -> f64 {

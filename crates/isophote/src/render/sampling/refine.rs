@@ -1,6 +1,8 @@
-//! Many rays through one pixel, and what they make of a map.
+//! Many rays through the pixels that need them, and what they make of a map.
 
-use super::{FIRST_SAMPLES, Filter, Sampling, pattern};
+use super::pattern::{self, Patterns};
+use super::uncertain::Uncertain;
+use super::{FIRST_SAMPLES, Filter, Sampling};
 use crate::camera::ScreenPosition;
 use crate::hammersley::points;
 use crate::map::{Map, Mask, Pixel, Quantity, Scalars, Values};
@@ -19,16 +21,12 @@ pub struct Averages {
 pub struct Wanted<'w> {
     pub averages: &'w Averages,
     pub sampling: Sampling,
-    /// The allowed error of the brightness; nothing if the number of samples is given.
-    pub tolerance: Option<f64>,
-}
-
-/// A pixel whose value is not that at its centre.
-pub struct Uncertain {
-    /// Index in the map.
-    pub index: usize,
-    /// By how much its neighbours differ from it: so much may be in a corner of it that the first samples miss.
-    pub contrast: f64,
+    /// The places of the rays in a pixel, for each number of them that is asked for.
+    pub patterns: &'w Patterns,
+    /// The pixels that the filter reaches.
+    pub offsets: &'w [[f64; 2]],
+    /// The allowed error of the brightness.
+    pub tolerance: f64,
 }
 
 /// What the rays through a pixel saw.
@@ -48,22 +46,6 @@ pub struct Refinement {
 impl Averages {
     /// The averaged channels of a map.
     pub fn of(map: &Map, scene: &PreparedScene) -> Self {
-        let is_mean = |quantity: &Quantity| match quantity {
-            Quantity::Brightness
-            | Quantity::Irradiance
-            | Quantity::Diffuse
-            | Quantity::Specular
-            | Quantity::Ambient
-            | Quantity::Light(_) => true,
-            Quantity::Depth
-            | Quantity::Position
-            | Quantity::Normal
-            | Quantity::Color
-            | Quantity::Shape
-            | Quantity::Samples
-            | Quantity::Coverage
-            | Quantity::AmbientError => false,
-        };
         let channels = map.channels.iter().enumerate().filter(|(_, channel)| is_mean(&channel.quantity));
         let channels = channels.map(|(index, channel)| (index, ScalarChannel::of(&channel.quantity, scene.scene())));
         Self { channels: channels.collect() }
@@ -89,16 +71,35 @@ impl Averages {
     }
 }
 
+/// Whether a pixel's value is the mean over its area. Of the others it is the value at its centre.
+pub fn is_mean(quantity: &Quantity) -> bool {
+    match quantity {
+        Quantity::Brightness
+        | Quantity::Irradiance
+        | Quantity::Diffuse
+        | Quantity::Specular
+        | Quantity::Ambient
+        | Quantity::Light(_) => true,
+        Quantity::Depth
+        | Quantity::Position
+        | Quantity::Normal
+        | Quantity::Color
+        | Quantity::Shape
+        | Quantity::Samples
+        | Quantity::Coverage
+        | Quantity::AmbientError => false,
+    }
+}
+
 impl Refinement {
-    /// Sends as many rays through a pixel as are wanted, or as its contrast takes.
+    /// Sends as many rays through a pixel as its contrast takes.
     pub fn new(scene: &PreparedScene, wanted: &Wanted<'_>, pixel: Pixel, uncertain: &Uncertain) -> Self {
         let index = uncertain.index;
         let most = wanted.sampling.samples;
-        let Some(tolerance) = wanted.tolerance else { return Self::of_samples(scene, wanted, pixel, index, most).0 };
-        let mut samples = pattern::enough(uncertain.contrast, tolerance, most).max(FIRST_SAMPLES.min(most));
+        let mut samples = pattern::enough(uncertain.contrast, wanted.tolerance, most).max(FIRST_SAMPLES.min(most));
         loop {
             let (refinement, contrast) = Self::of_samples(scene, wanted, pixel, index, samples);
-            let enough = pattern::enough(contrast, tolerance, most);
+            let enough = pattern::enough(contrast, wanted.tolerance, most);
             if enough <= samples {
                 return refinement;
             }
@@ -109,13 +110,12 @@ impl Refinement {
     /// With so many samples; and how much their brightness differs.
     fn of_samples(scene: &PreparedScene, wanted: &Wanted<'_>, pixel: Pixel, index: usize, samples: u32) -> (Self, f64) {
         let averages = wanted.averages;
-        let offsets = offsets(wanted.sampling.filter);
         let channels = averages.channels.len();
-        let mut sums = vec![0.0; offsets.len() * (channels + 1)];
+        let mut sums = vec![0.0; wanted.offsets.len() * (channels + 1)];
         let mut values = vec![0.0; channels];
         let [mut least, mut greatest] = [f64::INFINITY, f64::NEG_INFINITY];
         let (mut covered, mut first_hit) = (0_u32, None);
-        for place in points(samples) {
+        for &place in wanted.patterns.of(samples) {
             let position = ScreenPosition::InPixel { pixel, place };
             let hit = scene.trace(position);
             values.fill(0.0);
@@ -125,7 +125,7 @@ impl Refinement {
             least = least.min(brightness);
             greatest = greatest.max(brightness);
             let [across, down] = place.map(|part| part - 0.5);
-            for (sums, [columns, rows]) in sums.chunks_exact_mut(channels + 1).zip(&offsets) {
+            for (sums, [columns, rows]) in sums.chunks_exact_mut(channels + 1).zip(wanted.offsets) {
                 let weight = wanted.sampling.filter.weight(across - columns, down - rows);
                 for (sum, value) in sums.iter_mut().zip(&values) {
                     *sum += weight * value;
@@ -143,7 +143,7 @@ impl Refinement {
 }
 
 /// The pixels that the filter reaches from one pixel: columns and rows away from it.
-fn offsets(filter: Filter) -> Vec<[f64; 2]> {
+pub fn offsets(filter: Filter) -> Vec<[f64; 2]> {
     let reach = i32::try_from(filter.reach()).unwrap_or(0);
     let rows = (-reach..=reach).flat_map(|row| (-reach..=reach).map(move |column| [column, row]));
     rows.map(|offset| offset.map(f64::from)).collect()
@@ -175,10 +175,9 @@ pub fn apply(map: &mut Map, averages: &Averages, filter: Filter, refined: &[Refi
     }
     map.mask = Mask::of_shapes(map.region.size, &shapes);
     // Where no surface is, there was none to sample.
-    for quantity in [Quantity::Samples, Quantity::Coverage] {
-        for index in (0..shapes.len()).filter(|index| shapes[*index] < 0) {
-            put_exactly(map, &quantity, index, 0.0);
-        }
+    for index in refined.iter().map(|refinement| refinement.index).filter(|index| shapes[*index] < 0) {
+        put_exactly(map, &Quantity::Samples, index, 0.0);
+        put_exactly(map, &Quantity::Coverage, index, 0.0);
     }
     for channel in &mut map.channels {
         if let Values::Index(values) = &mut channel.values {
@@ -255,7 +254,7 @@ fn gathered(
 }
 
 /// Writes a value into a scalar channel.
-fn put(map: &mut Map, channel: usize, index: usize, value: f64) -> Result<(), RenderError> {
+pub fn put(map: &mut Map, channel: usize, index: usize, value: f64) -> Result<(), RenderError> {
     let pixel = map.pixel(index);
     match &mut map.channels[channel].values {
         Values::Scalar(values) => values[index] = value,
@@ -273,7 +272,7 @@ fn put(map: &mut Map, channel: usize, index: usize, value: f64) -> Result<(), Re
 }
 
 /// Writes a number that is small enough for any channel, if the map has that channel.
-fn put_exactly(map: &mut Map, quantity: &Quantity, index: usize, value: f64) {
+pub fn put_exactly(map: &mut Map, quantity: &Quantity, index: usize, value: f64) {
     let channel = map.channels.iter_mut().find(|channel| channel.quantity == *quantity);
     if let Some(Values::Scalar(values)) = channel.map(|channel| &mut channel.values) {
         values[index] = value;

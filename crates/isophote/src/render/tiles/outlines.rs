@@ -213,7 +213,7 @@ impl Outlines {
                 let primitive = scene.primitive(*number);
                 let Some(Sphere { center, radius }) = scene.sphere(primitive) else { return false };
                 spheres[lane] = (*center, *radius);
-                doubtful[lane] = scene.doubtful_in_outline_of(primitive).end;
+                doubtful[lane] = scene.doubtful_in_outline(primitive).end;
             }
             let block = kind.apart(
                 #[inline(always)]

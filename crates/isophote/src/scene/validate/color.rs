@@ -50,6 +50,7 @@ impl Validator {
         let mut validator = Self {
             length: self.length,
             convention: self.convention,
+            shadows: self.shadows,
             collapse: Collapse::Component(component),
             directory: self.directory.clone(),
             materials: Vec::new(),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::shapes::Written;
+use super::shapes::{Written, written_head};
 use super::{Validator, limits};
 use crate::import::{self, ImportError, MaterialSlots, TriangleMesh};
 use crate::scene::document::Path;
@@ -12,23 +12,28 @@ use crate::shape::{Geometry, Mesh, MeshData, MeshPlacing, Sphere, Spheres};
 use crate::vector::Vector;
 
 impl Written for MeshSource {
-    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
-        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    written_head!();
+
+    fn is_from_file(&self) -> bool {
+        true
     }
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let placing = validator.mesh_placing(path, self);
         let mesh = validator.imported(path, self.file.as_deref(), import::read_mesh)?;
         let TriangleMesh { vertices, triangles, normals, materials, degenerate } = mesh;
-        if degenerate > 0 {
-            let message = format!("{degenerate} triangles of `{path}` have no area and were left out");
-            validator.warn(&path.key("file"), message, "mend the file if they were meant to be seen");
-        }
         let (slots, materials) = validator.slots(path, materials, self.material.is_some())?;
         let normals = normals.filter(|_| self.smooth.unwrap_or(true));
         let data = MeshData { vertices, triangles, normals, slots, materials };
         match Mesh::new(data, &placing?) {
-            Ok(mesh) => Some(Geometry::Mesh(Arc::new(mesh))),
+            Ok(mesh) => {
+                let without_area = degenerate + mesh.left_out() as u64;
+                if without_area > 0 {
+                    let message = format!("{without_area} triangles of `{path}` have no area and were left out");
+                    validator.warn(&path.key("file"), message, "mend the file if they were meant to be seen");
+                }
+                Some(Geometry::Mesh(Arc::new(mesh)))
+            }
             Err(error) => {
                 validator.wrong(
                     &path.key("file"),
@@ -42,8 +47,10 @@ impl Written for MeshSource {
 }
 
 impl Written for SpheresSource {
-    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
-        (self.name.as_deref(), self.material.as_deref(), self.shadow)
+    written_head!();
+
+    fn is_from_file(&self) -> bool {
+        true
     }
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
@@ -86,7 +93,12 @@ impl Validator {
         match read(&self.directory.join(file)) {
             Ok(content) => Some(content),
             Err(error) => {
-                self.wrong(&path.key("file"), error.to_string(), "a relative path starts at the scene file");
+                let help = match &error {
+                    ImportError::Suffix { .. } => "the suffix says how the file is read",
+                    ImportError::Content { .. } => "mend the file, or name another one",
+                    _ => "a relative path starts at the scene file",
+                };
+                self.wrong(&path.key("file"), error.to_string(), help);
                 None
             }
         }

@@ -15,11 +15,11 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 
 use self::color::Collapse;
-use super::Scene;
 use super::document::Path;
 use super::error::{Problem, ProblemKind};
 use super::read::{Problems, short};
 use super::source::SceneSource;
+use super::{Scene, Shape};
 use crate::camera::{Camera, Extent, Projection};
 use crate::reflectance::Convention;
 use crate::render::Sampling;
@@ -61,6 +61,7 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
         length: source.length.unwrap_or(LengthUnit::Metre),
         convention: source.convention.unwrap_or(Convention::Radiance),
         collapse: Collapse::Luminance(source.color_space.unwrap_or_default()),
+        shadows: source.shadows.unwrap_or(false),
         directory: source.directory.clone(),
         materials: source.material.keys().cloned().collect(),
         problems,
@@ -78,16 +79,16 @@ pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene,
     validator.eye_against_shapes(camera.as_ref(), &shapes);
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
     validator.probes_against_shapes(&probes, &shapes);
-    validator.words_of_advice(&source, camera.as_ref());
+    validator.words_of_advice(&source, camera.as_ref(), &shapes);
     let color = validator.color(&source);
-    let Validator { length, convention, problems, warnings, .. } = validator;
+    let Validator { length, convention, shadows, problems, warnings, .. } = validator;
     match camera {
         Some(camera) if problems.is_empty() => Ok(Scene {
             title: source.title.clone().unwrap_or_default(),
             length,
             convention,
             sampling,
-            shadows: source.shadows.unwrap_or(false),
+            shadows,
             quantities: source.quantities.unwrap_or(Quantities::Radiometric),
             camera,
             materials: materials.into_iter().flatten().collect(),
@@ -112,6 +113,7 @@ struct Validator {
     convention: Convention,
     /// Which one number three become.
     collapse: Collapse,
+    shadows: bool,
     /// Where relative paths start.
     directory: PathBuf,
     /// The names of the materials, in their order.
@@ -161,7 +163,7 @@ impl Validator {
         samples
     }
 
-    fn words_of_advice(&mut self, source: &SceneSource, camera: Option<&Camera>) {
+    fn words_of_advice(&mut self, source: &SceneSource, camera: Option<&Camera>, shapes: &Checked<Shape>) {
         let root = Path::root();
         let count = shapes::count(source);
         if count == 0 && source.grid.is_empty() {
@@ -180,8 +182,10 @@ impl Validator {
             );
         }
         let used: HashSet<&str> = shapes::materials_in_use(source).collect();
-        for name in source.material.keys() {
-            if !used.contains(name.as_str()) {
+        let of_parts: HashSet<usize> =
+            shapes.iter().flatten().flat_map(|shape| shape.geometry.materials_of_parts()).collect();
+        for (index, name) in source.material.keys().enumerate() {
+            if !used.contains(name.as_str()) && !of_parts.contains(&index) {
                 let message = format!("no shape is made of the material \"{}\"", short(name));
                 self.warn(&root.key("material").key(name), message, "leave it out, or use it");
             }

@@ -48,9 +48,16 @@ impl Validator {
                 } else if distance < 0.0 && !eye_inside && camera.is_some() {
                     let message = format!("the light \"{}\" is inside \"{}\"", light.name, shape.name);
                     let depth = self.length_text(-distance);
-                    let help =
-                        format!("its surface is {depth} away and lets no light out; move the light out, or the eye in");
-                    self.wrong(&path, message, &help);
+                    if self.shadows && shape.casts_shadow && light.casts_shadows {
+                        let help = format!("it lights what is inside; the surface, {depth} away, lets no light out");
+                        self.warn(&path, message, &help);
+                    } else {
+                        let help = format!(
+                            "its surface is {depth} away and lets no light out; move the light out, the eye in, or write \
+                             `shadows = true`"
+                        );
+                        self.wrong(&path, message, &help);
+                    }
                 } else if distance > 0.0 && eye_inside {
                     let message = format!(
                         "the eye is inside \"{}\" and the light \"{}\" outside: it lights nothing there",

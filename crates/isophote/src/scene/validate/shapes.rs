@@ -23,9 +23,24 @@ pub(super) trait Written {
     /// Its name, its material's, and what it has to do with shadows.
     fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource);
 
+    /// Whether its form comes from a file, which may name materials of its parts.
+    fn is_from_file(&self) -> bool {
+        false
+    }
+
     /// Its form and place.
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry>;
 }
+
+/// [`Written::head`], of the fields that all have.
+macro_rules! written_head {
+    () => {
+        fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
+            (self.name.as_deref(), self.material.as_deref(), self.shadow)
+        }
+    };
+}
+pub(super) use written_head;
 
 /// All shapes that are written, with their paths.
 fn written(source: &SceneSource) -> impl Iterator<Item = (Path, &dyn Written)> {
@@ -69,8 +84,8 @@ impl Validator {
             let (name, material, shadow) = shape.head();
             let name = names.check(self, &path, name);
             let geometry = shape.geometry(self, &path);
-            // Parts with materials of their own need no other.
-            let has_own = geometry.as_ref().is_some_and(Geometry::has_own_materials);
+            // Parts with materials of their own need no other; whether they have is not known of a file that is wrong.
+            let has_own = geometry.as_ref().map_or(shape.is_from_file(), Geometry::has_own_materials);
             let material =
                 if has_own && material.is_none() { Ok(None) } else { self.material_of(&path, material, &known) };
             Some(Shape::new(name?, material.ok()?, geometry?, shadow))
@@ -120,9 +135,7 @@ impl Validator {
 }
 
 impl Written for SphereSource {
-    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
-        (self.name.as_deref(), self.material.as_deref(), self.shadow)
-    }
+    written_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
@@ -132,9 +145,7 @@ impl Written for SphereSource {
 }
 
 impl Written for EllipsoidSource {
-    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
-        (self.name.as_deref(), self.material.as_deref(), self.shadow)
-    }
+    written_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
@@ -145,9 +156,7 @@ impl Written for EllipsoidSource {
 }
 
 impl Written for CuboidSource {
-    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
-        (self.name.as_deref(), self.material.as_deref(), self.shadow)
-    }
+    written_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
@@ -158,9 +167,7 @@ impl Written for CuboidSource {
 }
 
 impl Written for CylinderSource {
-    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
-        (self.name.as_deref(), self.material.as_deref(), self.shadow)
-    }
+    written_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let ends = validator.ends(path, ["from", "to"], [self.from, self.to]);
@@ -171,9 +178,7 @@ impl Written for CylinderSource {
 }
 
 impl Written for ConeSource {
-    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
-        (self.name.as_deref(), self.material.as_deref(), self.shadow)
-    }
+    written_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let ends = validator.ends(path, ["base", "apex"], [self.base, self.apex]);
@@ -193,9 +198,7 @@ impl Written for ConeSource {
 }
 
 impl Written for PlaneSource {
-    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
-        (self.name.as_deref(), self.material.as_deref(), self.shadow)
-    }
+    written_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let point = validator.required_point(path, "point", self.point);
@@ -205,9 +208,7 @@ impl Written for PlaneSource {
 }
 
 impl Written for RectangleSource {
-    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
-        (self.name.as_deref(), self.material.as_deref(), self.shadow)
-    }
+    written_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
@@ -220,9 +221,7 @@ impl Written for RectangleSource {
 }
 
 impl Written for DiskSource {
-    fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
-        (self.name.as_deref(), self.material.as_deref(), self.shadow)
-    }
+    written_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);

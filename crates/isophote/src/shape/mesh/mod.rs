@@ -90,13 +90,6 @@ impl Mesh {
             .into_iter()
             .fold(Bounds { least: corners[0], greatest: corners[0] }, Bounds::union)
     }
-
-    /// The box around all of it.
-    #[must_use]
-    pub fn bounds(&self) -> Bounds {
-        self.bounds
-    }
-
     /// Half the diagonal of the box around it, in metres.
     #[must_use]
     pub fn size(&self) -> f64 {

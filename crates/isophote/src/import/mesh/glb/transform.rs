@@ -2,19 +2,23 @@
 
 use super::document::Node;
 use crate::import::{Problem, text::finite};
+use crate::vector::Vector;
 
 /// x ↦ Ax + t.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Transform {
-    rows: [[f64; 3]; 3],
-    translation: [f64; 3],
+    rows: [Vector; 3],
+    translation: Vector,
     /// Whether it turns left into right: corners then run the other way round.
     pub is_mirror: bool,
 }
 
 impl Transform {
-    pub const IDENTITY: Self =
-        Self { rows: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3], is_mirror: false };
+    pub const IDENTITY: Self = Self {
+        rows: [Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0), Vector::new(0.0, 0.0, 1.0)],
+        translation: Vector::new(0.0, 0.0, 0.0),
+        is_mirror: false,
+    };
 
     /// A node's own: a matrix, or first scale, then rotation, then translation.
     pub fn of(node: &Node) -> Result<Self, Problem> {
@@ -24,21 +28,19 @@ impl Transform {
                 let (what, allowed) = ("the last row of the matrix".into(), "0, 0, 0, 1".into());
                 return Err(Problem::Unexpected { what, found, allowed });
             }
-            let rows = [0, 1, 2].map(|i| [m[i], m[i + 4], m[i + 8]]);
-            return Ok(Self::new(rows, [m[12], m[13], m[14]]));
+            let rows = [0, 1, 2].map(|i| Vector::new(m[i], m[i + 4], m[i + 8]));
+            return Ok(Self::new(rows, Vector::new(m[12], m[13], m[14])));
         }
-        let scale = node.scale.unwrap_or([1.0; 3]);
-        let mut rows = rotation(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]))?;
-        for row in &mut rows {
-            *row = [row[0] * scale[0], row[1] * scale[1], row[2] * scale[2]];
-        }
-        Ok(Self::new(rows, node.translation.unwrap_or_default()))
+        let [x, y, z] = node.scale.unwrap_or([1.0; 3]);
+        let rows = rotation(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]))?;
+        let rows = rows.map(|row| Vector::new(row.x * x, row.y * y, row.z * z));
+        Ok(Self::new(rows, node.translation.unwrap_or_default().into()))
     }
 
     /// First `inner`, then this.
     pub fn after(&self, inner: &Self) -> Self {
-        let columns = [0, 1, 2].map(|j| inner.rows.map(|row| row[j]));
-        let rows = self.rows.map(|row| columns.map(|column| dot(row, column)));
+        let [a, b, c] = inner.rows;
+        let rows = self.rows.map(|row| a * row.x + b * row.y + c * row.z);
         Self::new(rows, self.point(inner.translation))
     }
 
@@ -54,7 +56,7 @@ impl Transform {
 
     pub fn points(&self, points: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, Problem> {
         let place = |point: &[f64; 3]| {
-            let [x, y, z] = self.point(*point);
+            let [x, y, z] = self.point((*point).into()).to_array();
             Ok([finite(x, "x")?, finite(y, "y")?, finite(z, "z")?])
         };
         points.iter().map(place).collect()
@@ -65,24 +67,25 @@ impl Transform {
     pub fn normals(&self, normals: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let [a, b, c] = self.rows;
         // Of size about 1, or products of four small scales would vanish.
-        let largest = self.rows.as_flattened().iter().fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
+        let entries = self.rows.map(Vector::to_array);
+        let largest = entries.as_flattened().iter().fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
         let sign = if self.is_mirror { -1.0 } else { 1.0 };
         let [a, b, c] = [a, b, c].map(|row| row.map(|entry| entry / largest));
-        let cofactors = [cross(b, c), cross(c, a), cross(a, b)].map(|row| row.map(|entry| entry * sign));
-        normals.iter().map(|normal| cofactors.map(|row| dot(row, *normal))).collect()
+        let cofactors = [b.cross(c), c.cross(a), a.cross(b)].map(|row| row * sign);
+        normals.iter().map(|normal| cofactors.map(|row| row.dot(Vector::from(*normal)))).collect()
     }
 
-    fn new(rows: [[f64; 3]; 3], translation: [f64; 3]) -> Self {
+    fn new(rows: [Vector; 3], translation: Vector) -> Self {
         Self { rows, translation, is_mirror: determinant(rows) < 0.0 }
     }
 
-    fn point(&self, point: [f64; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|i| dot(self.rows[i], point) + self.translation[i])
+    fn point(&self, point: Vector) -> Vector {
+        Vector::from(self.rows.map(|row| row.dot(point))) + self.translation
     }
 }
 
 /// By the quaternion (x, y, z, w), brought to length 1: files have it in single precision.
-fn rotation(quaternion: [f64; 4]) -> Result<[[f64; 3]; 3], Problem> {
+fn rotation(quaternion: [f64; 4]) -> Result<[Vector; 3], Problem> {
     let length = quaternion.iter().map(|part| part * part).sum::<f64>().sqrt();
     if !((length - 1.0).abs() < 1e-3) {
         let (what, allowed) = ("the length of the rotation".into(), "1".into());
@@ -90,39 +93,33 @@ fn rotation(quaternion: [f64; 4]) -> Result<[[f64; 3]; 3], Problem> {
     }
     let [x, y, z, w] = quaternion.map(|part| part / length);
     Ok([
-        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
-        [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
-        [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
+        Vector::new(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)),
+        Vector::new(2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)),
+        Vector::new(2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)),
     ])
 }
 
-fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {
-    dot(a, cross(b, c))
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> [f64; 3] {
-    [b * f - c * e, c * d - a * f, a * e - b * d]
+fn determinant([a, b, c]: [Vector; 3]) -> f64 {
+    a.dot(b.cross(c))
 }
 
 #[cfg(test)]
 mod tests {
     use super::Transform;
+    use crate::vector::Vector;
 
     #[test]
     fn normals_stay_normal_to_tangents_under_a_skew_mirror() {
-        let rows = [[2.0, 0.5, 0.0], [0.0, -0.1, 0.3], [1.0, 0.0, 4.0]];
-        let transform = Transform::new(rows, [5.0, 6.0, 7.0]);
+        let rows = [[2.0, 0.5, 0.0], [0.0, -0.1, 0.3], [1.0, 0.0, 4.0]].map(Vector::from);
+        let transform = Transform::new(rows, Vector::new(5.0, 6.0, 7.0));
         assert!(transform.is_mirror);
         let image = transform.points(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]).unwrap();
-        let edge = |i: usize| [0, 1, 2].map(|k| image[i][k] - image[0][k]);
+        let edge = |i: usize| Vector::from(image[i]) - Vector::from(image[0]);
         let [normal] = transform.normals(&[[0.0, 0.0, 1.0]])[..] else { panic!("one normal") };
-        assert!(super::dot(normal, edge(1)).abs() < 1e-15);
-        assert!(super::dot(normal, edge(2)).abs() < 1e-15);
+        let normal = Vector::from(normal);
+        assert!(normal.dot(edge(1)).abs() < 1e-15);
+        assert!(normal.dot(edge(2)).abs() < 1e-15);
         // The third axis was on the normal's side, and still is.
-        assert!(super::dot(normal, edge(3)) > 0.0);
+        assert!(normal.dot(edge(3)) > 0.0);
     }
 }

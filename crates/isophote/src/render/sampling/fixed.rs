@@ -1,0 +1,248 @@
+//! As many rays through every pixel: an image of each of their places, by what renders the centres, and the means of all.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rayon::ThreadPool;
+use rayon::prelude::*;
+
+use super::pattern::Patterns;
+use super::refine::{is_mean, offsets, put, put_exactly};
+use super::{Centres, Filter, Sampling};
+use crate::map::{Map, Mask, Quantity, Run, Scalars, Values};
+use crate::prepare::PreparedScene;
+use crate::render::{Observer, RenderError, RenderSettings, band};
+
+/// Renders every place in the pixels of a region and takes the means.
+pub fn render(
+    scene: &PreparedScene,
+    settings: &RenderSettings<'_>,
+    pool: Option<&ThreadPool>,
+    centres: &Centres<'_>,
+) -> Result<Map, RenderError> {
+    let Sampling { samples, filter, .. } = scene.scene().sampling();
+    let share = settings.observer.map(|whole| Share::new(whole, u64::from(samples) + 1));
+    let observer = share.as_ref().map(|share| share as &dyn Observer);
+    let settings = RenderSettings { observer, ..settings.clone() };
+    let mut map = centres(Vec::new(), scene, &settings)?;
+    let quantities = settings.quantities.iter().filter(|quantity| is_sampled(quantity)).cloned().collect();
+    let settings = RenderSettings { quantities, ..settings };
+    let mut means = Means::new(&map, filter);
+    let mut memory = Vec::new();
+    for &place in Patterns::new(samples).of(samples) {
+        let sample = centres(memory, &scene.seen_through(place), &settings)?;
+        means.add(&map, &sample, place, pool);
+        means.fill_in(&mut map, &sample);
+        memory = band::recycle(sample);
+    }
+    means.finish(&mut map, samples)?;
+    Ok(map)
+}
+
+/// Whether the places of a pixel are asked for a quantity: for its mean, or for what the centre may miss.
+fn is_sampled(quantity: &Quantity) -> bool {
+    is_mean(quantity) || matches!(quantity, Quantity::Depth | Quantity::Position | Quantity::Normal)
+}
+
+/// The sums over the samples.
+struct Means {
+    filter: Filter,
+    width: usize,
+    /// The channels of the map that are means, and the sums of weight × value.
+    sums: Vec<(usize, Vec<f64>)>,
+    /// For each pixel that the filter reaches, row by row from the upper left, the sum of its weights there.
+    weights: Vec<f64>,
+    /// How many more samples see a surface in a pixel than in the one before it.
+    steps: Vec<i32>,
+    /// What each pixel sees: at its centre, or else at the first place that sees anything.
+    shapes: Vec<i32>,
+}
+
+/// Rows that are added at once.
+const ROWS: usize = 16;
+
+impl Means {
+    fn new(map: &Map, filter: Filter) -> Self {
+        let pixels = map.region.size.pixels();
+        let channels = map.channels.iter().enumerate().filter(|(_, channel)| is_mean(&channel.quantity));
+        Self {
+            filter,
+            width: map.region.size.width as usize,
+            sums: channels.map(|(index, _)| (index, vec![0.0; pixels])).collect(),
+            weights: vec![0.0; offsets(filter).len()],
+            steps: vec![0; pixels + 1],
+            shapes: map.mask.shapes(),
+        }
+    }
+
+    /// Adds the image of a place: to its pixels and, in part, to those that the filter reaches from there.
+    fn add(&mut self, map: &Map, sample: &Map, [across, down]: [f64; 2], pool: Option<&ThreadPool>) {
+        let Self { filter, width, sums, weights, steps, .. } = self;
+        let offsets = offsets(*filter);
+        let parts = offsets.iter().map(|[columns, rows]| filter.weight(across - 0.5 - columns, down - 0.5 - rows));
+        let parts: Vec<f64> = parts.collect();
+        weights.iter_mut().zip(&parts).for_each(|(sum, weight)| *sum += weight);
+        let runs = sample.mask.runs();
+        for run in runs {
+            steps[run.start] += 1;
+            steps[run.end] -= 1;
+        }
+        for (channel, sums) in sums {
+            let values = sample.scalar(&map.channels[*channel].quantity).expect("it was asked for");
+            let add_rows = |(part, sums): (usize, &mut [f64])| {
+                for (row, sums) in sums.chunks_exact_mut(*width).enumerate() {
+                    let row = part * ROWS + row;
+                    for ([columns, rows], weight) in offsets.iter().zip(&parts) {
+                        #[expect(clippy::cast_possible_truncation, reason = "a few pixels")]
+                        let (columns, rows) = (*columns as isize, *rows as isize);
+                        if let Some(from) = row.checked_add_signed(-rows) {
+                            let start = from * *width;
+                            add_row(sums, columns, *weight, values, start, within(runs, start, *width));
+                        }
+                    }
+                }
+            };
+            match pool {
+                Some(pool) => pool.install(|| sums.par_chunks_mut(ROWS * *width).enumerate().for_each(add_rows)),
+                None => sums.chunks_mut(ROWS * *width).enumerate().for_each(add_rows),
+            }
+        }
+    }
+
+    /// Where the centres saw nothing so far, what this place sees.
+    fn fill_in(&mut self, map: &mut Map, sample: &Map) {
+        for run in sample.mask.runs() {
+            for index in run.start..run.end {
+                if self.shapes[index] < 0 {
+                    self.shapes[index] = i32::try_from(run.shape).unwrap_or(i32::MAX);
+                    copy_geometry(map, index, sample, index);
+                }
+            }
+        }
+    }
+
+    fn finish(mut self, map: &mut Map, samples: u32) -> Result<(), RenderError> {
+        let mut covered = 0;
+        for (index, step) in self.steps[..self.shapes.len()].iter().enumerate() {
+            covered += step;
+            if self.shapes[index] >= 0 {
+                put_exactly(map, &Quantity::Samples, index, samples.into());
+                put_exactly(map, &Quantity::Coverage, index, f64::from(covered) / f64::from(samples));
+            }
+        }
+        if self.filter.reach() > 0 {
+            self.see_neighbours(map);
+        }
+        for index in (0..self.shapes.len()).filter(|index| self.shapes[*index] >= 0) {
+            let weight = self.weight(index);
+            for (channel, sums) in &self.sums {
+                put(map, *channel, index, sums[index] / weight)?;
+            }
+        }
+        map.mask = Mask::of_shapes(map.region.size, &self.shapes);
+        for channel in &mut map.channels {
+            if let Values::Index(values) = &mut channel.values {
+                values.clone_from(&self.shapes);
+            }
+        }
+        Ok(())
+    }
+
+    /// Pixels that see nothing and yet get light from neighbours are where the first of those is.
+    fn see_neighbours(&mut self, map: &mut Map) {
+        let before = map.clone();
+        let seen = self.shapes.clone();
+        for index in (0..seen.len()).filter(|index| seen[*index] < 0) {
+            let neighbours = self.neighbours(index).flatten();
+            if let Some(source) = neighbours.into_iter().find(|source| seen[*source] >= 0) {
+                self.shapes[index] = seen[source];
+                copy_geometry(map, index, &before, source);
+            }
+        }
+    }
+
+    /// The pixels from which light comes to one, in the order of the weights turned round; nothing for those beyond the image.
+    fn neighbours(&self, index: usize) -> impl Iterator<Item = Option<usize>> + use<> {
+        let (width, rows) = (self.width, self.shapes.len() / self.width);
+        let (row, column) = (index / width, index % width);
+        let reach = self.filter.reach().cast_signed() as isize;
+        (-reach..=reach).flat_map(move |down| {
+            (-reach..=reach).map(move |across| {
+                let row = row.checked_add_signed(down).filter(|row| *row < rows)?;
+                let column = column.checked_add_signed(across).filter(|column| *column < width)?;
+                Some(row * width + column)
+            })
+        })
+    }
+
+    /// The sum of the weights of all that a pixel got, background too.
+    fn weight(&self, index: usize) -> f64 {
+        let weights = self.neighbours(index).zip(self.weights.iter().rev());
+        weights.filter_map(|(source, weight)| source.map(|_| weight)).sum()
+    }
+}
+
+/// The runs of a row that starts at an index.
+fn within(runs: &[Run], start: usize, width: usize) -> &[Run] {
+    let first = runs.partition_point(|run| run.end <= start);
+    let count = runs[first..].partition_point(|run| run.start < start + width);
+    &runs[first..first + count]
+}
+
+/// Adds weight × value of the runs of a row to the pixels so many columns to the right of them.
+fn add_row(sums: &mut [f64], columns: isize, weight: f64, values: Scalars<'_>, start: usize, runs: &[Run]) {
+    for run in runs {
+        // Those that arrive within the row.
+        let [first, last] = [run.start - start, run.end - start];
+        let first = first.max((-columns).max(0).unsigned_abs());
+        let last = last.min(sums.len().saturating_add_signed(-columns));
+        if first >= last {
+            continue;
+        }
+        let target = first.saturating_add_signed(columns)..last.saturating_add_signed(columns);
+        let sums = sums[target].iter_mut();
+        match values {
+            Scalars::Double(values) => {
+                sums.zip(&values[start + first..start + last]).for_each(|(sum, value)| *sum += weight * value);
+            }
+            Scalars::Single(values) => {
+                let values = values[start + first..start + last].iter();
+                sums.zip(values).for_each(|(sum, value)| *sum += weight * f64::from(*value));
+            }
+        }
+    }
+}
+
+/// Writes where the surface is that a pixel of another map sees.
+fn copy_geometry(map: &mut Map, to: usize, other: &Map, from: usize) {
+    for channel in &mut map.channels {
+        let Some(source) = other.channel(&channel.quantity) else { continue };
+        match (&channel.quantity, &mut channel.values, &source.values) {
+            (Quantity::Depth, Values::Scalar(values), Values::Scalar(source)) => values[to] = source[from],
+            (Quantity::Normal | Quantity::Position, Values::Vector(values), Values::Vector(source)) => {
+                values[to] = source[from];
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Hears one of several renders of the same pixels.
+struct Share<'o> {
+    whole: &'o dyn Observer,
+    renders: u64,
+    pixels: AtomicU64,
+}
+
+impl<'o> Share<'o> {
+    fn new(whole: &'o dyn Observer, renders: u64) -> Self {
+        Self { whole, renders, pixels: AtomicU64::new(0) }
+    }
+}
+
+impl Observer for Share<'_> {
+    fn advance(&self, pixels: u64) -> ControlFlow<()> {
+        let before = self.pixels.fetch_add(pixels, Ordering::Relaxed);
+        self.whole.advance((before + pixels) / self.renders - before / self.renders)
+    }
+}
