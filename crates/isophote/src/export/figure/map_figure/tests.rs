@@ -203,7 +203,7 @@ fn a_constant_map_has_a_range_around_its_value() {
         let options = options();
         let content = Content::new(&map, &options).unwrap();
         assert_eq!(bar(&content).scale.range.map(f64::to_bits), wanted.map(f64::to_bits));
-        assert!(map_figure_svg(&map, &options()).is_ok());
+        assert!(map_figure_svg(&map, &options).is_ok());
     }
 }
 
