@@ -147,6 +147,7 @@ impl PreparedScene {
         for shape in &mut other.shapes {
             shape.outline = OnceLock::new();
         }
+        other.components = self.components.as_ref().map(|components| components.map(|one| one.seen_through(place)));
         other
     }
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::export::figure::color_bar::ColorBar;
 use crate::export::figure::read_back::{WrittenText, decode, images, page, texts};
 use crate::export::figure::svg_to_png;
 use crate::map::{Coordinates, Resolution, Window};
@@ -7,6 +8,13 @@ use crate::units::LengthUnit;
 
 fn options() -> FigureOptions {
     FigureOptions::new(Quantity::Brightness, "brightness B, lab (3.3)")
+}
+
+fn bar<'c>(content: &'c Content<'_>) -> &'c ColorBar {
+    match &content.picture {
+        Picture::Numbers { bar, .. } => bar,
+        Picture::Colors { .. } => panic!("it is of numbers"),
+    }
 }
 
 fn mark(name: &str, x: f64, y: f64) -> Mark {
@@ -181,7 +189,7 @@ fn title_marks_units_and_version_are_written_as_given() {
 fn values_beyond_the_range_are_shown_by_arrows_at_the_colour_bar() {
     let beyond = |range| {
         let options = FigureOptions { range, ..options() };
-        Content::new(&ball(20), &options).unwrap().bar.beyond
+        bar(&Content::new(&ball(20), &options).unwrap()).beyond
     };
     assert_eq!(beyond(None), [false, false]);
     assert_eq!(beyond(Some([-1.0, 0.5])), [false, true]);
@@ -192,8 +200,10 @@ fn values_beyond_the_range_are_shown_by_arrows_at_the_colour_bar() {
 fn a_constant_map_has_a_range_around_its_value() {
     for (value, wanted) in [(4.0, [2.0, 6.0]), (0.0, [0.0, 1.0]), (-4.0, [-6.0, -2.0])] {
         let map = square_map(4, 1.0, everywhere(move |_, _| value));
-        assert_eq!(Content::new(&map, &options()).unwrap().bar.scale.range.map(f64::to_bits), wanted.map(f64::to_bits));
-        assert!(map_figure_svg(&map, &options()).is_ok());
+        let options = options();
+        let content = Content::new(&map, &options).unwrap();
+        assert_eq!(bar(&content).scale.range.map(f64::to_bits), wanted.map(f64::to_bits));
+        assert!(map_figure_svg(&map, &options).is_ok());
     }
 }
 
