@@ -1,5 +1,6 @@
 //! The one suite that every renderer passes.
 
+use crate::color::Rgb;
 use crate::double_double::DoubleDouble;
 use crate::light::{Emission, Light, LightKind, PointLight};
 use crate::map::{Map, Pixel, Quantity, Region, Scalars, Values};
@@ -78,11 +79,23 @@ const COMPARED: [Quantity; 5] =
 const IRRADIANCE: usize = 1;
 
 /// Holds a renderer against the same formulas in 32 digits, pixel by pixel: what is seen and that nothing is where no
-/// surface is; brightness, irradiance and its parts, by light too; depth, position and normal.
+/// surface is; brightness, irradiance and its parts, by light too; depth, position and normal. Of a scene with colours each
+/// component.
 ///
 /// # Errors
 /// The first pixel that is out of tolerance.
 pub fn conforms(
+    renderer: &dyn Renderer,
+    scene: &PreparedScene,
+    tolerance: &Tolerance,
+) -> Result<Deviation, NonConformance> {
+    let Some(components) = scene.components() else { return conforms_in_single_numbers(renderer, scene, tolerance) };
+    let component = |scene| conforms_in_single_numbers(renderer, scene, tolerance);
+    let Rgb { red, green, blue } = components.scenes();
+    Ok(component(red)?.or_worse(&component(green)?).or_worse(&component(blue)?))
+}
+
+fn conforms_in_single_numbers(
     renderer: &dyn Renderer,
     scene: &PreparedScene,
     tolerance: &Tolerance,
@@ -121,6 +134,17 @@ pub fn conforms(
         }
     }
     Ok(deviation)
+}
+
+impl Deviation {
+    fn or_worse(self, other: &Self) -> Self {
+        Self {
+            of_peak: self.of_peak.max(other.of_peak),
+            relative: self.relative.max(other.relative),
+            at_edges: self.at_edges.max(other.at_edges),
+            visible: self.visible,
+        }
+    }
 }
 
 /// What exact arithmetic gives, to 32 digits.
