@@ -91,17 +91,13 @@ impl ProbeReading {
     /// A light's share of the diffuse and of the specular part of B, by its index.
     #[must_use]
     pub fn light_shares(&self, scene: &PreparedScene, light: usize) -> [f64; 2] {
-        match (scene.components(), self.components.as_deref()) {
-            (Some(components), Some(readings)) => {
-                let weights = components.space.luminance_weights();
-                let shares = Rgb::from_fn(|one| readings.of(one).light_shares(components.of(one), light));
-                [0, 1].map(|part| shares.map(|shares| shares[part]).weighted_by(weights))
-            }
-            _ => {
-                let (term, formula) = (&self.terms[light], scene.formula(self.hit.primitive));
-                [term.diffuse(formula, &self.hit.point), term.specular(formula, &self.hit.point)]
-            }
+        if let (Some(components), Some(readings)) = (scene.components(), self.components.as_deref()) {
+            let weights = components.space.luminance_weights();
+            let shares = Rgb::from_fn(|one| readings.of(one).light_shares(components.of(one), light));
+            return [0, 1].map(|part| shares.map(|shares| shares[part]).weighted_by(weights));
         }
+        let (term, formula) = (&self.terms[light], scene.formula(self.hit.primitive));
+        [term.diffuse(formula, &self.hit.point), term.specular(formula, &self.hit.point)]
     }
 
     /// Whether the eye sees the point.

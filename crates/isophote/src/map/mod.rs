@@ -160,13 +160,11 @@ impl Quantity {
     /// The quantity with this [name](Self::name).
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
-        match name.strip_prefix("light.") {
-            Some(light) => Some(Self::Light(light.into())),
-            None => {
-                let mut named = Self::COMMON.into_iter().chain(Self::OF_SAMPLING).chain([Self::Color]);
-                named.find(|quantity| quantity.name() == name)
-            }
+        if let Some(light) = name.strip_prefix("light.") {
+            return Some(Self::Light(light.into()));
         }
+        let mut named = Self::COMMON.into_iter().chain(Self::OF_SAMPLING).chain([Self::Color]);
+        named.find(|quantity| quantity.name() == name)
     }
 
     /// The channel's name in outputs: `brightness`, `normal`, `light.lamp`, …

@@ -247,13 +247,11 @@ impl<'t> Table<'t> {
     fn amount(&mut self, key: &'static str) -> Option<Amount> {
         const EXPECTED: &str = "a number, or a list of three: [red, green, blue]";
         let entry = self.entries.iter().find(|entry| entry.key == key);
-        match entry.map(|entry| &entry.node.value) {
-            Some(Value::Array(_)) => self.numbers_expected(key, EXPECTED).map(Amount::Rgb),
-            _ => {
-                let number = self.value(key, EXPECTED, as_number)?;
-                self.finite(&self.path.key(key), number).map(Amount::Number)
-            }
+        if matches!(entry.map(|entry| &entry.node.value), Some(Value::Array(_))) {
+            return self.numbers_expected(key, EXPECTED).map(Amount::Rgb);
         }
+        let number = self.value(key, EXPECTED, as_number)?;
+        self.finite(&self.path.key(key), number).map(Amount::Number)
     }
 
     fn boolean(&mut self, key: &'static str) -> Option<bool> {
