@@ -59,6 +59,9 @@ struct Means {
 /// Rows that are added at once.
 const ROWS: usize = 16;
 
+/// With fewer additions than this, all is added before another thread has woken up.
+const WORTH_THREADS: usize = 1_000_000;
+
 impl Means {
     fn new(map: &Map, filter: Filter) -> Self {
         let pixels = map.region.size.pixels();
@@ -100,7 +103,7 @@ impl Means {
                     }
                 }
             };
-            match pool {
+            match pool.filter(|_| sums.len() * offsets.len() > WORTH_THREADS) {
                 Some(pool) => pool.install(|| sums.par_chunks_mut(ROWS * *width).enumerate().for_each(add_rows)),
                 None => sums.chunks_mut(ROWS * *width).enumerate().for_each(add_rows),
             }
@@ -120,6 +123,31 @@ impl Means {
     }
 
     fn finish(mut self, map: &mut Map, samples: u32) -> Result<(), RenderError> {
+        let is_counted = |quantity: &Quantity| matches!(quantity, Quantity::Samples | Quantity::Coverage);
+        if map.channels.iter().any(|channel| is_counted(&channel.quantity)) {
+            self.count(map, samples);
+        }
+        if self.filter.reach() > 0 {
+            self.see_neighbours(map);
+        }
+        map.mask = Mask::of_shapes(map.region.size, &self.shapes);
+        let of_all = self.weights.iter().rev().sum();
+        for index in map.mask.runs().to_vec().into_iter().flat_map(|run| run.start..run.end) {
+            let weight = if self.is_inner(index) { of_all } else { self.weight(index) };
+            for (channel, sums) in &self.sums {
+                put(map, *channel, index, sums[index] / weight)?;
+            }
+        }
+        for channel in &mut map.channels {
+            if let Values::Index(values) = &mut channel.values {
+                values.clone_from(&self.shapes);
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes how many rays went through each pixel, and which part of them met a surface.
+    fn count(&self, map: &mut Map, samples: u32) {
         let mut covered = 0;
         for (index, step) in self.steps[..self.shapes.len()].iter().enumerate() {
             covered += step;
@@ -128,22 +156,13 @@ impl Means {
                 put_exactly(map, &Quantity::Coverage, index, f64::from(covered) / f64::from(samples));
             }
         }
-        if self.filter.reach() > 0 {
-            self.see_neighbours(map);
-        }
-        for index in (0..self.shapes.len()).filter(|index| self.shapes[*index] >= 0) {
-            let weight = self.weight(index);
-            for (channel, sums) in &self.sums {
-                put(map, *channel, index, sums[index] / weight)?;
-            }
-        }
-        map.mask = Mask::of_shapes(map.region.size, &self.shapes);
-        for channel in &mut map.channels {
-            if let Values::Index(values) = &mut channel.values {
-                values.clone_from(&self.shapes);
-            }
-        }
-        Ok(())
+    }
+
+    /// Whether all that the filter reaches is in the image.
+    fn is_inner(&self, index: usize) -> bool {
+        let (reach, rows) = (self.filter.reach() as usize, self.shapes.len() / self.width);
+        let (row, column) = (index / self.width, index % self.width);
+        row >= reach && row + reach < rows && column >= reach && column + reach < self.width
     }
 
     /// Pixels that see nothing and yet get light from neighbours are where the first of those is.
