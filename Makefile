@@ -15,7 +15,7 @@ FUZZ_TARGETS := $(notdir $(basename $(wildcard fuzz/fuzz_targets/*.rs)))
 FUZZ_SECONDS := 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check bench bench-instructions compare audit fuzz docs generate generated-is-current
+.PHONY: help demo test check bench bench-instructions compare growth audit fuzz docs generate generated-is-current
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-18s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -39,6 +39,9 @@ bench: ## Time every stage, the whole program from start to picture, and all tha
 
 compare: ## Measure beside NumPy, Numba, Dr.Jit, Mitsuba, Radiance and POV-Ray, and write docs/speed.md (20 minutes)
 	python3 validation/speed/compare.py
+
+growth: ## Measure how the cost grows with spheres and samples, and write docs/growth.md (5 minutes)
+	python3 validation/growth/growth.py
 
 bench-instructions: ## Count the instructions of every stage (needs valgrind; installs gungraun-runner)
 	@command -v valgrind >/dev/null || { echo "valgrind is missing: install it by your system's package manager"; exit 1; }
