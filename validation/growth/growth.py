@@ -55,9 +55,8 @@ def clouds(rounds: int) -> dict[Case, Cost]:
     """Every cloud's cost."""
     seen: dict[Case, list[list[float]]] = {}
     for _ in range(rounds):
-        lines = bench("clouds").splitlines()
-        for fields in (line.split() for line in lines[lines.index(next(l for l in lines if "peak MB" in l)) + 1:]):
-            if len(fields) != 9:
+        for fields in (line.split() for line in bench("clouds").splitlines()):
+            if len(fields) != 9 or not fields[0].isdigit():
                 continue
             case = Case(int(fields[0]), float(fields[1]), int(fields[2]), int(fields[3]), fields[4])
             seen.setdefault(case, []).append([float(field) for field in fields[5:]])

@@ -318,8 +318,8 @@ pub struct SurfaceArguments {
     #[arg(long, value_name = "SIDE", default_value = "front", value_parser = choice::<Side>())]
     pub side: Side,
 
-    /// Channel: irradiance, light.NAME, position, normal, or brightness, color, diffuse or specular as the eye sees them; may be
-    /// given several times. The first one is summed up and pictured (by default the irradiance)
+    /// Channel: irradiance, light.NAME, position, normal, or brightness, color, diffuse or specular as the eye sees them;
+    /// may be given several times. The first one is summed up and pictured (by default the irradiance)
     #[arg(short, long, value_name = "NAME")]
     pub channel: Vec<String>,
 

@@ -2,8 +2,8 @@
 //!
 //! A vector has 16 numbers in single precision or 8 in double; narrower registers take several, and with the widest two
 //! vectors are computed side by side. Every lane is computed alone and rounded alike, so neither a machine's width nor a
-//! pixel's place in a vector changes a bit. (With the exception of machines that have no fused multiplication and addition: SSE and WebAssembly round
-//! products before they add. AVX2, AVX-512 and NEON agree.)
+//! pixel's place in a vector changes a bit. (With the exception of machines that have no fused multiplication and addition:
+//! SSE and WebAssembly round products before they add. AVX2, AVX-512 and NEON agree.)
 //!
 //! Everything generic over [`Lane`] must be `#[inline(always)]`: what is not ends up compiled for the baseline.
 

@@ -10,21 +10,27 @@ const LAB: &str = include_str!("../../../scenes/lab.toml");
 
 /// What is said about the lab's scene after `from` became `to` in it.
 fn mistake(from: &str, to: &str) -> SceneError {
-    assert!(LAB.contains(from), "the lab's scene has no {from:?}");
-    refused("lab.toml", &LAB.replacen(from, to, 1), Syntax::Toml)
+    refused("lab.toml", &changed(LAB, from, to), Syntax::Toml)
+}
+
+/// A scene in which `from` became `to`.
+fn changed(scene: &str, from: &str, to: &str) -> String {
+    assert!(scene.contains(from), "the scene has no {from:?}");
+    scene.replacen(from, to, 1)
 }
 
 fn refused(name: &str, text: &str, syntax: Syntax) -> SceneError {
     Scene::from_text(name, text, syntax).expect_err("a mistake is refused")
 }
 
-/// Each test: its name, what is changed in the lab's scene, and how many problems that makes. The messages are golden.
+/// Each test: its name, what is changed in the scene that the function in front has, and how many problems that makes. The
+/// messages are golden.
 macro_rules! mistakes {
-    ($($name:ident: $from:expr => $to:expr, $count:expr;)*) => {
+    (in $mistake:ident: $($name:ident: $from:expr => $to:expr, $count:expr;)*) => {
         $(
             #[test]
             fn $name() {
-                let error = mistake($from, $to);
+                let error = $mistake($from, $to);
                 insta::assert_snapshot!(stringify!($name), error.report(false));
                 assert_eq!(error.problems.len(), $count);
             }
@@ -33,6 +39,7 @@ macro_rules! mistakes {
 }
 
 mistakes! {
+    in mistake:
     an_unknown_key: "radius = 1" => "radius = 1\ncolour = 3", 1;
     a_misspelt_key: "radius = 1" => "raduis = 1", 1;
     a_misspelt_table: "[[light]]" => "[[lights]]", 1;
@@ -159,22 +166,12 @@ normal = [1, 0, 2]
 radius = 1.5
 "#;
 
-/// As `mistakes!`, in the scene above.
-macro_rules! mistakes_of_shapes {
-    ($($name:ident: $from:expr => $to:expr, $count:expr;)*) => {
-        $(
-            #[test]
-            fn $name() {
-                assert!(WORLD.contains($from), "the scene has no {:?}", $from);
-                let error = refused("world.toml", &WORLD.replacen($from, $to, 1), Syntax::Toml);
-                insta::assert_snapshot!(stringify!($name), error.report(false));
-                assert_eq!(error.problems.len(), $count);
-            }
-        )*
-    };
+fn mistake_in_world(from: &str, to: &str) -> SceneError {
+    refused("world.toml", &changed(WORLD, from, to), Syntax::Toml)
 }
 
-mistakes_of_shapes! {
+mistakes! {
+    in mistake_in_world:
     two_radii_of_an_ellipsoid_are_wrong: "radii = [1, 2, 3]" => "radii = [1, 0, -3]", 2;
     an_ellipsoid_with_one_radius: "radii = [1, 2, 3]" => "radius = 1", 1;
     a_rotation_about_no_axis: "axis = [1, 1, 0]" => "axis = [0, 0, 0]", 1;
@@ -247,22 +244,12 @@ fn with_files(text: &str) -> Result<Scene, SceneError> {
     Scene::from_text_in(std::path::Path::new("tests/files"), "imports.toml", text, Syntax::Toml)
 }
 
-/// As `mistakes!`, in the scene above.
-macro_rules! mistakes_of_imports {
-    ($($name:ident: $from:expr => $to:expr, $count:expr;)*) => {
-        $(
-            #[test]
-            fn $name() {
-                assert!(IMPORTS.contains($from), "the scene has no {:?}", $from);
-                let error = with_files(&IMPORTS.replacen($from, $to, 1)).expect_err("a mistake is refused");
-                insta::assert_snapshot!(stringify!($name), error.report(false));
-                assert_eq!(error.problems.len(), $count);
-            }
-        )*
-    };
+fn mistake_in_imports(from: &str, to: &str) -> SceneError {
+    with_files(&changed(IMPORTS, from, to)).expect_err("a mistake is refused")
 }
 
-mistakes_of_imports! {
+mistakes! {
+    in mistake_in_imports:
     a_mesh_without_file: "file = \"square.obj\"\n" => "", 1;
     a_mesh_that_is_not_there: "square.obj" => "circle.obj", 1;
     a_mesh_that_is_a_directory: "square.obj" => "../files", 1;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use anyhow::Result;
 use isophote::camera::{Camera, CameraFrame, Extent, Fisheye, Mapping, Projection, Screen};
 use isophote::color::Lighting;
-use isophote::light::{Emission, Light, LightKind};
+use isophote::light::{Ambient, Emission, Light, LightKind};
 use isophote::reflectance::Reflectance;
 use isophote::render::Sampling;
 use isophote::scene::{Material, Probe, Problem, Scene, Shape};
@@ -59,8 +59,7 @@ fn to_text(scene: &Scene) -> String {
         let unit = scene.quantities().radiance_unit();
         let obstructed =
             ambient.obstruction.map_or(String::new(), |samples| format!(", obstructed: {samples} directions a point"));
-        let radiance =
-            amount(scene, |lighting| lighting.ambient.map_or(0.0, |ambient| ambient.radiance), ambient.radiance);
+        let radiance = amount(scene, radiance_of, ambient.radiance);
         row("ambient", format!("{radiance} {unit}{obstructed}"));
     }
     for (title, table) in [
@@ -173,6 +172,11 @@ fn power_of(light: &Light) -> f64 {
     }
 }
 
+/// L_a, 0 where there is no ambient light.
+fn radiance_of(lighting: &Lighting) -> f64 {
+    lighting.ambient.map_or(0.0, |ambient| ambient.radiance)
+}
+
 /// An amount of each component, where they differ; else the one number that it is.
 fn components(scene: &Scene, of: impl Fn(&Lighting) -> f64, one: f64) -> std::result::Result<[f64; 3], f64> {
     let Some(color) = scene.color() else { return Err(one) };
@@ -225,6 +229,8 @@ fn vector(vector: Vector) -> String {
 
 /// The same in SI units, for programs.
 fn to_json(scene: &Scene) -> Value {
+    let materials = scene.materials().iter().enumerate().map(|(index, material)| material_json(scene, index, material));
+    let lights = scene.lights().iter().enumerate().map(|(index, light)| light_json(scene, index, light));
     json!({
         "title": scene.title(),
         "length": "m",
@@ -238,13 +244,19 @@ fn to_json(scene: &Scene) -> Value {
         "shadows": scene.shadows(),
         "sampling": sampling_json(scene.sampling()),
         "camera": camera_json(scene.camera()),
-        "materials": scene.materials().iter().enumerate().map(|(index, material)| material_json(scene, index, material)).collect::<Vec<_>>(),
+        "materials": materials.collect::<Vec<_>>(),
         "shapes": scene.shapes().iter().map(|shape| shape_json(shape, scene)).collect::<Vec<_>>(),
-        "lights": scene.lights().iter().enumerate().map(|(index, light)| light_json(scene, index, light)).collect::<Vec<_>>(),
-        "ambient": scene.ambient().map(|ambient| json!({"radiance": amount_json(scene, |lighting| lighting.ambient.map_or(0.0, |ambient| ambient.radiance), ambient.radiance), "obstructed": ambient.obstruction.is_some(), "samples": ambient.obstruction})),
+        "lights": lights.collect::<Vec<_>>(),
+        "ambient": scene.ambient().map(|ambient| ambient_json(scene, ambient)),
         "probes": scene.probes().iter().map(probe_json).collect::<Vec<_>>(),
         "warnings": scene.warnings().iter().map(warning_json).collect::<Vec<_>>(),
     })
+}
+
+fn ambient_json(scene: &Scene, ambient: &Ambient) -> Value {
+    let obstruction = ambient.obstruction;
+    let radiance = amount_json(scene, radiance_of, ambient.radiance);
+    json!({"radiance": radiance, "obstructed": obstruction.is_some(), "samples": obstruction})
 }
 
 fn sampling_json(sampling: Sampling) -> Value {

@@ -84,15 +84,15 @@ fn no_values(quantity: &Quantity) -> Values {
 fn push(channel: &mut Channel, cells: &[Option<Cell>], scene: &Scene, shape: i32, window: Window) {
     let in_unit = |vector: Vector| vector.to_array().map(|metres| window.length.from_metres(metres));
     let light = match &channel.quantity {
-        Quantity::Light(name) => scene.light_named(name).unwrap_or(usize::MAX),
-        _ => usize::MAX,
+        Quantity::Light(name) => scene.light_named(name),
+        _ => None,
     };
     let scalar = |cell: &Cell| match channel.quantity {
         Quantity::Irradiance => cell.shading.irradiance,
         Quantity::Ambient => cell.shading.ambient,
         Quantity::Diffuse => cell.shading.diffuse,
         Quantity::Specular => cell.shading.specular,
-        Quantity::Light(_) => cell.lights.irradiance(light),
+        Quantity::Light(_) => light.map_or(0.0, |light| cell.lights.irradiance(light)),
         _ => cell.shading.brightness(),
     };
     let is_normal = channel.quantity == Quantity::Normal;

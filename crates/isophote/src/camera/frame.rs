@@ -176,8 +176,9 @@ impl<T: Scalar> Axes<T> {
     }
 }
 
-/// The middle of cell `index` (a cell, a place between the middles of two, or beside them) when the way from `first` to `last`
-/// is cut into `count` cells. The two ends are weighted, not their difference, so that a symmetric window has exactly symmetric pixels.
+/// The middle of cell `index` (a cell, a place between the middles of two, or beside them) when the way from `first` to
+/// `last` is cut into `count` cells. The two ends are weighted, not their difference, so that a symmetric window has exactly
+/// symmetric pixels.
 pub(crate) fn between<T: Scalar>(first: f64, last: f64, index: f64, count: u32) -> T {
     let after = 2.0 * index + 1.0;
     let before = 2.0 * f64::from(count) - after;

@@ -10,7 +10,8 @@
 //! | shape | `shape.index`, −1 where none is seen |
 //! | irradiance from one light | `light.<name>.Y`, all but letters, digits, `-` and `_` replaced by `_` |
 //!
-//! The standard attribute `chromaticities` tells the space of a scene with colours. The data window is the map's region, the display window the full image.
+//! The standard attribute `chromaticities` tells the space of a scene with colours. The data window is the map's region, the
+//! display window the full image.
 
 mod blocks;
 

@@ -1,6 +1,6 @@
 //! A scene with colours as three of single numbers.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use super::PreparedScene;
 use crate::color::{ColorSpace, Component, Lighting, Rgb};
@@ -50,13 +50,7 @@ impl PreparedScene {
     fn lit_by(&self, lighting: &Lighting) -> Self {
         let Lighting { materials, lights, ambient } = lighting.clone();
         let scene = Scene { materials, lights, ambient, color: None, ..Scene::clone(&self.scene) };
-        Self {
-            formulas: super::formulas(&scene),
-            source_text: OnceLock::new(),
-            components: None,
-            scene: Arc::new(scene),
-            ..self.clone()
-        }
+        Self { formulas: super::formulas(&scene), components: None, scene: Arc::new(scene), ..self.clone() }
     }
 
     /// What would be wrong without a word: a scene with colours is shaded by its components.

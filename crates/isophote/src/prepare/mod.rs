@@ -43,8 +43,8 @@ pub struct PreparedScene {
     accelerator: Arc<OnceLock<Accelerator>>,
     /// Where surface points look for what obstructs the ambient light, if anything does.
     hemisphere: Option<Arc<Hemisphere>>,
-    /// Written when the first map asks for it.
-    source_text: OnceLock<String>,
+    /// Written when the first map asks for it, once for all that is made of the scene.
+    source_text: Arc<OnceLock<String>>,
     /// Of a scene with colours.
     components: Option<Components>,
 }
@@ -107,7 +107,7 @@ impl PreparedScene {
             shapes,
             formulas: formulas(scene),
             hemisphere: obstruction.map(|directions| Arc::new(Hemisphere::new(directions))),
-            source_text: OnceLock::new(),
+            source_text: Arc::default(),
             components: None,
             scene: Arc::new(scene.clone()),
         };
@@ -127,27 +127,29 @@ impl PreparedScene {
 
     /// The same scene seen with another number of pixels.
     pub(crate) fn at_resolution(&self, resolution: Resolution) -> Self {
-        let mut other = self.clone();
-        Arc::make_mut(&mut other.scene).camera.resolution = resolution;
-        other.frame = CameraFrame::new(&other.scene.camera);
-        other.precise_frame = CameraFrame::new(&other.scene.camera);
-        for shape in &mut other.shapes {
-            shape.outline = OnceLock::new();
-        }
-        other.components =
-            self.components.as_ref().map(|components| components.map(|one| one.at_resolution(resolution)));
-        other
+        self.seen_otherwise(&|other| {
+            Arc::make_mut(&mut other.scene).camera.resolution = resolution;
+            other.frame = CameraFrame::new(&other.scene.camera);
+            other.precise_frame = CameraFrame::new(&other.scene.camera);
+        })
     }
 
     /// The same with rays through another place of the pixels than their centres: parts of their width and height.
     pub(crate) fn seen_through(&self, place: [f64; 2]) -> Self {
+        self.seen_otherwise(&|other| {
+            other.frame.place = place;
+            other.precise_frame.place = place;
+        })
+    }
+
+    /// The same after a change of how it is seen, of its components too.
+    fn seen_otherwise(&self, change: &dyn Fn(&mut Self)) -> Self {
         let mut other = self.clone();
-        other.frame.place = place;
-        other.precise_frame.place = place;
+        change(&mut other);
         for shape in &mut other.shapes {
             shape.outline = OnceLock::new();
         }
-        other.components = self.components.as_ref().map(|components| components.map(|one| one.seen_through(place)));
+        other.components = self.components.as_ref().map(|components| components.map(|one| one.seen_otherwise(change)));
         other
     }
 

@@ -71,8 +71,8 @@ impl FigureOptions {
 /// Pixels without a surface are hatched, so that "nothing there" is not taken for "dark".
 ///
 /// # Errors
-/// [`FigureError`]: the channel is missing, or neither scalar nor colours, a value is not finite, the range is not one, nothing is seen,
-/// or a mark lies outside the window.
+/// [`FigureError`]: the channel is missing, or neither scalar nor colours, a value is not finite, the range is not one,
+/// nothing is seen, or a mark lies outside the window.
 pub fn map_figure_svg(map: &Map, options: &FigureOptions) -> Result<String, FigureError> {
     let content = Content::new(map, options)?;
     let layout = Layout::new(&content);

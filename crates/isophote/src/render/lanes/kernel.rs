@@ -211,27 +211,28 @@ impl StretchWork<'_, '_> {
     #[inline(always)]
     fn shade<V: Lane>(&mut self, kind: V::Kind, lights: &ShapeLights<V::Element>) -> Result<(), RenderError> {
         match &lights.power {
-            Power::None => kind.apart(
-                #[inline(always)]
-                || self.shade_with::<V, _>(kind, lights, &NoPower),
-            ),
-            Power::Even(lobe) => kind.apart(
-                #[inline(always)]
-                || self.shade_with::<V, _>(kind, lights, lobe),
-            ),
-            Power::Odd(lobe) => kind.apart(
-                #[inline(always)]
-                || self.shade_with::<V, _>(kind, lights, lobe),
-            ),
-            Power::Any(lobe) => kind.apart(
-                #[inline(always)]
-                || self.shade_with::<V, _>(kind, lights, lobe),
-            ),
+            Power::None => self.shade_with::<V, _>(kind, lights, &NoPower),
+            Power::Even(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
+            Power::Odd(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
+            Power::Any(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
         }
     }
 
     #[inline(always)]
     fn shade_with<V: Lane, L: Lobe<V>>(
+        &mut self,
+        kind: V::Kind,
+        lights: &ShapeLights<V::Element>,
+        lobe: &L,
+    ) -> Result<(), RenderError> {
+        kind.apart(
+            #[inline(always)]
+            || self.shade_columns(kind, lights, lobe),
+        )
+    }
+
+    #[inline(always)]
+    fn shade_columns<V: Lane, L: Lobe<V>>(
         &mut self,
         kind: V::Kind,
         lights: &ShapeLights<V::Element>,

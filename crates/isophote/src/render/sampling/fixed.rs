@@ -4,9 +4,9 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::pattern::Patterns;
-use super::refine::{is_mean, offsets, put, put_exactly};
+use super::refine::{copy_geometry, is_mean, offsets, put, put_exactly, put_shapes};
 use super::{Centres, Filter, Sampling};
-use crate::map::{Map, Mask, Quantity, Run, Scalars, Values};
+use crate::map::{Map, Quantity, Run, Scalars, Values};
 use crate::prepare::PreparedScene;
 use crate::render::share::Share;
 use crate::render::{Observer, RenderError, RenderSettings, band};
@@ -116,7 +116,7 @@ impl Means {
             for index in run.start..run.end {
                 if self.shapes[index] < 0 {
                     self.shapes[index] = i32::try_from(run.shape).unwrap_or(i32::MAX);
-                    copy_geometry(map, index, sample, index);
+                    copy_geometry_of(map, sample, index);
                 }
             }
         }
@@ -130,17 +130,12 @@ impl Means {
         if self.filter.reach() > 0 {
             self.see_neighbours(map);
         }
-        map.mask = Mask::of_shapes(map.region.size, &self.shapes);
+        put_shapes(map, &self.shapes);
         let of_all = self.weights.iter().rev().sum();
-        for index in map.mask.runs().to_vec().into_iter().flat_map(|run| run.start..run.end) {
+        for index in (0..self.shapes.len()).filter(|index| self.shapes[*index] >= 0) {
             let weight = if self.is_inner(index) { of_all } else { self.weight(index) };
             for (channel, sums) in &self.sums {
                 put(map, *channel, index, sums[index] / weight)?;
-            }
-        }
-        for channel in &mut map.channels {
-            if let Values::Index(values) = &mut channel.values {
-                values.clone_from(&self.shapes);
             }
         }
         Ok(())
@@ -167,13 +162,12 @@ impl Means {
 
     /// Pixels that see nothing and yet get light from neighbours are where the first of those is.
     fn see_neighbours(&mut self, map: &mut Map) {
-        let before = map.clone();
         let seen = self.shapes.clone();
         for index in (0..seen.len()).filter(|index| seen[*index] < 0) {
             let neighbours = self.neighbours(index).flatten();
             if let Some(source) = neighbours.into_iter().find(|source| seen[*source] >= 0) {
                 self.shapes[index] = seen[source];
-                copy_geometry(map, index, &before, source);
+                copy_geometry(map, source, index);
             }
         }
     }
@@ -230,14 +224,14 @@ fn add_row(sums: &mut [f64], columns: isize, weight: f64, values: Scalars<'_>, s
     }
 }
 
-/// Writes where the surface is that a pixel of another map sees.
-fn copy_geometry(map: &mut Map, to: usize, other: &Map, from: usize) {
+/// Writes where the surface is that a pixel sees in another map.
+fn copy_geometry_of(map: &mut Map, other: &Map, index: usize) {
     for channel in &mut map.channels {
         let Some(source) = other.channel(&channel.quantity) else { continue };
         match (&channel.quantity, &mut channel.values, &source.values) {
-            (Quantity::Depth, Values::Scalar(values), Values::Scalar(source)) => values[to] = source[from],
+            (Quantity::Depth, Values::Scalar(values), Values::Scalar(source)) => values[index] = source[index],
             (Quantity::Normal | Quantity::Position, Values::Vector(values), Values::Vector(source)) => {
-                values[to] = source[from];
+                values[index] = source[index];
             }
             _ => {}
         }

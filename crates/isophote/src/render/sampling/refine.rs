@@ -173,16 +173,11 @@ pub fn apply(map: &mut Map, averages: &Averages, filter: Filter, refined: &[Refi
             put(map, *channel, index, value)?;
         }
     }
-    map.mask = Mask::of_shapes(map.region.size, &shapes);
+    put_shapes(map, &shapes);
     // Where no surface is, there was none to sample.
     for index in refined.iter().map(|refinement| refinement.index).filter(|index| shapes[*index] < 0) {
         put_exactly(map, &Quantity::Samples, index, 0.0);
         put_exactly(map, &Quantity::Coverage, index, 0.0);
-    }
-    for channel in &mut map.channels {
-        if let Values::Index(values) = &mut channel.values {
-            values.clone_from(&shapes);
-        }
     }
     Ok(())
 }
@@ -253,6 +248,17 @@ fn gathered(
     pixels
 }
 
+/// Writes which shape each pixel sees.
+pub fn put_shapes(map: &mut Map, shapes: &[i32]) {
+    map.mask = Mask::of_shapes(map.region.size, shapes);
+    for channel in &mut map.channels {
+        if let Values::Index(values) = &mut channel.values {
+            values.clear();
+            values.extend_from_slice(shapes);
+        }
+    }
+}
+
 /// Writes a value into a scalar channel.
 pub fn put(map: &mut Map, channel: usize, index: usize, value: f64) -> Result<(), RenderError> {
     let pixel = map.pixel(index);
@@ -295,7 +301,7 @@ fn put_geometry(map: &mut Map, index: usize, hit: &Hit) {
 }
 
 /// Where the surface is that a filter reaches.
-fn copy_geometry(map: &mut Map, from: usize, to: usize) {
+pub fn copy_geometry(map: &mut Map, from: usize, to: usize) {
     for channel in &mut map.channels {
         match (&channel.quantity, &mut channel.values) {
             (Quantity::Depth, Values::Scalar(values)) => values[to] = values[from],

@@ -287,27 +287,30 @@ impl<'a> Shader<'a> {
         band: &mut Band<'_>,
     ) -> Result<(), RenderError> {
         match Power::new(formula.sharpness(), V::Element::PRECISION) {
-            Power::None => kind.apart(
-                #[inline(always)]
-                || self.shade_with::<V, _>(kind, group, formula, &NoPower, band),
-            ),
-            Power::Even(lobe) => kind.apart(
-                #[inline(always)]
-                || self.shade_with::<V, _>(kind, group, formula, &lobe, band),
-            ),
-            Power::Odd(lobe) => kind.apart(
-                #[inline(always)]
-                || self.shade_with::<V, _>(kind, group, formula, &lobe, band),
-            ),
-            Power::Any(lobe) => kind.apart(
-                #[inline(always)]
-                || self.shade_with::<V, _>(kind, group, formula, &lobe, band),
-            ),
+            Power::None => self.shade_with::<V, _>(kind, group, formula, &NoPower, band),
+            Power::Even(lobe) => self.shade_with::<V, _>(kind, group, formula, &lobe, band),
+            Power::Odd(lobe) => self.shade_with::<V, _>(kind, group, formula, &lobe, band),
+            Power::Any(lobe) => self.shade_with::<V, _>(kind, group, formula, &lobe, band),
         }
     }
 
     #[inline(always)]
     fn shade_with<V: Lane, L: Lobe<V>>(
+        &self,
+        kind: V::Kind,
+        group: &Group<'_>,
+        formula: &BrightnessFormula,
+        lobe: &L,
+        band: &mut Band<'_>,
+    ) -> Result<(), RenderError> {
+        kind.apart(
+            #[inline(always)]
+            || self.shade_places(kind, group, formula, lobe, band),
+        )
+    }
+
+    #[inline(always)]
+    fn shade_places<V: Lane, L: Lobe<V>>(
         &self,
         kind: V::Kind,
         group: &Group<'_>,

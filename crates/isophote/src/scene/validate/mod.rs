@@ -182,10 +182,12 @@ impl Validator {
             );
         }
         let used: HashSet<&str> = shapes::materials_in_use(source).collect();
-        let of_parts: HashSet<usize> =
-            shapes.iter().flatten().flat_map(|shape| shape.geometry.materials_of_parts()).collect();
+        let mut of_parts = vec![false; source.material.len()];
+        for material in shapes.iter().flatten().flat_map(|shape| shape.geometry.materials_of_parts()) {
+            of_parts[material] = true;
+        }
         for (index, name) in source.material.keys().enumerate() {
-            if !used.contains(name.as_str()) && !of_parts.contains(&index) {
+            if !used.contains(name.as_str()) && !of_parts[index] {
                 let message = format!("no shape is made of the material \"{}\"", short(name));
                 self.warn(&root.key("material").key(name), message, "leave it out, or use it");
             }
