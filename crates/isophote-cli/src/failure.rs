@@ -2,7 +2,6 @@
 
 use std::fmt;
 use std::io::{IsTerminal, Write};
-use std::process::ExitCode;
 
 use isophote::render::RenderError;
 use isophote::scene::SceneError;
@@ -44,24 +43,24 @@ impl fmt::Display for Paused {
 impl std::error::Error for Paused {}
 
 /// Writes an error to standard error and chooses the exit code.
-pub fn report(error: &anyhow::Error) -> ExitCode {
+pub fn report(error: &anyhow::Error) -> u8 {
     if let Some(scene_error) = find::<SceneError>(error) {
         let count = scene_error.problems.len();
         let plural = if count == 1 { "" } else { "s" };
         let report = scene_error.report(use_color());
         note(&format!("{report}\n\n{count} problem{plural} in {}; nothing was written", scene_error.name));
-        return ExitCode::from(3);
+        return 3;
     }
     if let Some(paused) = find::<Paused>(error) {
         note(&paused.to_string());
-        return ExitCode::from(130);
+        return 130;
     }
     if is_interruption(error) {
         note("interrupted; nothing was left half-written");
-        return ExitCode::from(130);
+        return 130;
     }
     note(&format!("error: {error:#}"));
-    ExitCode::from(if find::<Usage>(error).is_some() { 2 } else { 1 })
+    if find::<Usage>(error).is_some() { 2 } else { 1 }
 }
 
 /// Writes a line to standard error. Whoever reads it may stop listening at any time, and `eprintln!` would panic then.
