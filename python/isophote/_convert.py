@@ -1,0 +1,105 @@
+"""From what users write to what scenes hold: floats, tuples of floats, words. Arrays become tuples, so that parts of scenes
+never change and can be compared."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Callable, Iterable
+from typing import Any, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = Union["tuple[float, float, float]", "list[float]", "NDArray[Any]"]
+"""Three numbers: x, y, z."""
+
+Pair = Union["tuple[float, float]", "list[float]", "NDArray[Any]"]
+"""Two numbers: the lower one first."""
+
+Size = Union["tuple[int, int]", "list[int]", "NDArray[Any]"]
+"""Two whole numbers: columns and rows."""
+
+Amount = Union[float, "tuple[float, float, float]", "list[float]", "NDArray[Any]"]
+"""A number, or one for each of red, green and blue."""
+
+Converter = Callable[[Any], Any]
+
+
+class Invalid(Exception):
+    """A value of the wrong type, or not finite: what is wrong, and what is allowed."""
+
+    def __init__(self, message: str, allowed: str) -> None:
+        super().__init__(message)
+        self.message = message
+        self.allowed = allowed
+
+
+def number(value: Any) -> float:
+    """A finite number."""
+    if isinstance(value, (bool, np.bool_, str, bytes)):
+        raise Invalid(f"is {value!r}", "allowed: a number")
+    try:
+        converted = float(value)
+    except (TypeError, ValueError):
+        raise Invalid(f"is {value!r}", "allowed: a number") from None
+    if not math.isfinite(converted):
+        raise Invalid(f"is {converted}", "allowed: finite numbers")
+    return converted
+
+
+def whole(value: Any) -> int:
+    """A whole number."""
+    if isinstance(value, (bool, np.bool_)):
+        raise Invalid(f"is {value!r}", "allowed: a whole number")
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise Invalid(f"is {value!r}", "allowed: a whole number") from None
+
+
+def _several(value: Any, count: int, convert: Converter, what: str) -> tuple[Any, ...]:
+    if isinstance(value, (str, bytes, dict)) or not isinstance(value, (Iterable, np.ndarray)):
+        raise Invalid(f"is {value!r}", f"allowed: {what}")
+    if isinstance(value, np.ndarray) and value.shape != (count,):
+        raise Invalid(f"has the shape {value.shape}", f"allowed: {what}")
+    items = tuple(value)
+    if len(items) != count:
+        raise Invalid(f"has {len(items)} numbers", f"allowed: {what}")
+    return tuple(convert(item) for item in items)
+
+
+def vector(value: Any) -> tuple[float, ...]:
+    """Three finite numbers."""
+    return _several(value, 3, number, "three numbers (x, y, z)")
+
+
+def pair(value: Any) -> tuple[float, ...]:
+    """Two finite numbers."""
+    return _several(value, 2, number, "two numbers")
+
+
+def size(value: Any) -> tuple[int, ...]:
+    """Two whole numbers."""
+    return _several(value, 2, whole, "two whole numbers (columns, rows)")
+
+
+def amount(value: Any) -> float | tuple[float, ...]:
+    """A number, or three of them."""
+    if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) and np.ndim(value) > 0:
+        return _several(value, 3, number, "a number, or three of them (red, green, blue)")
+    return number(value)
+
+
+def word(value: Any) -> str:
+    """A text; whether it is one of those allowed is checked with the scene."""
+    if not isinstance(value, str):
+        raise Invalid(f"is {value!r}", "allowed: a text")
+    return str(value.value) if hasattr(value, "value") else str(value)
+
+
+def flag(value: Any) -> bool:
+    """True or False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise Invalid(f"is {value!r}", "allowed: True, False")
+    return bool(value)

@@ -1,0 +1,23 @@
+"""What notebooks show."""
+
+from __future__ import annotations
+
+import base64
+import html
+
+
+def escaped(text: str) -> str:
+    """A text as HTML has it."""
+    return html.escape(text)
+
+
+def image(png: bytes, description: str) -> str:
+    """A picture within the page."""
+    data = base64.b64encode(png).decode("ascii")
+    return f'<img src="data:image/png;base64,{data}" alt="{escaped(description)}" style="max-width: 320px">'
+
+
+def table(rows: list[tuple[str, str]]) -> str:
+    """Two columns: what, and how much."""
+    cells = (f"<tr><th style='text-align:left'>{escaped(a)}</th><td>{escaped(b)}</td></tr>" for a, b in rows)
+    return f"<table>{''.join(cells)}</table>"

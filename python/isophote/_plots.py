@@ -1,0 +1,95 @@
+"""Figures by matplotlib."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .errors import ArgumentError
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+
+    from .map import Map
+    from .probing import Section
+
+
+def _axes(ax: matplotlib.axes.Axes | None) -> matplotlib.axes.Axes:
+    try:
+        import matplotlib.pyplot as plt
+    except ImportError as error:
+        raise ImportError("figures need matplotlib: pip install isophote[plot]") from error
+    return plt.subplots()[1] if ax is None else ax
+
+
+def plot_map(
+    of: Map, channel: str | None, isophotes: int | Sequence[float], ax: matplotlib.axes.Axes | None, options: dict[str, Any]
+) -> matplotlib.axes.Axes:
+    """See :meth:`isophote.Map.plot`."""
+    if channel in ("position", "normal", "shape"):
+        raise ArgumentError(f"the channel {channel!r} is no picture; allowed: channels of one number a pixel, and color")
+    ax = _axes(ax)
+    figure = ax.get_figure()
+    horizontal, vertical = of.axes
+    extent = (*horizontal.edges, *vertical.edges)
+    ax.set_xlabel(horizontal.label)
+    ax.set_ylabel(vertical.label)
+    ax.set_title(of.scene.title)
+    # Nothing there is not the same as dark: what sees no surface is hatched.
+    ax.set_facecolor("0.93")
+    ax.patch.set(hatch="///", edgecolor="0.75")
+    mask = of.mask
+    if channel == "color":
+        colors = of["color"] / max(float(of["color"].max()), np.finfo(float).tiny)
+        ax.imshow(np.dstack([_srgb(colors), mask.astype(float)]), extent=extent, **options)
+        return ax
+    name = of._main(channel)
+    image = ax.imshow(np.ma.masked_where(~mask, of[name]), extent=extent, **options)
+    about = f", {of.metadata['convention']}" if name in ("brightness", "diffuse", "specular") else ""
+    unit = of.units[name]
+    bar = figure.colorbar(image, ax=ax)  # type: ignore[union-attr]
+    bar.set_label(f"{name}{about}" + (f", {unit}" if unit not in ("", "1") else ""))
+    if not (isinstance(isophotes, int) and isophotes == 0):
+        _draw_isophotes(of, name, isophotes, ax, bar)
+    return ax
+
+
+def _draw_isophotes(of: Map, name: str, levels: int | Sequence[float], ax: matplotlib.axes.Axes, bar: Any) -> None:
+    for isophote in of.isophotes(levels, channel=name):
+        for line in isophote.lines:
+            ax.plot(line[:, 0], line[:, 1], color="white", linewidth=0.8)
+        if isophote.lines:
+            longest = max(isophote.lines, key=len)
+            x, y = longest[len(longest) // 3]
+            ax.annotate(f"{isophote.level:g}", (x, y), color="white", fontsize="small", ha="center", va="center")
+            bar.ax.axhline(isophote.level, color="white", linewidth=0.8)
+
+
+def _srgb(linear: Any) -> Any:
+    """What screens show."""
+    low = 12.92 * linear
+    return np.clip(np.where(linear <= 0.0031308, low, 1.055 * np.power(np.maximum(linear, 0.0), 1 / 2.4) - 0.055), 0, 1)
+
+
+def plot_section(
+    of: Section, names: Sequence[str], ax: matplotlib.axes.Axes | None, options: dict[str, Any]
+) -> matplotlib.axes.Axes:
+    """See :meth:`isophote.probing.Section.plot`."""
+    units = {of.units[name] for name in names}
+    if len(units) != 1:
+        raise ArgumentError(f"{', '.join(names)} have different units: {', '.join(sorted(units))}")
+    ax = _axes(ax)
+    screen = of["screen"]
+    runs_along_x = np.ptp(screen[:, 0]) >= np.ptp(screen[:, 1])
+    for name in names:
+        ax.plot(screen[:, 0] if runs_along_x else screen[:, 1], of[name], label=name, **options)
+    ax.set_xlabel(f"{'x' if runs_along_x else 'y'}, {of.units['screen']}")
+    unit = units.pop()
+    convention = f" {of.scene.core.describe()['convention']}" if "brightness" in names else ""
+    ax.set_ylabel(f"{' / '.join(names)}{convention}" + (f", {unit}" if unit not in ("", "1") else ""))
+    ax.set_title(of.scene.title)
+    if len(names) > 1:
+        ax.legend()
+    return ax

@@ -1,0 +1,45 @@
+"""Maps as xarray Datasets."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import xarray
+
+    from .map import Map
+
+COMPONENTS: dict[str, tuple[str, list[str]]] = {
+    "position": ("axis", ["x", "y", "z"]),
+    "normal": ("axis", ["x", "y", "z"]),
+    "color": ("component", ["red", "green", "blue"]),
+}
+"""The third dimension of vectors, and what runs along it."""
+
+
+def dataset(of: Map) -> xarray.Dataset:
+    """See :meth:`isophote.Map.to_xarray`."""
+    import xarray
+
+    horizontal, vertical = of.axes
+    dims = (vertical.name, horizontal.name)
+    columns, rows = of.coordinates()
+    coordinates: dict[str, Any] = {
+        horizontal.name: (horizontal.name, columns, {"units": horizontal.unit, "long_name": horizontal.title}),
+        vertical.name: (vertical.name, rows, {"units": vertical.unit, "long_name": vertical.title}),
+        "visible": (dims, of.mask, {"long_name": "whether a surface is seen"}),
+    }
+    variables: dict[str, Any] = {}
+    for name, unit in of.units.items():
+        extra = COMPONENTS.get(name)
+        if extra is not None:
+            coordinates[extra[0]] = np.array(extra[1])
+        variables[name] = (dims if extra is None else (*dims, extra[0]), of[name], {"units": unit})
+    return xarray.Dataset(variables, coordinates, attributes(of.metadata))
+
+
+def attributes(metadata: dict[str, Any]) -> dict[str, str]:
+    """What made a map, as attributes."""
+    return {name: metadata[name] for name in ("title", "convention", "renderer", "program", "scene", "color_space") if name in metadata}

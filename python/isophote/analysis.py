@@ -1,0 +1,105 @@
+"""Maps that belong to no camera: over a shape's own surface, over a grid of points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from . import _isophote
+from ._convert import Invalid, Size, Vector, size as two_whole, vector
+from .errors import ArgumentError
+from .map import Map
+from .rendering import Channels, channel_names
+from .scene import Scene
+
+__all__ = ["GridMap", "SurfaceMap", "SurfaceTotals", "grid", "surface"]
+
+
+@dataclass(frozen=True)
+class SurfaceTotals:
+    """What a channel amounts to over a surface, each cell weighted by its exact area: ``integral`` in the channel's unit
+    times m² (for the irradiance the flux in W or lm), over ``area`` m²."""
+
+    integral: float
+    min: float
+    max: float
+    area: float
+
+    @property
+    def mean(self) -> float:
+        """The integral over the area."""
+        return self.integral / self.area
+
+
+class SurfaceMap(Map):
+    """A map over the surface of a shape. ``area`` is that of the surface in m²; ``totals`` has each channel's."""
+
+    def __init__(self, core: _isophote.Map, scene: Scene, area: float, totals: dict[str, Any]) -> None:
+        super().__init__(core, scene)
+        self.area = area
+        self.totals = {name: None if of is None else SurfaceTotals(*of) for name, of in totals.items()}
+
+
+class GridMap(Map):
+    """A map over a grid of points."""
+
+    @property
+    def uniformity(self) -> float:
+        """The least irradiance over the mean."""
+        return self.min("irradiance") / self.mean("irradiance")
+
+
+def surface(
+    scene: Scene,
+    *,
+    shape: str | int | None = None,
+    part: int = 0,
+    channels: Channels = ("irradiance", "position", "normal"),
+    projection: str = "equirectangular",
+    side: str = "front",
+    axis: Vector | None = None,
+    size: Size | None = None,
+) -> SurfaceMap:
+    """The map over the surface of a shape: a sphere, a rectangle, a disk or a cylinder.
+
+    ``shape``: its name or its number; may be left out where there is one. ``part``: which sphere of a cloud.
+    ``projection``: ``"equirectangular"`` or ``"equal-area"``. ``side``: ``"front"`` or ``"back"``.
+    ``axis``: where a sphere's latitude is 90°, +y by default. ``size``: columns and rows.
+    """
+    names = scene.core.describe()["shapes"]
+    core, area, totals = _isophote.surface(
+        scene.core,
+        _named(names, shape, "shape"),
+        part,
+        channel_names(scene, channels),
+        projection,
+        side,
+        _or_none(vector, axis, "axis"),
+        _or_none(two_whole, size, "size"),
+    )
+    return SurfaceMap(core, scene, area, totals)
+
+
+def grid(scene: Scene, *, name: str | int | None = None, channels: Channels = ("irradiance", "position")) -> GridMap:
+    """The map over a grid of the scene, by its name or its number; it may be left out where there is one."""
+    names = scene.core.describe()["grids"]
+    core = _isophote.grid(scene.core, _named(names, name, "grid"), channel_names(scene, channels))
+    return GridMap(core, scene)
+
+
+def _named(names: list[str], one: str | int | None, what: str) -> str:
+    if isinstance(one, str):
+        return one
+    if one is None and len(names) == 1:
+        return names[0]
+    if isinstance(one, int) and 0 <= one < len(names):
+        return names[one]
+    there_are = f"there are: {', '.join(names[:20])}" if names else "the scene has none"
+    raise ArgumentError(f"say which {what}; {there_are}")
+
+
+def _or_none(convert: Any, value: Any, name: str) -> Any:
+    try:
+        return None if value is None else convert(value)
+    except Invalid as invalid:
+        raise ArgumentError(f"{name} {invalid.message}; {invalid.allowed}") from None

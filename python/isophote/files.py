@@ -1,0 +1,122 @@
+"""Files of maps."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import zipfile
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _isophote
+from .errors import ArgumentError
+from .scene import Scene
+
+__all__ = ["MapFile", "read"]
+
+
+class MapFile(Mapping[str, NDArray[Any]]):
+    """A file or store that Isophote wrote: what it says about itself, and its channels as arrays where the format holds
+    them (EXR, NPZ, NPY, CSV and Zarr; a PNG holds a picture, of which no values can be taken)."""
+
+    def __init__(self, path: str) -> None:
+        self.path = path
+        self.metadata: dict[str, Any] = json.loads(_isophote.read_metadata(path))
+        self._channels = {channel["name"]: channel for channel in self.metadata["channels"]}
+        self._arrays: dict[str, NDArray[Any]] | None = None
+
+    __hash__ = object.__hash__
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that was rendered; its relative names of files start at the file's own directory."""
+        directory = os.path.dirname(os.path.abspath(self.path))
+        return Scene.from_toml(self.metadata["scene"], directory=directory, name=self.path)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of each channel."""
+        return {name: channel["unit"] for name, channel in self._channels.items()}
+
+    @property
+    def region(self) -> tuple[int, int, int, int]:
+        """The part of the image that the file holds: first column, first row, columns, rows."""
+        corner, size = self.metadata["region"]["corner"], self.metadata["region"]["size"]
+        return corner["column"], corner["row"], size["width"], size["height"]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._channels)
+
+    def __len__(self) -> int:
+        return len(self._channels)
+
+    def __getitem__(self, channel: str) -> NDArray[Any]:
+        if channel not in self._channels:
+            raise KeyError(f"{self.path} has no channel {channel!r}; it has {', '.join(self._channels)}")
+        if self._arrays is None:
+            self._arrays = self._read()
+        return self._arrays[channel]
+
+    def _read(self) -> dict[str, NDArray[Any]]:
+        if os.path.isdir(self.path):
+            return {name: _zarr_array(self.path, self._stored(name)) for name in self._channels}
+        with open(self.path, "rb") as file:
+            start = file.read(8)
+        if start.startswith(b"\x76\x2f\x31\x01"):
+            stored = dict(_isophote.read_exr(self.path))
+            return {name: self._joined(stored, name) for name in self._channels}
+        if start.startswith(b"PK\x03\x04"):
+            with zipfile.ZipFile(self.path) as archive:
+                stored = {entry[:-4]: _npy(archive.read(entry)) for entry in archive.namelist() if entry.endswith(".npy")}
+            return {name: stored[self._stored(name)[0]] for name in self._channels}
+        if start.startswith(b"\x93NUMPY"):
+            with open(self.path, "rb") as file:
+                return {next(iter(self._channels)): _npy(file.read())}
+        if start.startswith(b"# isopho"):
+            return self._table()
+        raise ArgumentError(f"{self.path} is a picture, of which no values can be taken; render its .scene again")
+
+    def _stored(self, name: str) -> list[str]:
+        return self._channels[name].get("stored_as") or [name]
+
+    def _joined(self, stored: Mapping[str, NDArray[Any]], name: str) -> NDArray[Any]:
+        parts = [stored[part] for part in self._stored(name)]
+        return parts[0] if len(parts) == 1 else np.stack(parts, axis=-1)
+
+    def _table(self) -> dict[str, NDArray[Any]]:
+        with open(self.path, encoding="utf-8") as file:
+            lines = [line for line in file if not line.startswith("#")]
+        _, _, width, height = self.region
+        if len(lines) - 1 != width * height:
+            raise ArgumentError(f"{self.path} has {len(lines) - 1} rows for {width * height} pixels: it is no whole table")
+        columns = np.genfromtxt(lines, delimiter=",", names=True, deletechars="", replace_space=" ")
+        arrays = {name: columns[name].reshape(height, width) for name in columns.dtype.names}
+        return {name: self._joined(arrays, name) for name in self._channels}
+
+    def __repr__(self) -> str:
+        _, _, width, height = self.region
+        return f"<MapFile {self.path}: {width}×{height}, {', '.join(self)}; {self.metadata['convention']}>"
+
+
+def read(path: str | os.PathLike[str]) -> MapFile:
+    """What a file or store of Isophote holds: its scene, and its channels."""
+    return MapFile(os.fspath(path))
+
+
+def _npy(content: bytes) -> NDArray[Any]:
+    array: NDArray[Any] = np.load(io.BytesIO(content), allow_pickle=False)
+    return array
+
+
+def _zarr_array(path: str, stored_as: list[str]) -> NDArray[Any]:
+    import zarr
+
+    array: NDArray[Any] = np.asarray(zarr.open_group(path, mode="r")[stored_as[0]])
+    return array

@@ -1,0 +1,95 @@
+"""Lights. Places and directions are in the scene's axes, lengths in its unit, angles in degrees.
+
+Strengths are in W and W/sr, or in lm and cd in a photometric scene: a number, or one for each of red, green and blue.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ._convert import Amount, Vector, amount, flag, number, vector, whole, word
+from ._part import Part, optional, required
+
+__all__ = ["Ambient", "LambertianLight", "Light", "ParallelLight", "PointLight", "SpotLight"]
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Light(Part):
+    """What all lights have: a name of their own, and whether shapes keep their light from each other."""
+
+    name: str | None = optional(word)
+    casts_shadows: bool = optional(flag, True)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class PointLight(Light):
+    """A point that sends the same in every direction: either ``intensity``, or ``power`` = 4π times it."""
+
+    position: Vector = required(vector)
+    intensity: Amount | None = optional(amount)
+    power: Amount | None = optional(amount)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class LambertianLight(Light):
+    """A point that sends I₀ cosγ, γ the angle from its axis: either ``intensity`` I₀, or ``power`` = π I₀.
+
+    It is aimed by its ``axis``, or by the point ``target``."""
+
+    _FIXED = {"emission": "lambertian"}
+    position: Vector = required(vector)
+    intensity: Amount | None = optional(amount)
+    power: Amount | None = optional(amount)
+    axis: Vector | None = optional(vector)
+    target: Vector | None = optional(vector)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class SpotLight(Light):
+    """A point that sends its full intensity up to ``inner_angle`` from its axis, nothing beyond ``outer_angle``, and a
+    smooth step between; aimed by its ``axis``, or by the point ``target``."""
+
+    _FIXED = {"emission": "spot"}
+    position: Vector = required(vector)
+    inner_angle: float = required(number)
+    outer_angle: float = required(number)
+    intensity: Amount | None = optional(amount)
+    power: Amount | None = optional(amount)
+    axis: Vector | None = optional(vector)
+    target: Vector | None = optional(vector)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class ParallelLight(Light):
+    """Light from one direction, without loss, like the sun's: ``direction`` is the one in which it travels, ``irradiance``
+    what a plane at right angles to it receives, in W/m² or lx."""
+
+    _FIXED = {"emission": "parallel"}
+    direction: Vector = required(vector)
+    irradiance: Amount = required(amount)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Ambient(Part):
+    """Light from all around, of the same ``radiance`` (W/(m²·sr) or cd/m²) from every direction; with ``obstructed``, each
+    point looks in ``samples`` directions for shapes that are in the way."""
+
+    radiance: Amount = required(amount)
+    obstructed: bool = optional(flag, False)
+    samples: int = optional(whole, 64)
+
+
+_BY_EMISSION: dict[Any, type[Light]] = {
+    None: PointLight,
+    "isotropic": PointLight,
+    "lambertian": LambertianLight,
+    "spot": SpotLight,
+    "parallel": ParallelLight,
+}
+
+
+def light_from_dict(written: dict[str, Any]) -> Light:
+    """The light of which a scene file says this."""
+    kind = _BY_EMISSION[written.get("emission")]
+    return kind.from_dict({key: value for key, value in written.items() if key != "emission"})

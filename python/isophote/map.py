@@ -1,0 +1,261 @@
+"""Maps: images of channels with units."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _html, _isophote
+from .errors import ArgumentError
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import xarray
+
+    from .scene import Scene
+
+__all__ = ["Axis", "Isophote", "Map"]
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One direction of a map: its name, its unit, its first and its last edge."""
+
+    name: str
+    title: str
+    unit: str
+    edges: tuple[float, float]
+
+    @property
+    def label(self) -> str:
+        """What is written along it in figures."""
+        return self.title if self.unit in ("", "1") else f"{self.title}, {self.unit}"
+
+
+@dataclass(frozen=True)
+class Isophote:
+    """A contour: its level in the channel's unit, and its lines, arrays of x and y; those that are closed end where they
+    begin."""
+
+    level: float
+    lines: tuple[NDArray[np.float64], ...]
+
+
+class Map(Mapping[str, NDArray[Any]]):
+    """A map: a dictionary from names of channels to arrays.
+
+    The arrays are views of the map's own memory, float64 (float32 in single precision, int32 for ``shape``), of height ×
+    width, or height × width × 3 for ``position``, ``normal`` and ``color``. Row 0 is on top. They are read-only. Where no
+    surface is seen they are 0 (``shape`` is −1), which :attr:`mask` tells from the dark.
+    """
+
+    def __init__(self, core: _isophote.Map, scene: Scene) -> None:
+        self._core = core
+        self._scene = scene
+        self._units = MappingProxyType(dict(core.units()))
+
+    __hash__ = object.__hash__
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __getitem__(self, channel: str) -> NDArray[Any]:
+        if channel not in self._units:
+            held = ", ".join(self._units)
+            raise KeyError(f"this map has no channel {channel!r}; it has {held}: ask for others with channels=[…]")
+        array: NDArray[Any] = self._core.channel(channel)
+        return array
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._units)
+
+    def __len__(self) -> int:
+        return len(self._units)
+
+    def __contains__(self, channel: object) -> bool:
+        return channel in self._units
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Map is not pickled: render its scene again, save() it, or take its to_xarray()")
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that was rendered."""
+        return self._scene
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """The unit of each channel: ``"1"`` for pure numbers, ``""`` for indices."""
+        return self._units
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        (_, _, width, height), _ = self._core.region()
+        return height, width
+
+    @property
+    def region(self) -> tuple[int, int, int, int]:
+        """The part of the image that the map holds: first column, first row, columns, rows."""
+        column, row, width, height = self._core.region()[0]
+        return column, row, width, height
+
+    @property
+    def shapes(self) -> NDArray[np.int32]:
+        """The index of the shape at each pixel, −1 where no surface is seen."""
+        return self._core.shapes()
+
+    @property
+    def mask(self) -> NDArray[np.bool_]:
+        """Where a surface is seen."""
+        return self._core.shapes() >= 0
+
+    @property
+    def metadata(self) -> dict[str, Any]:
+        """What made the map, as its files have it."""
+        metadata: dict[str, Any] = json.loads(self._core.metadata())
+        return metadata
+
+    @property
+    def axes(self) -> tuple[Axis, Axis]:
+        """What runs from left to right, and what runs from the lower edge to the upper one."""
+        x, y = (Axis(name, title, unit, (edges[0], edges[1])) for name, title, unit, edges in self._core.axes())
+        return x, y
+
+    def coordinates(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Where the centres of the columns and of the rows are, in the units of the axes."""
+        height, width = self.shape
+        x, y = self.axes
+        columns = (np.arange(width) + 0.5) / width
+        rows = (np.arange(height) + 0.5) / height
+        # Row 0 is on top.
+        return _between(*x.edges, columns), _between(y.edges[1], y.edges[0], rows)
+
+    @property
+    def lights(self) -> tuple[str, ...]:
+        """The lights whose own irradiances the map holds."""
+        return tuple(name.removeprefix("light.") for name in self._units if name.startswith("light."))
+
+    def light_images(self) -> NDArray[Any]:
+        """The irradiance by each of the :attr:`lights` alone: lights × height × width."""
+        if not self.lights:
+            raise ArgumentError('this map has no image of a light; render it with channels=["lights"]')
+        return np.stack([self[f"light.{name}"] for name in self.lights])
+
+    def _main(self, channel: str | None) -> str:
+        """The channel that is meant where none is named: the first one that is a number a pixel."""
+        if channel is not None:
+            self[channel]
+            return channel
+        for name in self._units:
+            if name not in ("position", "normal", "shape", "color"):
+                return name
+        raise ArgumentError(f"say which channel: none of {', '.join(self._units)} is one number a pixel")
+
+    def _statistics(self, channel: str | None) -> tuple[Any, Any, float]:
+        found = self._core.statistics(self._main(channel))
+        if found is None:
+            raise ArgumentError("no surface is seen: there is no extreme and no mean")
+        return found
+
+    def max(self, channel: str | None = None) -> float:
+        """The largest value over the pixels that see a surface, by default of the first channel."""
+        return float(self._statistics(channel)[1][0])
+
+    def min(self, channel: str | None = None) -> float:
+        """The smallest value over the pixels that see a surface."""
+        return float(self._statistics(channel)[0][0])
+
+    def mean(self, channel: str | None = None) -> float:
+        """The mean over the pixels that see a surface."""
+        return float(self._statistics(channel)[2])
+
+    def argmax(self, channel: str | None = None) -> tuple[int, int]:
+        """Row and column of the largest value; of the first one, where several are equal."""
+        column, row = self._statistics(channel)[1][1]
+        return row, column
+
+    def argmin(self, channel: str | None = None) -> tuple[int, int]:
+        """Row and column of the smallest value over the pixels that see a surface."""
+        column, row = self._statistics(channel)[0][1]
+        return row, column
+
+    def isophotes(self, levels: int | Sequence[float] = 6, *, channel: str | None = None) -> list[Isophote]:
+        """Contours of a channel, at these levels or at about so many round ones. They stop at silhouettes."""
+        channel = self._main(channel)
+        if isinstance(levels, (int, np.integer)):
+            levels = _isophote.nice_levels(self.min(channel), self.max(channel), int(levels)) if self.mask.any() else []
+        found = self._core.isophotes(channel, [float(level) for level in levels])
+        return [Isophote(level, tuple(_closed(line, is_closed) for line, is_closed in lines)) for level, lines in found]
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        channel: str | None = None,
+        range: tuple[float, float] | None = None,
+        gamma: float = 1.0,
+        bits: int = 8,
+        colormap: str | None = None,
+    ) -> None:
+        """Writes a file, whole or not at all: ``.exr``, ``.npz`` and ``.csv`` get all channels, ``.npy`` one of them, ``.png``
+        a picture of one, from black to white between the values of ``range`` or in the colours of ``colormap``."""
+        if channel is None and "color" in self and os.fspath(path).lower().endswith(".png"):
+            channel = "color"
+        name = self._main(channel) if channel != "color" else "color"
+        bounds = None if range is None else [float(range[0]), float(range[1])]
+        self._core.save(os.fspath(path), name, bounds, gamma, bits, colormap)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """An xarray Dataset: dims ``("y", "x")`` with coordinates in their units, ``units`` in the attributes; vectors have a
+        third dimension, and ``visible`` tells where a surface is seen."""
+        from ._xarray import dataset
+
+        return dataset(self)
+
+    def plot(
+        self,
+        channel: str | None = None,
+        *,
+        isophotes: int | Sequence[float] = 0,
+        ax: matplotlib.axes.Axes | None = None,
+        **imshow: Any,
+    ) -> matplotlib.axes.Axes:
+        """Draws a channel by matplotlib, with axes and colour bar in units, and isophotes with their levels; further options
+        are those of ``imshow``."""
+        from ._plots import plot_map
+
+        return plot_map(self, channel, isophotes, ax, imshow)
+
+    def __repr__(self) -> str:
+        height, width = self.shape
+        units = (f"{name} [{unit}]" if unit not in ("", "1") else name for name, unit in self._units.items())
+        return f"<Map {width}×{height}: {', '.join(units)}; {self.metadata['convention']}, {self.metadata['renderer']}>"
+
+    def _repr_html_(self) -> str:
+        rows = [("map", repr(self)[1:-1])]
+        thumbnail = ""
+        name = next((name for name in self if name not in ("position", "normal", "shape", "color")), None)
+        if name is not None and self.mask.any():
+            unit = self.units[name]
+            for what, value in (("max", self.max(name)), ("min", self.min(name)), ("mean", self.mean(name))):
+                rows.append((f"{name}, {what}", f"{value:.6g} {unit}"))
+            png = self._core.png("color", None) if "color" in self else self._core.png(name, "viridis")
+            thumbnail = _html.image(png, name)
+        rows.append(("visible", f"{self._core.visible()} of {self.shape[0] * self.shape[1]} pixels"))
+        return f"{thumbnail}{_html.table(rows)}{self.scene._repr_html_()}"
+
+
+def _between(first: float, last: float, part: NDArray[np.float64]) -> NDArray[np.float64]:
+    return first * (1.0 - part) + last * part
+
+
+def _closed(line: NDArray[np.float64], is_closed: bool) -> NDArray[np.float64]:
+    return np.concatenate([line, line[:1]]) if is_closed else line

@@ -1,0 +1,265 @@
+"""Exact values at points, and along lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _html, _isophote
+from ._progress import Progress, reporter
+from .errors import ArgumentError, ProbeError
+from .rendering import positive
+from .scene import Scene
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+
+__all__ = ["Probes", "Section", "Values", "probe", "section"]
+
+
+class Values(Mapping[str, NDArray[Any]]):
+    """Values at n points: a dictionary from names to arrays of n rows, which are attributes too.
+
+    ``position`` and ``normal`` (n × 3), ``brightness``, ``irradiance``, ``ambient``, ``diffuse``, ``specular``,
+    ``cos_theta_o``, ``shape`` and ``part`` (indices), ``seen`` (whether the eye sees the point). Where there is no surface
+    they are NaN, and ``shape`` is −1.
+    """
+
+    def __init__(self, scene: Scene, arrays: Mapping[str, NDArray[Any]], names: Sequence[str]) -> None:
+        self._scene = scene
+        self._arrays = dict(arrays)
+        for array in self._arrays.values():
+            array.flags.writeable = False
+        self._names = list(names)
+
+    __hash__ = object.__hash__
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self._arrays[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+    def __getattr__(self, name: str) -> NDArray[Any]:
+        arrays: dict[str, NDArray[Any]] = self.__dict__.get("_arrays", {})
+        if name in arrays:
+            return arrays[name]
+        raise AttributeError(f"there is no {name!r}; there are: {', '.join(arrays)}")
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that they are of."""
+        return self._scene
+
+    @property
+    def count(self) -> int:
+        """How many points there are."""
+        return len(self._arrays["shape"])
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of each array: ``"1"`` for pure numbers, ``""`` for indices and for what is true or false."""
+        return {name: self._unit(name) for name in self}
+
+    def _unit(self, name: str) -> str:
+        if name in ("shape", "part", "seen"):
+            return ""
+        if name in ("normal", "cos_theta_o"):
+            return "1"
+        if name == "lights":
+            return self._scene.unit("irradiance")
+        return self._scene.unit(name)
+
+    def _table(self) -> list[str]:
+        about = self._scene.core.describe()
+        length = self._scene.length
+        lines = []
+        for index in range(min(self.count, _SHOWN)):
+            x, y, z = self["position"][index]
+            brightness, irradiance = self["brightness"][index], self["irradiance"][index]
+            where = f"({x:.6g}, {y:.6g}, {z:.6g}) {length}"
+            values = f"B = {brightness:.15g} {about['brightness_unit']}, E = {irradiance:.15g} {about['irradiance_unit']}"
+            name = self._names[index] if index < len(self._names) else f"[{index}]"
+            lines.append(f"  {name}: {where}: {values}")
+        if self.count > _SHOWN:
+            lines.append(f"  … {self.count - _SHOWN} more points")
+        return lines
+
+    def __repr__(self) -> str:
+        about = self._scene.core.describe()
+        return "\n".join([f"<{type(self).__name__} of {self.count} points, {about['convention']}", *self._table()]) + ">"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{_html.escaped(repr(self)[1:-1])}</pre>"
+
+
+_SHOWN = 10
+
+
+class Probes(Values):
+    """What :func:`probe` finds."""
+
+    def __init__(self, scene: Scene, arrays: Mapping[str, NDArray[Any]], names: Sequence[str], places: _Places) -> None:
+        super().__init__(scene, arrays, names)
+        self._places = places
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The probes' names, where they are the scene's own."""
+        return tuple(self._names)
+
+    def explain(self, index: int | None = None) -> str:
+        """Every step of the value at a point, with numbers and the formulas' numbers; of all points, if there are not many."""
+        if index is None and self.count > _SHOWN:
+            raise ArgumentError(f"there are {self.count} points; say which: explain(0)")
+        indices = range(self.count) if index is None else [range(self.count)[index]]
+        return "\n".join(self._explain(number) for number in indices)
+
+    def _explain(self, index: int) -> str:
+        places = self._places
+        name = self._names[index] if index < len(self._names) else f"point {index}"
+        if places.pixels is not None:
+            column, row = (int(number) for number in places.pixels[index])
+            return _isophote.explain(self._scene.core, f"pixel {column},{row}", None, [column, row], False)
+        assert places.points is not None
+        point = [float(coordinate) for coordinate in places.points[index]]
+        return _isophote.explain(self._scene.core, name, point, None, places.elsewhere == "nearest")
+
+
+class _Places:
+    def __init__(self, points: NDArray[np.float64] | None, pixels: NDArray[np.uint32] | None, elsewhere: str) -> None:
+        self.points = points
+        self.pixels = pixels
+        self.elsewhere = elsewhere
+
+
+def probe(
+    scene: Scene,
+    *,
+    at: ArrayLike | None = None,
+    pixels: ArrayLike | None = None,
+    elsewhere: str = "error",
+    per_light: bool = False,
+    progress: Progress = None,
+) -> Probes:
+    """The exact values at points, within 1e-12 whatever the map's resolution.
+
+    ``at``: n points, n × 3, in the scene's unit. ``pixels``: n × 2, columns and rows: what is seen at their centres. Without
+    either, the scene's own probes.
+    ``elsewhere``: what becomes of points on no surface: ``"error"``, ``"nearest"`` (the nearest surface's point is taken) or
+    ``"nan"``.
+    ``per_light``: whether the irradiance by each light is wanted too: ``lights``, n × lights.
+    """
+    if elsewhere not in ("error", "nearest", "nan"):
+        raise ArgumentError(f"elsewhere is {elsewhere!r}; allowed: error, nearest, nan")
+    if at is not None and pixels is not None:
+        raise ArgumentError("say where once: either at or pixels")
+    names: list[str] = []
+    with reporter(progress, "points") as report:
+        if pixels is not None:
+            places = _Places(None, _pixels(pixels), elsewhere)
+            arrays = _isophote.probe_pixels(scene.core, places.pixels, elsewhere, per_light, report)
+        else:
+            if at is None:
+                names = list(scene.core.describe()["probes"])
+                if not names:
+                    raise ArgumentError("the scene has no probes; say where: at=[(x, y, z), …] or pixels=[(column, row), …]")
+                at = [one.at for one in scene.probes]
+            places = _Places(points(at, "at"), None, elsewhere)
+            arrays = _isophote.probe_points(scene.core, places.points, elsewhere, per_light, report)
+    return Probes(scene, arrays, names, places)
+
+
+def points(values: ArrayLike, name: str) -> NDArray[np.float64]:
+    """n × 3 numbers; one point counts as n = 1."""
+    array = numbers(values, name)
+    if array.ndim == 1 and array.shape == (3,):
+        array = array.reshape(1, 3)
+    if array.size == 0 and array.ndim <= 2:
+        array = array.reshape(0, 3)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ProbeError(f"{name} has the shape {array.shape}; allowed: n × 3")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def numbers(values: ArrayLike, name: str) -> NDArray[Any]:
+    """An array of real numbers."""
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise ProbeError(f"{name} is no array: {error}") from None
+    if array.dtype.kind not in "iuf":
+        raise ProbeError(f"{name} is of {array.dtype}; allowed: real numbers")
+    return array
+
+
+def _pixels(values: ArrayLike) -> NDArray[np.uint32]:
+    array = numbers(values, "pixels")
+    if array.ndim == 1 and array.shape == (2,):
+        array = array.reshape(1, 2)
+    if array.size == 0 and array.ndim <= 2:
+        array = array.reshape(0, 2).astype(np.uint32)
+    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
+        raise ProbeError(f"pixels has the shape {array.shape} of {array.dtype}; allowed: n × 2 whole numbers")
+    if array.size and (array.min() < 0 or array.max() >= 2**32):
+        raise ProbeError("pixels has numbers out of bounds; allowed: columns and rows of the image, from 0")
+    return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+class Section(Values):
+    """What :func:`section` finds; ``screen`` has the places on the screen, n × 2."""
+
+    @property
+    def distance(self) -> NDArray[np.float64]:
+        """How far each point is from the first one, on the screen."""
+        steps: NDArray[np.float64] = self["screen"] - self["screen"][0]
+        return np.hypot(steps[:, 0], steps[:, 1])
+
+    def _unit(self, name: str) -> str:
+        return self._scene.core.describe()["screen_unit"] if name == "screen" else super()._unit(name)
+
+    def plot(
+        self, *names: str, ax: matplotlib.axes.Axes | None = None, **options: Any
+    ) -> matplotlib.axes.Axes:
+        """Draws values along the line by matplotlib, the brightness by default; further options are those of ``plot``."""
+        from ._plots import plot_section
+
+        return plot_section(self, names or ("brightness",), ax, options)
+
+
+def section(
+    scene: Scene,
+    *,
+    row: int | None = None,
+    column: int | None = None,
+    between: tuple[Sequence[float], Sequence[float]] | None = None,
+    samples: int = 501,
+) -> Section:
+    """The values along a line of the screen, each traced and summed in double precision: along the centres of the pixels of a
+    ``row`` or of a ``column``, or at so many ``samples`` ``between`` two places (x, y) of the screen."""
+    if sum(place is not None for place in (row, column, between)) != 1:
+        raise ArgumentError("say where: one of row, column and between")
+    ends = None
+    if between is not None:
+        ends = _ends(between)
+    for name, value in (("row", row), ("column", column)):
+        if value is not None and value != 0:
+            positive(value, name)
+    arrays = _isophote.section(scene.core, row, column, ends, positive(samples, "samples"))
+    return Section(scene, arrays, ())
+
+
+def _ends(between: tuple[Sequence[float], Sequence[float]]) -> list[list[float]]:
+    array = numbers(between, "between")
+    if array.shape != (2, 2) or not np.isfinite(array).all():
+        raise ArgumentError("between needs two places (x, y), (x, y) of finite numbers")
+    return [[float(number) for number in place] for place in array]

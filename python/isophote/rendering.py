@@ -1,0 +1,101 @@
+"""From scenes to maps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Union
+
+from . import _isophote
+from ._convert import Invalid, Size, whole
+from ._progress import Progress, reporter
+from .errors import ArgumentError
+from .map import Map
+from .scene import Scene
+
+__all__ = ["Channels", "channel_names", "render"]
+
+Channels = Union[str, Sequence[str], None]
+"""Names of channels; ``"lights"`` stands for the irradiance by each light, ``"all"`` for all that there are."""
+
+
+def channel_names(scene: Scene, channels: Channels) -> list[str]:
+    """The names of channels, with those that a word stands for."""
+    about = scene.core.describe()
+    color = ["color"] if about["has_color"] else []
+    lights = [f"light.{name}" for name in about["lights"]]
+    if channels is None:
+        return ["brightness", *color]
+    common = ["brightness", *color, "irradiance", "diffuse", "specular", "depth", "position", "normal", "shape"]
+    ambient = ["ambient", *(["ambient-error"] if scene.ambient is not None and scene.ambient.obstructed else [])]
+    sampling = ["samples", "coverage"] if about["is_sampled"] else []
+    everything = [*common, *(ambient if scene.ambient is not None else []), *sampling, *lights]
+    words = {"all": everything, "lights": lights}
+    wanted: list[str] = []
+    for name in [channels] if isinstance(channels, str) else channels:
+        if not isinstance(name, str):
+            raise ArgumentError(f"channels has {name!r} in it; allowed: names of channels")
+        wanted.extend(words.get(name, [name]))
+    if not wanted:
+        raise ArgumentError("no channel is asked for")
+    return list(dict.fromkeys(wanted))
+
+
+def threads_of(threads: int | None) -> int | None:
+    """A number of threads, if it is one."""
+    return None if threads is None else positive(threads, "threads")
+
+
+def positive(value: int, name: str) -> int:
+    """A whole number from 1."""
+    try:
+        number = whole(value)
+    except Invalid as invalid:
+        raise ArgumentError(f"{name} {invalid.message}; {invalid.allowed}") from None
+    if not 1 <= number < 2**31:
+        raise ArgumentError(f"{name} is {number}; allowed: whole numbers from 1")
+    return number
+
+
+def render(
+    scene: Scene,
+    *,
+    channels: Channels = None,
+    size: Size | None = None,
+    region: tuple[int, int, int, int] | None = None,
+    precision: str = "double",
+    threads: int | None = None,
+    progress: Progress = None,
+) -> Map:
+    """The map of a scene.
+
+    ``channels``: names such as ``"brightness"`` (which it is by default, with ``"color"`` where the scene has colours),
+    ``"irradiance"``, ``"normal"``, ``"light.lamp"``; ``"lights"`` for each light's own, ``"all"`` for everything.
+    ``size``: columns and rows, in place of the scene's resolution.
+    ``region``: first column, first row, columns, rows: this part of the image alone.
+    ``precision``: ``"double"``, or ``"single"`` at about twice the speed; docs/precision tells the bounds.
+    ``threads``: as many as there are processors by default. They never change a bit of the result.
+    ``progress``: a function of two numbers, pixels that are done and all; or ``True`` for a bar.
+
+    The interpreter's lock is released meanwhile, and Ctrl-C ends it.
+    """
+    if size is not None:
+        scene = scene.with_resolution(size)
+    names = channel_names(scene, channels)
+    bounds = None
+    if region is not None:
+        bounds = [_pixels(value) for value in region]
+        if len(bounds) != 4:
+            raise ArgumentError(f"region has {len(bounds)} numbers; allowed: first column, first row, columns, rows")
+    with reporter(progress, "pixels") as report:
+        core = _isophote.render(scene.core, names, precision, bounds, threads_of(threads), report)
+    return Map(core, scene)
+
+
+def _pixels(value: int) -> int:
+    try:
+        number = whole(value)
+    except Invalid as invalid:
+        raise ArgumentError(f"region {invalid.message}; {invalid.allowed}") from None
+    if not 0 <= number < 2**31:
+        raise ArgumentError(f"region has {number} in it; allowed: whole numbers from 0")
+    return number

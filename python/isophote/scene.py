@@ -1,0 +1,376 @@
+"""Scenes."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import os
+import re
+import warnings
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, TypeVar
+
+from . import _isophote
+from ._convert import Invalid, Size, Vector, flag, number, size, vector, word
+from ._part import Part, nested, optional, required
+from .camera import Camera, Sampling
+from .errors import ArgumentError, SceneWarning
+from .lights import Ambient, Light, light_from_dict
+from .materials import Convention, Material
+from .shapes import KINDS, Shape
+
+__all__ = ["Grid", "Probe", "Scene"]
+
+Item = TypeVar("Item", bound=Part)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Probe(Part):
+    """A point of a surface whose values are reported. ``published`` is a value that somebody printed for it."""
+
+    at: Vector = required(vector)
+    name: str | None = optional(word)
+    published: float | None = optional(number)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Grid(Part):
+    """Points on a rectangle at which the irradiance is computed: ``points`` of them along the edges ``u`` and ``v``, which
+    begin at ``corner`` or have ``center`` between them. ``side`` is ``"front"`` (to which u × v leads) or ``"back"``."""
+
+    u: Vector = required(vector)
+    v: Vector = required(vector)
+    points: Size = required(size)
+    corner: Vector | None = optional(vector)
+    center: Vector | None = optional(vector)
+    name: str | None = optional(word)
+    side: str = optional(word, "front")
+
+
+def _several(kind: type[Part]) -> Any:
+    def convert(value: Any) -> tuple[Part, ...]:
+        if isinstance(value, (Part, str, Mapping)) or not isinstance(value, Iterable):
+            raise Invalid(f"is {value!r}", f"allowed: a list of {kind.__name__}")
+        items = tuple(value)
+        for item in items:
+            if not isinstance(item, kind):
+                raise Invalid(f"has {item!r} in it", f"allowed: a list of {kind.__name__}")
+        return items
+
+    return convert
+
+
+def _shapes(value: Any) -> tuple[Part, ...]:
+    shapes = _several(Shape)(value)
+    return tuple(sorted(shapes, key=lambda shape: KINDS.index(type(shape))))
+
+
+def _materials(value: Any) -> Mapping[str, Material]:
+    if not isinstance(value, Mapping):
+        raise Invalid(f"is {value!r}", "allowed: a dictionary from names to Material")
+    for name, material in value.items():
+        if not isinstance(name, str) or not isinstance(material, Material):
+            raise Invalid(f"has {name!r}: {material!r} in it", "allowed: a dictionary from names to Material")
+    return MappingProxyType(dict(value))
+
+
+def _directory(value: Any) -> str:
+    return os.path.abspath(os.fspath(value))
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Scene(Part):
+    """A scene: who looks, what is seen, what it is made of, and what lights it.
+
+    A scene is valid: making one checks everything, and :class:`~isophote.errors.SceneError` has all that is wrong. It never
+    changes: :meth:`replace` and :meth:`set` give other ones.
+
+    ``length`` is the unit of every length: ``"m"``, ``"cm"`` or ``"mm"``. ``shapes`` are kept in the order of maps and
+    probes, by kind first. ``directory`` is where relative names of files start.
+    """
+
+    length: str = required(word)
+    camera: Camera = required(nested(Camera))
+    title: str = optional(word, "")
+    convention: str | Convention = optional(word, "radiance")
+    handedness: str = optional(word, "right")
+    quantities: str = optional(word, "radiometric")
+    color_space: str = optional(word, "rec709")
+    shadows: bool = optional(flag, False)
+    sampling: Sampling | None = optional(nested(Sampling))
+    materials: Mapping[str, Material] = dataclasses.field(
+        default_factory=lambda: MappingProxyType({}), metadata={"convert": _materials}
+    )
+    shapes: tuple[Shape, ...] = optional(_shapes, ())
+    lights: tuple[Light, ...] = optional(_several(Light), ())
+    ambient: Ambient | None = optional(nested(Ambient))
+    probes: tuple[Probe, ...] = optional(_several(Probe), ())
+    grids: tuple[Grid, ...] = optional(_several(Grid), ())
+    directory: str = optional(_directory, "")
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        core = _isophote.Scene.from_json(json.dumps(self.to_dict()), self.directory)
+        object.__setattr__(self, "_core", core)
+        self._warn(stacklevel=4)
+
+    @property
+    def core(self) -> _isophote.Scene:
+        """The scene of the compiled part, private to the package."""
+        core: _isophote.Scene = self._core  # type: ignore[attr-defined]
+        return core
+
+    def _warn(self, stacklevel: int) -> None:
+        for problem in self.core.warnings():
+            warnings.warn(str(problem), SceneWarning, stacklevel=stacklevel)
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Scene:
+        """Reads a scene file: JSON when the name ends in ``.json``, TOML otherwise."""
+        directory = os.path.dirname(os.path.abspath(os.fspath(path)))
+        return cls._of_core(_isophote.Scene.from_file(os.fspath(path)), directory)
+
+    @classmethod
+    def from_toml(cls, text: str, *, directory: str | os.PathLike[str] = "", name: str = "the scene") -> Scene:
+        """Reads a scene from a TOML text; ``name`` stands for it in messages."""
+        return cls._of_core(_isophote.Scene.from_text(text, False, name, os.fspath(directory)), directory)
+
+    @classmethod
+    def from_json(cls, text: str, *, directory: str | os.PathLike[str] = "", name: str = "the scene") -> Scene:
+        """Reads a scene from a JSON text; ``name`` stands for it in messages."""
+        return cls._of_core(_isophote.Scene.from_text(text, True, name, os.fspath(directory)), directory)
+
+    @classmethod
+    def from_dict(cls, written: Mapping[str, Any], *, directory: str | os.PathLike[str] = "") -> Scene:
+        """The scene that a file with these tables and keys describes."""
+        return cls.from_json(json.dumps(written), directory=directory)
+
+    @classmethod
+    def _of_core(cls, core: _isophote.Scene, directory: str | os.PathLike[str]) -> Scene:
+        """A scene that is checked already; its files may be large and are not read again."""
+        scene = object.__new__(cls)
+        for name, value in _fields(json.loads(core.to_json())).items():
+            object.__setattr__(scene, name, value)
+        object.__setattr__(scene, "directory", _directory(directory) if os.fspath(directory) else "")
+        Part.__post_init__(scene)
+        object.__setattr__(scene, "_core", core)
+        scene._warn(stacklevel=4)
+        return scene
+
+    def to_dict(self) -> dict[str, Any]:
+        """The scene as a file has it: tables and keys, without what is so by default."""
+        written: dict[str, Any] = {"version": 1}
+        for field in dataclasses.fields(self):
+            value = getattr(self, field.name)
+            if field.name in _LISTS or field.name == "directory" or value is None or value == field.default:
+                continue
+            written[field.name] = value.to_dict() if isinstance(value, Part) else value
+        written["material"] = {name: material.to_dict() for name, material in self.materials.items()}
+        for kind in KINDS:
+            written[kind.KEY] = [shape.to_dict() for shape in self.shapes if type(shape) is kind]
+        written["light"] = [light.to_dict() for light in self.lights]
+        written["probe"] = [probe.to_dict() for probe in self.probes]
+        written["grid"] = [grid.to_dict() for grid in self.grids]
+        return {key: value for key, value in written.items() if value not in ([], {})}
+
+    def to_toml(self) -> str:
+        """The scene as the text of a scene file."""
+        return self.core.to_toml()
+
+    def with_resolution(self, resolution: Size) -> Scene:
+        """The same scene with another number of columns and rows."""
+        camera = self.camera.replace(resolution=resolution)
+        width, height = camera.resolution
+        return self._of_core(self.core.with_resolution(int(width), int(height)), self.directory)
+
+    def set(self, values: Mapping[str, Any]) -> Scene:
+        """The same scene with other values at these paths.
+
+        A path is that of a scene file, with the name of the thing in the middle: ``light.lamp.position``,
+        ``material.clay.shininess``, ``sphere.ball.radius``, ``camera.eye``, ``camera.screen.distance``, ``convention``. Things
+        without a name have their number: ``light[0].position``.
+        """
+        changes: dict[str, Any] = {}
+        for path, value in values.items():
+            _set(self, changes, path, value)
+        return self.replace(**changes)
+
+    def unit(self, channel: str) -> str:
+        """The unit of a channel of this scene's maps: ``"1"`` for pure numbers, ``""`` for indices."""
+        return self.core.unit(channel)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickle, (self.core.to_json(), self.directory)
+
+    def __hash__(self) -> int:
+        return hash(self.to_toml())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Scene):
+            return NotImplemented
+        return self.to_dict() == other.to_dict() and self.directory == other.directory
+
+    def __repr__(self) -> str:
+        about = self.core.describe()
+        length = self.length
+        width, height = about["resolution"]
+        lines = [
+            f"<Scene {self.title!r}: lengths in {length}, brightness by {about['convention']} in {about['brightness_unit']}",
+            f"  camera: {self.camera.projection}, eye at {_text(self.camera.eye)} {length}, {width}×{height} pixels",
+        ]
+        for name, material in list(self.materials.items())[:_SHOWN]:
+            lines.append(f"  material {name!r}: {_body(material)}")
+        for name, shape in list(zip(about["shapes"], self.shapes))[:_SHOWN]:
+            lines.append(f"  {type(shape).KEY} {name!r}: {_body(shape, length)}")
+        lines.extend(_more(len(self.shapes), "shapes"))
+        units = {"intensity": about["intensity_unit"], "power": about["power_unit"], "irradiance": about["irradiance_unit"]}
+        for name, light in list(zip(about["lights"], self.lights))[:_SHOWN]:
+            lines.append(f"  {type(light).__name__} {name!r}: {_body(light, length, units)}")
+        lines.extend(_more(len(self.lights), "lights"))
+        if self.ambient is not None:
+            lines.append(f"  ambient: {_text(self.ambient.radiance)} {about['radiance_unit']}")
+        counts = [f"{len(items)} {name}" for items, name in ((self.probes, "probes"), (self.grids, "grids")) if items]
+        if counts:
+            lines.append(f"  {', '.join(counts)}")
+        return "\n".join(lines) + ">"
+
+    def _repr_html_(self) -> str:
+        from ._html import escaped
+
+        return f"<pre>{escaped(repr(self)[1:-1])}</pre>"
+
+
+_LISTS = ("materials", "shapes", "lights", "probes", "grids")
+_SHOWN = 12
+_LENGTHS = ("position", "center", "radius", "radii", "size", "start", "end", "base", "apex", "apex_radius", "point")
+_LENGTHS += ("width", "height", "target")
+_ANGLES = ("inner_angle", "outer_angle")
+
+
+def _unpickle(text: str, directory: str) -> Scene:
+    with warnings.catch_warnings():
+        # They were given where the scene was made.
+        warnings.simplefilter("ignore", SceneWarning)
+        return Scene.from_json(text, directory=directory)
+
+
+def _fields(written: dict[str, Any]) -> dict[str, Any]:
+    """The fields of a scene, of what its file says; those that it does not mention have their defaults."""
+    fields: dict[str, Any] = {}
+    for field in dataclasses.fields(Scene):
+        default = field.default_factory() if field.default_factory is not dataclasses.MISSING else field.default
+        fields[field.name] = written.get(field.name, default)
+    fields["materials"] = {name: Material.from_dict(one) for name, one in written.get("material", {}).items()}
+    fields["shapes"] = [kind.from_dict(one) for kind in KINDS for one in written.get(kind.KEY, [])]
+    fields["lights"] = [light_from_dict(one) for one in written.get("light", [])]
+    fields["probes"] = [Probe.from_dict(one) for one in written.get("probe", [])]
+    fields["grids"] = [Grid.from_dict(one) for one in written.get("grid", [])]
+    return fields
+
+
+def _set(scene: Scene, changes: dict[str, Any], path: str, value: Any) -> None:
+    """Puts what one path changes among the changes of the others."""
+
+    def now(field: str) -> Any:
+        return changes.get(field, getattr(scene, field))
+
+    match = re.fullmatch(r"(?P<table>\w+)(?:\[(?P<index>\d+)\])?(?:\.(?P<rest>.+))?", path)
+    if match is None:
+        raise ArgumentError(f"{path!r} is no path; allowed: such as light.lamp.position, material.clay.shininess, camera.eye")
+    table, index, rest = match["table"], match["index"], match["rest"]
+    if table in _SIMPLE and rest is None and index is None:
+        changes[table] = value
+    elif table in ("camera", "sampling", "ambient") and rest is not None and index is None:
+        part = now(table)
+        if part is None:
+            raise ArgumentError(f"{path!r}: the scene has no {table}")
+        changes[table] = _inside(part, rest.split("."), path, value)
+    elif table == "material" and rest is not None and "." in rest:
+        name, key = rest.rsplit(".", 1)
+        materials = dict(now("materials"))
+        if name not in materials:
+            raise ArgumentError(f"{path!r}: the scene has no material {name!r}; there are: {', '.join(materials)}")
+        materials[name] = _inside(materials[name], [key], path, value)
+        changes["materials"] = materials
+    elif table in _TABLES and rest is not None:
+        field, kind = _TABLES[table]
+        items = list(now(field))
+        names = _names(scene, field, items)
+        number, keys = _find(table, kind, items, names, index, rest, path)
+        items[number] = _inside(items[number], keys, path, value)
+        changes[field] = items
+    else:
+        allowed = sorted([*_SIMPLE, "camera.…", "sampling.…", "ambient.…", "material.NAME.…", *(f"{t}.NAME.…" for t in _TABLES)])
+        raise ArgumentError(f"{path!r} leads nowhere; allowed: {', '.join(allowed)}")
+
+
+_SIMPLE = ("title", "convention", "handedness", "quantities", "color_space", "shadows", "length", "ambient", "sampling")
+_TABLES: dict[str, tuple[str, type[Part]]] = {
+    "light": ("lights", Light),
+    "probe": ("probes", Probe),
+    "grid": ("grids", Grid),
+    "shape": ("shapes", Shape),
+    **{kind.KEY: ("shapes", kind) for kind in KINDS},
+}
+
+
+def _names(scene: Scene, field: str, items: list[Any]) -> list[str]:
+    """The names of things, those included that the core gives to things without one."""
+    known = scene.core.describe()[field]
+    return [item.name or name for item, name in zip(items, known)]
+
+
+def _find(
+    table: str, kind: type[Part], items: list[Any], names: list[str], index: str | None, rest: str, path: str
+) -> tuple[int, list[str]]:
+    of_kind = [number for number, item in enumerate(items) if isinstance(item, kind)]
+    if index is not None:
+        if int(index) >= len(of_kind):
+            raise ArgumentError(f"{path!r}: the scene has {len(of_kind)} {table}, counted from 0")
+        return of_kind[int(index)], rest.split(".")
+    for number in of_kind:
+        # Names may have dots in them.
+        if rest.startswith(names[number] + "."):
+            return number, rest[len(names[number]) + 1 :].split(".")
+    there_are = ", ".join(names[number] for number in of_kind[:20]) or "none"
+    raise ArgumentError(f"{path!r}: the scene has no such {table}; there are: {there_are}")
+
+
+def _inside(part: Part, keys: list[str], path: str, value: Any) -> Part:
+    key, *rest = keys
+    fields = [field.name for field in dataclasses.fields(part)]
+    if key not in fields:
+        raise ArgumentError(f"{path!r}: a {type(part).__name__} has no {key!r}; it has {', '.join(fields)}")
+    if not rest:
+        return part.replace(**{key: value})
+    inner = getattr(part, key)
+    if not isinstance(inner, Part):
+        raise ArgumentError(f"{path!r}: {key!r} has nothing in it to change")
+    return part.replace(**{key: _inside(inner, rest, path, value)})
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, tuple):
+        return f"({', '.join(_text(item) for item in value)})"
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _body(part: Part, length: str = "", units: Mapping[str, str] = MappingProxyType({})) -> str:
+    """What there is to say of a part, with units."""
+    words = []
+    for field in dataclasses.fields(part):
+        value = getattr(part, field.name)
+        if field.name == "name" or value is None or value == field.default:
+            continue
+        unit = length if field.name in _LENGTHS else "°" if field.name in _ANGLES else units.get(field.name, "")
+        space = " " if unit not in ("", "°") else ""
+        words.append(f"{field.name} {_text(value)}{space}{unit}")
+    return ", ".join(words)
+
+
+def _more(count: int, what: str) -> list[str]:
+    return [f"  … {count - _SHOWN} more {what}"] if count > _SHOWN else []
+
+

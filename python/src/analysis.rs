@@ -1,0 +1,116 @@
+//! Sections, maps of surfaces, grids.
+
+use isophote::analysis::section::SectionLine;
+use isophote::analysis::surface::{Projection, SurfaceRequest};
+use isophote::map::{Quantity, Resolution};
+use isophote::shape::{Primitive, Side};
+use isophote::units::Choice;
+use isophote::vector::Vector;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::error;
+use crate::job::{self, Progress};
+use crate::map::Map;
+use crate::probe::Columns;
+use crate::render::quantities;
+use crate::scene::Scene;
+
+/// The values along a row, a column, or between two places on the screen (in the scene's unit or degrees).
+#[pyfunction]
+#[pyo3(signature = (scene, row, column, between, samples))]
+pub fn section<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    row: Option<u32>,
+    column: Option<u32>,
+    between: Option<[[f64; 2]; 2]>,
+    samples: u32,
+) -> PyResult<Bound<'py, PyDict>> {
+    let unit = scene.core().screen_unit();
+    let inside = |place: [f64; 2]| place.map(|coordinate| unit.to_internal(coordinate));
+    let line = match (row, column, between) {
+        (Some(row), None, None) => SectionLine::Row(row),
+        (None, Some(column), None) => SectionLine::Column(column),
+        (None, None, Some([from, to])) => SectionLine::Between { from: inside(from), to: inside(to), samples },
+        _ => return Err(error::value(py, "say where: one of row, column and between")),
+    };
+    let prepared = scene.prepared();
+    let found = job::run(py, &Progress::none(), move |_| prepared.section(line))?;
+    let found = found.map_err(|error| error::value(py, error))?;
+    let length = scene.core().length();
+    let columns = PyDict::new(py);
+    let places = found.iter().flat_map(|sample| sample.screen.map(|coordinate| unit.from_internal(coordinate)));
+    columns.set_item("screen", Columns::vectors(py, places.collect(), 2)?)?;
+    let mut values = Columns::new(found.len(), 0, false);
+    for sample in &found {
+        match &sample.seen {
+            Some((hit, shading)) => values.push(hit, shading, length),
+            None => values.push_nothing(),
+        }
+    }
+    values.into_dict(py, &columns)?;
+    Ok(columns)
+}
+
+/// The map over the surface of a shape, and its area and totals: for each scalar channel the integral, the least and the
+/// greatest value, and the area over which they are.
+#[pyfunction]
+#[pyo3(signature = (scene, shape, part, channels, projection, side, axis, size))]
+pub fn surface<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    shape: &str,
+    part: u32,
+    channels: Vec<String>,
+    projection: &str,
+    side: &str,
+    axis: Option<[f64; 3]>,
+    size: Option<[u32; 2]>,
+) -> PyResult<(Map, f64, Bound<'py, PyDict>)> {
+    let quantities = quantities(py, &channels)?;
+    let request = SurfaceRequest {
+        primitive: Primitive { shape: scene.shape_named(py, shape)?, part },
+        projection: choice::<Projection>(py, "projection", projection)?,
+        axis: axis.map(Vector::from),
+        side: choice::<Side>(py, "side", side)?,
+        size: size.map(|[width, height]| Resolution { width, height }),
+    };
+    let prepared = scene.prepared();
+    let found = job::run(py, &Progress::none(), move |_| {
+        let surface = prepared.surface(&request)?;
+        let map = surface.map(&quantities)?;
+        let scalar = quantities.into_iter().filter(Quantity::is_scalar);
+        let totals: Vec<_> = scalar.map(|quantity| (quantity.name(), surface.totals(&map, &quantity))).collect();
+        Ok((map, surface.area(), totals))
+    })?;
+    let (map, area, totals) =
+        found.map_err(|error: isophote::analysis::surface::SurfaceError| error::value(py, error))?;
+    let by_channel = PyDict::new(py);
+    for (name, totals) in totals {
+        let totals = totals.map(|of| (of.integral, of.min.value, of.max.value, of.area));
+        by_channel.set_item(name, totals)?;
+    }
+    Ok((Map::new(map), area, by_channel))
+}
+
+/// The map over a grid of the scene.
+#[pyfunction]
+pub fn grid(py: Python<'_>, scene: &Scene, name: &str, channels: Vec<String>) -> PyResult<Map> {
+    let quantities = quantities(py, &channels)?;
+    let grids = scene.core().grids();
+    let grid = grids.iter().find(|grid| grid.name == name).cloned().ok_or_else(|| {
+        let names: Vec<&str> = grids.iter().take(20).map(|grid| grid.name.as_str()).collect();
+        let there_are =
+            if names.is_empty() { "it has none".into() } else { format!("there are: {}", names.join(", ")) };
+        error::value(py, format!("the scene has no grid \"{name}\"; {there_are}"))
+    })?;
+    let prepared = scene.prepared();
+    let map = job::run(py, &Progress::none(), move |_| prepared.grid(&grid, &quantities))?;
+    Ok(Map::new(map.map_err(|error| error::value(py, error))?))
+}
+
+fn choice<C: Choice>(py: Python<'_>, what: &str, name: &str) -> PyResult<C> {
+    let allowed = || C::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ");
+    C::from_name(name).ok_or_else(|| error::value(py, format!("there is no {what} \"{name}\"; allowed: {}", allowed())))
+}

@@ -1,0 +1,88 @@
+//! Errors of the core as exceptions of the package, which defines them in `isophote.errors`.
+
+use isophote::render::RenderError;
+use isophote::scene::{Problem, ProblemKind, SceneError};
+use isophote_zarr::StoreError;
+use pyo3::call::PyCallArgs;
+use pyo3::exceptions::PyOSError;
+use pyo3::prelude::*;
+
+/// An exception of the package.
+fn exception<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>) -> PyErr {
+    let class = py.import("isophote.errors").and_then(|module| module.getattr(class));
+    match class.and_then(|class| class.call1(arguments)) {
+        Ok(exception) => PyErr::from_value(exception),
+        Err(error) => error,
+    }
+}
+
+/// An argument that does not fit the scene or makes no sense.
+pub fn value(py: Python<'_>, message: impl ToString) -> PyErr {
+    exception(py, "ArgumentError", (message.to_string(),))
+}
+
+/// Something else that did not work out.
+pub fn render(py: Python<'_>, message: impl ToString) -> PyErr {
+    exception(py, "RenderError", (message.to_string(),))
+}
+
+/// Points that are on no surface: their indices and a text for the first.
+pub fn probe(py: Python<'_>, message: impl ToString, indices: Vec<usize>) -> PyErr {
+    exception(py, "ProbeError", (message.to_string(), indices))
+}
+
+/// A fault of this program.
+pub fn internal(py: Python<'_>, message: impl ToString) -> PyErr {
+    exception(py, "InternalError", (message.to_string(),))
+}
+
+/// A file that could not be read or written.
+pub fn file(message: impl ToString) -> PyErr {
+    PyOSError::new_err(message.to_string())
+}
+
+pub fn of_render(py: Python<'_>, error: &RenderError) -> PyErr {
+    match error {
+        RenderError::Region { .. }
+        | RenderError::TooLarge { .. }
+        | RenderError::NoSuchLight { .. }
+        | RenderError::NoColor => value(py, error),
+        RenderError::Overflow { .. } | RenderError::Interrupted | RenderError::Threads { .. } => render(py, error),
+    }
+}
+
+pub fn of_store(py: Python<'_>, error: &StoreError) -> PyErr {
+    match error {
+        StoreError::Write { .. } | StoreError::Read { .. } => file(error),
+        StoreError::Render(error) => of_render(py, error),
+        _ => exception(py, "StoreError", (error.to_string(),)),
+    }
+}
+
+pub fn of_scene(py: Python<'_>, error: &SceneError) -> PyErr {
+    let problems = problems(py, &error.problems);
+    problems.map_or_else(|error| error, |problems| exception(py, "SceneError", (error.report(false), problems)))
+}
+
+/// As `isophote.errors.Problem`s.
+pub fn problems<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let class = py.import("isophote.errors")?.getattr("Problem")?;
+    let problem = |problem: &Problem| {
+        let place = problem.place.as_ref().map(|place| (place.line, place.column, place.text.as_str()));
+        let Problem { kind, path, message, help, .. } = problem;
+        class.call1((kind_name(*kind), path.as_str(), message.as_str(), help.as_deref(), place))
+    };
+    problems.iter().map(problem).collect()
+}
+
+fn kind_name(kind: ProblemKind) -> &'static str {
+    match kind {
+        ProblemKind::Unreadable => "unreadable",
+        ProblemKind::Syntax => "syntax",
+        ProblemKind::UnknownKey => "unknown-key",
+        ProblemKind::MissingKey => "missing-key",
+        ProblemKind::WrongType => "wrong-type",
+        ProblemKind::Value => "value",
+        ProblemKind::Warning => "warning",
+    }
+}

@@ -1,0 +1,47 @@
+//! The compiled part of the Python package: scenes, maps and analyses of the core as arrays. It is private to the package,
+//! which gives its classes their shape; here everything is plain: texts, numbers, arrays.
+
+mod analysis;
+mod command;
+mod error;
+mod formula;
+mod job;
+mod map;
+mod probe;
+mod read;
+mod render;
+mod scene;
+mod store;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _isophote {
+    #[pymodule_export]
+    use crate::analysis::{grid, section, surface};
+    #[pymodule_export]
+    use crate::command::command;
+    #[pymodule_export]
+    use crate::formula::{brightness, conventions};
+    #[pymodule_export]
+    use crate::job::panic_on_purpose;
+    #[pymodule_export]
+    use crate::map::{Map, levels};
+    #[pymodule_export]
+    use crate::probe::{explain, probe_pixels, probe_points};
+    #[pymodule_export]
+    use crate::read::{read_exr, read_metadata};
+    #[pymodule_export]
+    use crate::render::render;
+    #[pymodule_export]
+    use crate::scene::{Scene, starter};
+    #[pymodule_export]
+    use crate::store::{store_merge, store_prepare, store_render};
+
+    use super::{Bound, PyModule, PyModuleMethods, PyResult};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

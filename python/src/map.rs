@@ -1,0 +1,252 @@
+//! Maps as arrays.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use isophote::analysis::isophotes::{isophotes, nice_levels};
+use isophote::analysis::statistics::{Extreme, statistics};
+use isophote::export::colormap::Colormap;
+use isophote::export::csv::Rows;
+use isophote::export::png::{Depth, PictureColor, PictureOptions};
+use isophote::export::{self, ExportError, FileMetadata, Format, write_atomically};
+use isophote::map::{Map as CoreMap, Quantity, Resolution, Values};
+use isophote::units::Choice;
+use numpy::ndarray::{ArrayView, Dimension, ShapeBuilder};
+use numpy::{Element, IntoPyArray, PyArray, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::error;
+use crate::job::{self, Progress};
+
+/// A map of the core; its arrays are views of its memory.
+#[pyclass(frozen, module = "isophote._isophote")]
+pub struct Map {
+    map: Arc<CoreMap>,
+}
+
+/// A value and its column and row in the map.
+type Place = (f64, [u32; 2]);
+
+/// A line of an isophote, an array of x and y, and whether its end is joined to its beginning.
+type Line<'py> = (Bound<'py, PyArray2<f64>>, bool);
+
+impl Map {
+    pub fn new(map: CoreMap) -> Self {
+        Self { map: Arc::new(map) }
+    }
+
+    fn quantity(&self, name: &str) -> PyResult<&Quantity> {
+        let mut held = self.map.channels().iter().map(|channel| &channel.quantity);
+        held.find(|quantity| quantity.name() == name).ok_or_else(|| PyKeyError::new_err(name.to_owned()))
+    }
+}
+
+#[pymethods]
+impl Map {
+    /// The channels' names and units.
+    fn units(&self) -> Vec<(String, &str)> {
+        self.map.channels().iter().map(|channel| (channel.quantity.name(), channel.unit.as_str())).collect()
+    }
+
+    /// A channel as a read-only array of height × width or height × width × 3.
+    fn channel<'py>(this: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let map = this.get();
+        let channel = map.map.channel(map.quantity(name)?).ok_or_else(|| PyKeyError::new_err(name.to_owned()))?;
+        let Resolution { width, height } = map.map.region.size;
+        let [height, width] = [height as usize, width as usize];
+        match &channel.values {
+            Values::Scalar(values) => view(this, values, [height, width]),
+            Values::Single(values) => view(this, values, [height, width]),
+            Values::Index(values) => view(this, values, [height, width]),
+            Values::Vector(values) => view(this, values.as_flattened(), [height, width, 3]),
+        }
+    }
+
+    /// The index of the shape at each pixel, −1 where there is none.
+    fn shapes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let Resolution { width, height } = self.map.region.size;
+        let shapes = self.map.mask().shapes().into_pyarray(py);
+        Ok(shapes.reshape([height as usize, width as usize])?.into_any())
+    }
+
+    fn visible(&self) -> usize {
+        self.map.mask().visible()
+    }
+
+    /// Least value, greatest value and mean over the pixels that see a surface; nothing if there are none.
+    fn statistics(&self, py: Python<'_>, name: &str) -> PyResult<Option<(Place, Place, f64)>> {
+        let quantity = self.quantity(name)?;
+        if !quantity.is_scalar() {
+            return Err(error::value(py, format!("the channel {name} is not one number a pixel")));
+        }
+        let corner = self.map.region.corner;
+        let place =
+            |extreme: Extreme| (extreme.value, [extreme.pixel.column - corner.column, extreme.pixel.row - corner.row]);
+        Ok(statistics(&self.map, quantity).map(|of| (place(of.min), place(of.max), of.mean)))
+    }
+
+    /// Column, row, width and height of the part of the image, and width and height of the whole.
+    fn region(&self) -> ([u32; 4], [u32; 2]) {
+        let (region, full) = (self.map.region, self.map.full);
+        ([region.corner.column, region.corner.row, region.size.width, region.size.height], [full.width, full.height])
+    }
+
+    /// For each of the two directions: name, title, unit, first and last edge.
+    fn axes(&self) -> Vec<(&str, &str, &str, [f64; 2])> {
+        let window = &self.map.window;
+        let [x, y] = window.coordinates.axes(window.length);
+        [(x, window.x), (y, window.y)]
+            .into_iter()
+            .map(|(axis, edges)| (axis.name, axis.title, axis.unit, edges))
+            .collect()
+    }
+
+    /// What made the map, as files have it, in JSON.
+    fn metadata(&self) -> String {
+        FileMetadata::of(&self.map).to_json()
+    }
+
+    /// The lines of these levels.
+    fn isophotes<'py>(&self, py: Python<'py>, name: &str, levels: Vec<f64>) -> PyResult<Vec<(f64, Vec<Line<'py>>)>> {
+        let quantity = self.quantity(name)?.clone();
+        let map = Arc::clone(&self.map);
+        let found = job::run(py, &Progress::none(), move |_| isophotes(&map, &quantity, &levels))?;
+        let found = found.map_err(|error| error::value(py, error))?;
+        let mut all = Vec::with_capacity(found.len());
+        for isophote in found {
+            let mut lines = Vec::with_capacity(isophote.lines.len());
+            for line in isophote.lines {
+                let points: Vec<f64> = line.points.iter().flat_map(|point| [point.x, point.y]).collect();
+                lines.push((points.into_pyarray(py).reshape([line.points.len(), 2])?, line.closed));
+            }
+            all.push((isophote.level, lines));
+        }
+        Ok(all)
+    }
+
+    /// Writes a file whose suffix says in which format; the channel is that of formats with one.
+    #[pyo3(signature = (path, name, range, gamma, bits, colormap))]
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        name: &str,
+        range: Option<[f64; 2]>,
+        gamma: f64,
+        bits: u8,
+        colormap: Option<&str>,
+    ) -> PyResult<()> {
+        let Some(format) = Format::from_path(&path) else {
+            let message = format!(
+                "cannot tell the format of {}; allowed: .png, .exr, .npy, .npz, .csv (render_to_zarr makes stores)",
+                path.display()
+            );
+            return Err(error::value(py, message));
+        };
+        let style = Style {
+            quantity: self.quantity(name)?.clone(),
+            range,
+            gamma,
+            depth: depth(py, bits)?,
+            colormap: colormap_named(py, colormap)?,
+        };
+        let map = Arc::clone(&self.map);
+        let saved = job::run(py, &Progress::none(), move |_| {
+            write_atomically(&path, |file| match format {
+                Format::Png => style.write(&map, file),
+                Format::Exr => export::exr::write(&map, file),
+                Format::Npy => export::npy::write(&map, &style.quantity, file),
+                Format::Npz => export::npz::write(&map, file),
+                Format::Csv => export::csv::write(&map, Rows::All, file).map(|_| ()),
+            })
+        })?;
+        saved.map_err(|error| match error {
+            ExportError::Write(_)
+            | ExportError::File { .. }
+            | ExportError::NoFolder { .. }
+            | ExportError::Taken { .. } => error::file(error),
+            error => error::value(py, error),
+        })
+    }
+
+    /// The picture of a channel, as the bytes of a PNG.
+    fn png<'py>(&self, py: Python<'py>, name: &str, colormap: Option<&str>) -> PyResult<Bound<'py, PyBytes>> {
+        let style = Style {
+            quantity: self.quantity(name)?.clone(),
+            range: None,
+            gamma: 1.0,
+            depth: Depth::Eight,
+            colormap: colormap_named(py, colormap)?,
+        };
+        let mut bytes = Vec::new();
+        style.write(&self.map, &mut bytes).map_err(|error| error::value(py, error))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+}
+
+/// About so many round levels between two values.
+#[pyfunction]
+#[pyo3(name = "nice_levels")]
+pub fn levels(least: f64, greatest: f64, about: usize) -> Vec<f64> {
+    nice_levels(least, greatest, about)
+}
+
+/// How a picture shows its channel.
+struct Style {
+    quantity: Quantity,
+    range: Option<[f64; 2]>,
+    gamma: f64,
+    depth: Depth,
+    colormap: Option<Colormap>,
+}
+
+impl Style {
+    fn write(&self, map: &CoreMap, out: &mut impl Write) -> Result<(), ExportError> {
+        let color = self.colormap.map(|colormap| move |fraction| colormap.color(fraction));
+        let name = self.colormap.map_or("", Colormap::name);
+        let options = PictureOptions {
+            range: self.range,
+            gamma: self.gamma,
+            depth: self.depth,
+            color: color.as_ref().map(|color| PictureColor { name, color }),
+            ..PictureOptions::new(self.quantity.clone())
+        };
+        export::png::write(map, &options, out).map(|_| ())
+    }
+}
+
+fn depth(py: Python<'_>, bits: u8) -> PyResult<Depth> {
+    match bits {
+        8 => Ok(Depth::Eight),
+        16 => Ok(Depth::Sixteen),
+        _ => Err(error::value(py, format!("a picture cannot have {bits} bits; allowed: 8, 16"))),
+    }
+}
+
+fn colormap_named(py: Python<'_>, name: Option<&str>) -> PyResult<Option<Colormap>> {
+    let Some(name) = name else { return Ok(None) };
+    let allowed = || Colormap::ALL.iter().map(|colormap| colormap.name()).collect::<Vec<_>>().join(", ");
+    let unknown = || error::value(py, format!("there is no colour map \"{name}\"; allowed: {}", allowed()));
+    Colormap::from_name(name).map(Some).ok_or_else(unknown)
+}
+
+/// An array of a channel's own memory, which the array keeps alive and nobody can write.
+fn view<'py, T: Element, D: Dimension>(
+    map: &Bound<'py, Map>,
+    values: &[T],
+    shape: impl ShapeBuilder<Dim = D>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let values =
+        ArrayView::from_shape(shape.into_shape_with_order(), values).map_err(|e| error::internal(map.py(), e))?;
+    // SAFETY: the values are in the memory of the map in `map`, which is its array's base and thus lives as long, and
+    // which neither changes nor moves them: the class is frozen, and the core's map is behind an `Arc` that nobody
+    // writes through. `make_nonwriteable` below keeps Python from writing.
+    #[expect(unsafe_code, reason = "without it every channel would be copied")]
+    let array = unsafe { PyArray::borrow_from_array(&values, map.clone().into_any()) };
+    array.try_readwrite().map_err(|error| error::internal(map.py(), error))?.make_nonwriteable();
+    debug_assert!(array.is_c_contiguous());
+    Ok(array.into_any())
+}

@@ -1,0 +1,279 @@
+//! Values at many points at once.
+
+use std::ops::ControlFlow;
+
+use isophote::analysis::probe::{Place, ProbeError, ProbeReading};
+use isophote::map::Pixel;
+use isophote::prepare::{Hit, PreparedScene};
+use isophote::render::Observer;
+use isophote::scene::{Scene as CoreScene, limits};
+use isophote::shade::Shading;
+use isophote::units::{Choice, LengthUnit};
+use isophote::vector::Vector;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rayon::prelude::*;
+
+use crate::error;
+use crate::job::{self, Progress, Watch};
+use crate::scene::Scene;
+
+/// Points that one thread takes at a time.
+const CHUNK: usize = 1024;
+/// What is told of points that have no value.
+const TOLD: usize = 5;
+
+/// The values at points, n × 3 in the scene's unit. `elsewhere` says what becomes of points on no surface: `error`, `nearest`
+/// (the nearest surface's point is taken), `nan`.
+#[pyfunction]
+pub fn probe_points<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    points: PyReadonlyArray2<'py, f64>,
+    elsewhere: &str,
+    per_light: bool,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let points: Vec<[f64; 3]> = points.as_array().rows().into_iter().map(|row| [row[0], row[1], row[2]]).collect();
+    let length = scene.core().length();
+    let bound = length.from_metres(limits::COORDINATE);
+    let is_possible = |point: &[f64; 3]| point.iter().all(|coordinate| coordinate.abs() <= bound);
+    if let Some(index) = points.iter().position(|point| elsewhere != "nan" && !is_possible(point)) {
+        let [x, y, z] = points[index];
+        let unit = length.name();
+        let message =
+            format!("point {index} is [{x}, {y}, {z}] {unit}; allowed: finite numbers up to {bound:e} {unit}");
+        return Err(error::probe(py, message, vec![index]));
+    }
+    let snaps = elsewhere == "nearest";
+    let place = |point: [f64; 3]| {
+        let metres = Vector::from(point.map(|coordinate| length.to_metres(coordinate)));
+        if snaps { Place::NearestTo(metres) } else { Place::Point(metres) }
+    };
+    let places = points.into_iter().map(|point| is_possible(&point).then(|| place(point))).collect();
+    probe_places(py, scene, places, elsewhere == "nan", per_light, progress)
+}
+
+/// The values at what is seen at the centres of pixels, n × 2: column and row.
+#[pyfunction]
+pub fn probe_pixels<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    pixels: PyReadonlyArray2<'py, u32>,
+    elsewhere: &str,
+    per_light: bool,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let pixels = pixels.as_array();
+    let places = pixels.rows().into_iter().map(|row| Some(Place::Pixel(Pixel { column: row[0], row: row[1] })));
+    probe_places(py, scene, places.collect(), elsewhere == "nan", per_light, progress)
+}
+
+fn probe_places<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    places: Vec<Option<Place>>,
+    leaves_gaps: bool,
+    per_light: bool,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let core = scene.core();
+    let length = core.length();
+    let lights = if per_light { core.lights().len() } else { 0 };
+    let has_color = core.color().is_some();
+    let prepared = scene.prepared();
+    let count = places.len();
+    let progress = Progress { function: progress, total: count as u64 };
+    let chunks = job::run(py, &progress, move |watch| {
+        let chunk = |places: &[Option<Place>]| {
+            let mut columns = Columns::new(places.len(), lights, has_color);
+            let mut refusals = Vec::new();
+            for (index, place) in places.iter().enumerate() {
+                if watch.is_stopped() {
+                    break;
+                }
+                match place.as_ref().map(|place| prepared.probe(place)) {
+                    Some(Ok(reading)) => columns.push_reading(&reading, length),
+                    Some(Err(error)) => {
+                        columns.push_nothing();
+                        refusals.push((index, error));
+                    }
+                    None => columns.push_nothing(),
+                }
+            }
+            advance(watch, places.len());
+            (columns, refusals)
+        };
+        places.par_chunks(CHUNK).map(chunk).collect::<Vec<_>>()
+    })?;
+    let mut all = Columns::new(count, lights, has_color);
+    let mut refusals = Vec::new();
+    for (number, (columns, refused)) in chunks.into_iter().enumerate() {
+        all.append(columns);
+        refusals.extend(refused.into_iter().map(|(index, error)| (number * CHUNK + index, error)));
+    }
+    if !refusals.is_empty() && !leaves_gaps {
+        return Err(refused(py, core, &refusals, count));
+    }
+    let columns = PyDict::new(py);
+    all.into_dict(py, &columns)?;
+    Ok(columns)
+}
+
+fn advance(watch: &Watch, count: usize) {
+    // Who is stopped finds out before its next point.
+    let (ControlFlow::Continue(()) | ControlFlow::Break(())) = watch.advance(count as u64);
+}
+
+fn refused(py: Python<'_>, scene: &CoreScene, refusals: &[(usize, ProbeError)], count: usize) -> PyErr {
+    let describe = |(index, error): &(usize, ProbeError)| match error {
+        ProbeError::OffSurface(miss) => {
+            let name = &scene.shapes()[miss.shape].name;
+            format!("point {index} is on no surface: {}", miss.describe(name, scene.length()))
+        }
+        error => format!("point {index}: {error}"),
+    };
+    let mut lines: Vec<String> = refusals.iter().take(TOLD).map(describe).collect();
+    if refusals.len() > TOLD {
+        lines.push(format!("… and {} more of {count}", refusals.len() - TOLD));
+    }
+    error::probe(py, lines.join("\n"), refusals.iter().map(|(index, _)| *index).collect())
+}
+
+/// Every step of the value at a point, or at what a pixel sees.
+#[pyfunction]
+#[pyo3(signature = (scene, name, point, pixel, snaps))]
+pub fn explain(
+    py: Python<'_>,
+    scene: &Scene,
+    name: &str,
+    point: Option<[f64; 3]>,
+    pixel: Option<[u32; 2]>,
+    snaps: bool,
+) -> PyResult<String> {
+    let length = scene.core().length();
+    let place = match (point, pixel) {
+        (Some(point), None) => {
+            let metres = Vector::from(point.map(|coordinate| length.to_metres(coordinate)));
+            if snaps { Place::NearestTo(metres) } else { Place::Point(metres) }
+        }
+        (None, Some([column, row])) => Place::Pixel(Pixel { column, row }),
+        _ => return Err(error::value(py, "say where: one of point and pixel")),
+    };
+    let prepared = scene.prepared();
+    let explained = |scene: &PreparedScene| scene.probe(&place).map(|reading| reading.explain(scene, name));
+    explained(&prepared).map_err(|error| refused(py, scene.core(), &[(0, error)], 1))
+}
+
+/// What is found at points, one after another: NaN and −1 where nothing is.
+pub struct Columns {
+    position: Vec<f64>,
+    normal: Vec<f64>,
+    shape: Vec<i32>,
+    part: Vec<u32>,
+    is_seen: Vec<bool>,
+    cos_theta_o: Vec<f64>,
+    /// Brightness, irradiance, ambient, diffuse, specular.
+    values: [Vec<f64>; 5],
+    lights: Vec<f64>,
+    light_count: usize,
+    color: Option<Vec<f64>>,
+}
+
+impl Columns {
+    pub fn new(count: usize, light_count: usize, has_color: bool) -> Self {
+        let numbers = |per_point: usize| Vec::with_capacity(count * per_point);
+        Self {
+            position: numbers(3),
+            normal: numbers(3),
+            shape: Vec::with_capacity(count),
+            part: Vec::with_capacity(count),
+            is_seen: Vec::with_capacity(count),
+            cos_theta_o: numbers(1),
+            values: std::array::from_fn(|_| numbers(1)),
+            lights: numbers(light_count),
+            light_count,
+            color: has_color.then(|| numbers(3)),
+        }
+    }
+
+    fn push_reading(&mut self, reading: &ProbeReading, length: LengthUnit) {
+        self.push(&reading.hit, &reading.shading, length);
+        if let Some(is_seen) = self.is_seen.last_mut() {
+            *is_seen = reading.is_seen();
+        }
+        self.lights.extend(reading.terms.iter().take(self.light_count).map(|term| term.irradiance));
+        if let (Some(color), Some(components)) = (&mut self.color, &reading.components) {
+            color.extend(components.map(|component| component.shading.brightness()).into_array());
+        }
+    }
+
+    pub fn push(&mut self, hit: &Hit, shading: &Shading, length: LengthUnit) {
+        self.position.extend(hit.point.position().to_array().map(|metres| length.from_metres(metres)));
+        self.normal.extend(hit.point.normal.to_array());
+        self.shape.push(i32::try_from(hit.primitive.shape).unwrap_or(i32::MAX));
+        self.part.push(hit.primitive.part);
+        self.is_seen.push(true);
+        self.cos_theta_o.push(hit.point.cos_theta_o);
+        let Shading { irradiance, ambient, diffuse, specular } = *shading;
+        let values = [shading.brightness(), irradiance, ambient, diffuse, specular];
+        self.values.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+    }
+
+    pub fn push_nothing(&mut self) {
+        self.position.extend([f64::NAN; 3]);
+        self.normal.extend([f64::NAN; 3]);
+        self.shape.push(-1);
+        self.part.push(0);
+        self.is_seen.push(false);
+        self.cos_theta_o.push(f64::NAN);
+        self.values.iter_mut().for_each(|column| column.push(f64::NAN));
+        self.lights.extend(std::iter::repeat_n(f64::NAN, self.light_count));
+        if let Some(color) = &mut self.color {
+            color.extend([f64::NAN; 3]);
+        }
+    }
+
+    fn append(&mut self, mut other: Self) {
+        self.position.append(&mut other.position);
+        self.normal.append(&mut other.normal);
+        self.shape.append(&mut other.shape);
+        self.part.append(&mut other.part);
+        self.is_seen.append(&mut other.is_seen);
+        self.cos_theta_o.append(&mut other.cos_theta_o);
+        self.values.iter_mut().zip(&mut other.values).for_each(|(all, more)| all.append(more));
+        self.lights.append(&mut other.lights);
+        if let (Some(all), Some(more)) = (&mut self.color, &mut other.color) {
+            all.append(more);
+        }
+    }
+
+    /// The columns as arrays, by their names.
+    pub fn into_dict(self, py: Python<'_>, columns: &Bound<'_, PyDict>) -> PyResult<()> {
+        columns.set_item("position", Self::vectors(py, self.position, 3)?)?;
+        columns.set_item("normal", Self::vectors(py, self.normal, 3)?)?;
+        columns.set_item("shape", self.shape.into_pyarray(py))?;
+        columns.set_item("part", self.part.into_pyarray(py))?;
+        columns.set_item("seen", self.is_seen.into_pyarray(py))?;
+        columns.set_item("cos_theta_o", self.cos_theta_o.into_pyarray(py))?;
+        let names = ["brightness", "irradiance", "ambient", "diffuse", "specular"];
+        for (name, column) in names.into_iter().zip(self.values) {
+            let column: Bound<'_, PyArray1<f64>> = column.into_pyarray(py);
+            columns.set_item(name, column)?;
+        }
+        if self.light_count > 0 {
+            columns.set_item("lights", Self::vectors(py, self.lights, self.light_count)?)?;
+        }
+        if let Some(color) = self.color {
+            columns.set_item("color", Self::vectors(py, color, 3)?)?;
+        }
+        Ok(())
+    }
+
+    /// Numbers as an array with so many columns.
+    pub fn vectors(py: Python<'_>, numbers: Vec<f64>, width: usize) -> PyResult<Bound<'_, PyArray2<f64>>> {
+        let rows = numbers.len() / width;
+        numbers.into_pyarray(py).reshape([rows, width])
+    }
+}

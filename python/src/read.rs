@@ -1,0 +1,43 @@
+//! Files of maps.
+
+use std::path::PathBuf;
+
+use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
+use isophote::export;
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+
+use crate::error;
+
+/// A channel's name and its values.
+type Channel<'py> = (String, Bound<'py, PyArray2<f32>>);
+
+/// What a file or a store says about itself, in JSON.
+#[pyfunction]
+pub fn read_metadata(py: Python<'_>, path: PathBuf) -> PyResult<String> {
+    let metadata = py.detach(|| {
+        if path.is_dir() {
+            isophote_zarr::read_metadata(&path).map_err(|error| error.to_string())
+        } else {
+            export::read_metadata(&path).map_err(|error| error.to_string())
+        }
+    });
+    Ok(metadata.map_err(error::file)?.to_json())
+}
+
+/// The channels of an EXR file by the names that they have there.
+#[pyfunction]
+pub fn read_exr(py: Python<'_>, path: PathBuf) -> PyResult<Vec<Channel<'_>>> {
+    let image = py.detach(|| read_first_flat_layer_from_file(&path));
+    let layer = image.map_err(|error| error::file(format!("cannot read ‘{}’: {error}", path.display())))?.layer_data;
+    let size = [layer.size.height(), layer.size.width()];
+    let mut channels = Vec::new();
+    for channel in layer.channel_data.list {
+        let values: Vec<f32> = match channel.sample_data {
+            FlatSamples::F32(values) => values,
+            other => other.values_as_f32().collect(),
+        };
+        channels.push((channel.name.to_string(), values.into_pyarray(py).reshape(size)?));
+    }
+    Ok(channels)
+}

@@ -1,0 +1,140 @@
+//! Maps larger than memory.
+
+use std::num::{NonZeroU32, NonZeroUsize};
+use std::path::{Path, PathBuf};
+
+use isophote::analysis::statistics::Extreme;
+use isophote::lanes::Precision;
+use isophote::map::Quantity;
+use isophote::prepare::PreparedScene;
+use isophote::render::Lanes;
+use isophote_zarr::{Check, MapStatistics, Opening, Outcome, Part, Request, Store, StoreError, Workers};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::error;
+use crate::job::{self, Progress};
+use crate::render::{precision, quantities};
+use crate::scene::Scene;
+
+/// What is put into a store, and how.
+struct Plan {
+    path: PathBuf,
+    quantities: Vec<Quantity>,
+    precision: Precision,
+    shard_side: Option<NonZeroU32>,
+}
+
+impl Plan {
+    /// One worker renders by itself, as the store wants it.
+    fn renderer(&self) -> Lanes {
+        Lanes::new(self.precision, Some(NonZeroUsize::MIN))
+    }
+
+    fn open(&self, scene: &PreparedScene, part: Option<Part>, opening: Opening) -> Result<Store, StoreError> {
+        let request = Request { quantities: self.quantities.clone(), opening, part, shard_side: self.shard_side };
+        Store::prepare(&self.path, scene, &self.renderer(), &request)
+    }
+}
+
+/// Makes a store, or finds it if it may be resumed; the numbers of its shards that are not done, and how many it has.
+#[pyfunction]
+#[pyo3(signature = (scene, path, channels, precision, shard_side, resume))]
+pub fn store_prepare(
+    py: Python<'_>,
+    scene: &Scene,
+    path: PathBuf,
+    channels: Vec<String>,
+    precision: &str,
+    shard_side: Option<NonZeroU32>,
+    resume: bool,
+) -> PyResult<(Vec<u32>, u64)> {
+    let plan = plan(py, path, &channels, precision, shard_side)?;
+    let prepared = scene.prepared();
+    let opening = if resume { Opening::Continue } else { Opening::New };
+    let found = job::run(py, &Progress::none(), move |_| {
+        let store = plan.open(&prepared, None, opening)?;
+        let count = store.plan().count();
+        let is_due = |number: &u32| {
+            let part = u32::try_from(count).ok().and_then(|count| Part::new(number + 1, count));
+            let [done, all] = store.pixels(part);
+            done < all
+        };
+        Ok(((0..u32::try_from(count).unwrap_or(u32::MAX)).filter(is_due).collect(), count))
+    })?;
+    found.map_err(|error| error::of_store(py, &error))
+}
+
+/// Renders one shard of a store, or all that are left; for all, gives the statistics of the whole.
+#[pyfunction]
+#[pyo3(signature = (scene, path, channels, precision, shard_side, shard, threads, memory, progress))]
+pub fn store_render<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    path: PathBuf,
+    channels: Vec<String>,
+    precision: &str,
+    shard_side: Option<NonZeroU32>,
+    shard: Option<[u32; 2]>,
+    threads: Option<NonZeroUsize>,
+    memory: Option<u64>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Option<Bound<'py, PyDict>>> {
+    let plan = plan(py, path, &channels, precision, shard_side)?;
+    let part = shard.and_then(|[number, count]| Part::new(number + 1, count));
+    let threads = threads.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN);
+    let prepared = scene.prepared();
+    let resolution = scene.core().camera().resolution;
+    let total = u64::from(resolution.width) * u64::from(resolution.height);
+    let outcome = job::run(py, &Progress { function: progress, total }, move |watch| {
+        let store = plan.open(&prepared, part, Opening::Continue)?;
+        store.render(&prepared, &plan.renderer(), Workers { threads, memory }, part, Some(watch))
+    })?;
+    match outcome.map_err(|error| error::of_store(py, &error))? {
+        Outcome::Complete(statistics) => Ok(Some(described(py, &statistics)?)),
+        Outcome::Part { .. } => Ok(None),
+    }
+}
+
+/// Puts the parts of a store together; with `check` every byte is read.
+#[pyfunction]
+pub fn store_merge(py: Python<'_>, path: PathBuf, check: bool) -> PyResult<Bound<'_, PyDict>> {
+    let check = if check { Check::Content } else { Check::Presence };
+    let merged = job::run(py, &Progress::none(), move |_| merge(&path, check))?;
+    described(py, &merged.map_err(|error| error::of_store(py, &error))?)
+}
+
+fn merge(path: &Path, check: Check) -> Result<MapStatistics, StoreError> {
+    Store::open(path)?.merge(check)
+}
+
+fn plan(
+    py: Python<'_>,
+    path: PathBuf,
+    channels: &[String],
+    precision: &str,
+    shard_side: Option<NonZeroU32>,
+) -> PyResult<Plan> {
+    let mut distinct: Vec<Quantity> = Vec::new();
+    for quantity in quantities(py, channels)? {
+        if !distinct.contains(&quantity) {
+            distinct.push(quantity);
+        }
+    }
+    Ok(Plan { path, quantities: distinct, precision: self::precision(py, precision)?, shard_side })
+}
+
+fn described<'py>(py: Python<'py>, statistics: &MapStatistics) -> PyResult<Bound<'py, PyDict>> {
+    let described = PyDict::new(py);
+    described.set_item("pixels", statistics.pixels)?;
+    described.set_item("visible", statistics.visible)?;
+    described.set_item("lit", statistics.lit)?;
+    let channels = PyDict::new(py);
+    let place = |extreme: Extreme| (extreme.value, [extreme.pixel.column, extreme.pixel.row]);
+    for channel in &statistics.channels {
+        let of = channel.statistics.map(|of| (place(of.min), place(of.max), of.mean));
+        channels.set_item(channel.quantity.name(), of)?;
+    }
+    described.set_item("channels", channels)?;
+    Ok(described)
+}
