@@ -6,22 +6,10 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable, Iterable
-from typing import Any, Union
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
-
-Vector = Union["tuple[float, float, float]", "list[float]", "NDArray[Any]"]
-"""Three numbers: x, y, z."""
-
-Pair = Union["tuple[float, float]", "list[float]", "NDArray[Any]"]
-"""Two numbers: the lower one first."""
-
-Size = Union["tuple[int, int]", "list[int]", "NDArray[Any]"]
-"""Two whole numbers: columns and rows."""
-
-Amount = Union[float, "tuple[float, float, float]", "list[float]", "NDArray[Any]"]
-"""A number, or one for each of red, green and blue."""
 
 Converter = Callable[[Any], Any]
 
@@ -86,7 +74,7 @@ def size(value: Any) -> tuple[int, ...]:
 
 def amount(value: Any) -> float | tuple[float, ...]:
     """A number, or three of them."""
-    if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) and np.ndim(value) > 0:
+    if not isinstance(value, (str, bytes)) and np.ndim(value) > 0:
         return _several(value, 3, number, "a number, or three of them (red, green, blue)")
     return number(value)
 
@@ -103,3 +91,15 @@ def flag(value: Any) -> bool:
     if not isinstance(value, (bool, np.bool_)):
         raise Invalid(f"is {value!r}", "allowed: True, False")
     return bool(value)
+
+
+# What fields of parts are declared as: the type, and the function that makes it of what users write.
+Number = Annotated[float, number]
+Whole = Annotated[int, whole]
+Word = Annotated[str, word]
+Flag = Annotated[bool, flag]
+# Arrays and lists are taken, and tuples kept.
+Vector = Annotated[tuple[float, float, float] | list[float] | NDArray[Any], vector]
+Pair = Annotated[tuple[float, float] | list[float] | NDArray[Any], pair]
+Size = Annotated[tuple[int, int] | list[int] | NDArray[Any], size]
+Amount = Annotated[float | tuple[float, float, float] | list[float] | NDArray[Any], amount]

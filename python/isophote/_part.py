@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
+import typing
 from collections.abc import Mapping
-from typing import Any, ClassVar, TypeVar
+from types import MappingProxyType
+from typing import Annotated, Any, ClassVar, TypeVar
 
 from ._convert import Converter, Invalid
 from .errors import Problem, SceneError
@@ -12,32 +14,24 @@ from .errors import Problem, SceneError
 PartType = TypeVar("PartType", bound="Part")
 
 
-def required(convert: Converter, key: str | None = None) -> Any:
-    """A field that must be given; ``key`` is its name in scene files, if it has another one there."""
-    return dataclasses.field(metadata={"convert": convert, "key": key})
-
-
-def optional(convert: Converter, default: Any = None) -> Any:
-    """A field that may be left out; one without a default is then left out of the scene too."""
-    return dataclasses.field(default=default, metadata={"convert": convert})
-
-
 @dataclasses.dataclass(frozen=True, kw_only=True, repr=False)
 class Part:
     """A part of a scene. It never changes; :meth:`replace` gives another one."""
 
-    _FIXED: ClassVar[Mapping[str, Any]] = {}
+    _FIXED: ClassVar[Mapping[str, Any]] = MappingProxyType({})
     """What the scene file says of every such part."""
+    _KEYS: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """The keys of scene files that fields have other names for."""
 
     def __post_init__(self) -> None:
         problems = []
+        converters = _converters(type(self))
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
-            convert = field.metadata.get("convert")
-            if convert is None or (value is None and field.default is None):
+            if value is None and field.default is None:
                 continue
             try:
-                object.__setattr__(self, field.name, convert(value))
+                object.__setattr__(self, field.name, converters[field.name](value))
             except Invalid as invalid:
                 path = f"{type(self).__name__}.{field.name}"
                 problems.append(Problem("wrong-type", path, f"`{path}` {invalid.message}", invalid.allowed))
@@ -59,13 +53,13 @@ class Part:
                 value = value.to_dict()
             elif isinstance(value, tuple):
                 value = list(value)
-            written[_key(field)] = value
+            written[self._KEYS.get(field.name, field.name)] = value
         return written
 
     @classmethod
     def from_dict(cls: type[PartType], written: Mapping[str, Any]) -> PartType:
         """The part of which a scene file says this."""
-        names = {_key(field): field.name for field in dataclasses.fields(cls)}
+        names = {key: name for name, key in cls._KEYS.items()}
         return cls(**{names.get(key, key): value for key, value in written.items() if key not in cls._FIXED})
 
     def __repr__(self) -> str:
@@ -77,11 +71,28 @@ class Part:
         return f"{type(self).__name__}({', '.join(given)})"
 
 
-def _key(field: dataclasses.Field[Any]) -> str:
-    return field.metadata.get("key") or field.name
+_KNOWN: dict[type[Part], dict[str, Converter]] = {}
 
 
-def nested(kind: type[Part]) -> Converter:
+def _converters(part: type[Part]) -> dict[str, Converter]:
+    """How each field becomes what it holds, by its declared type."""
+    if part not in _KNOWN:
+        hints = typing.get_type_hints(part, include_extras=True)
+        _KNOWN[part] = {field.name: _converter(hints[field.name]) for field in dataclasses.fields(part)}
+    return _KNOWN[part]
+
+
+def _converter(hint: Any) -> Converter:
+    for one in (hint, *typing.get_args(hint)):
+        if typing.get_origin(one) is Annotated:
+            converter: Converter = one.__metadata__[0]
+            return converter
+        if isinstance(one, type) and issubclass(one, Part):
+            return _nested(one)
+    raise TypeError(f"no field can be a {hint}")
+
+
+def _nested(kind: type[Part]) -> Converter:
     """A part within another one, which may be given as its dictionary."""
 
     def convert(value: Any) -> Part:

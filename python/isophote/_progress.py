@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, Union
+from typing import Any
 
-Progress = Union[bool, Callable[[int, int], Any], None]
+Progress = bool | Callable[[int, int], Any] | None
 """Called with what is done and with all there is, in between and at the end; ``True`` for a bar by tqdm, if it is there."""
 
 

@@ -42,4 +42,8 @@ def dataset(of: Map) -> xarray.Dataset:
 
 def attributes(metadata: dict[str, Any]) -> dict[str, str]:
     """What made a map, as attributes."""
-    return {name: metadata[name] for name in ("title", "convention", "renderer", "program", "scene", "color_space") if name in metadata}
+    return {
+        name: metadata[name]
+        for name in ("title", "convention", "renderer", "program", "scene", "color_space")
+        if name in metadata
+    }

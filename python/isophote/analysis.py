@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _isophote
-from ._convert import Invalid, Size, Vector, size as two_whole, vector
+from ._convert import Invalid, Size, Vector, vector
+from ._convert import size as two_whole
 from .errors import ArgumentError
 from .map import Map
 from .rendering import Channels, channel_names

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ._convert import Pair, Size, Vector, number, pair, size, vector, whole, word
-from ._part import Part, nested, optional, required
+from ._convert import Number, Pair, Size, Vector, Whole, Word
+from ._part import Part
 
 __all__ = ["Camera", "Sampling", "Screen", "Window"]
 
@@ -15,17 +15,17 @@ class Screen(Part):
     """The window of a perspective camera: left and right edge ``x``, lower and upper edge ``y``, on the plane at
     ``distance`` from the eye."""
 
-    distance: float = required(number)
-    x: Pair = required(pair)
-    y: Pair = required(pair)
+    distance: Number
+    x: Pair
+    y: Pair
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Window(Part):
     """The window of an orthographic camera, on the plane through the eye."""
 
-    x: Pair = required(pair)
-    y: Pair = required(pair)
+    x: Pair
+    y: Pair
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -38,17 +38,17 @@ class Camera(Part):
     ``resolution`` is the number of columns and of rows.
     """
 
-    eye: Vector = required(vector)
-    forward: Vector | None = optional(vector)
-    target: Vector | None = optional(vector)
-    up: Vector = optional(vector, (0.0, 1.0, 0.0))
-    projection: str = optional(word, "perspective")
-    screen: Screen | None = optional(nested(Screen))
-    field_of_view: float | None = optional(number)
-    window: Window | None = optional(nested(Window))
-    longitude: Pair | None = optional(pair)
-    latitude: Pair | None = optional(pair)
-    resolution: Size = optional(size, (800, 600))
+    eye: Vector
+    forward: Vector | None = None
+    target: Vector | None = None
+    up: Vector = (0.0, 1.0, 0.0)
+    projection: Word = "perspective"
+    screen: Screen | None = None
+    field_of_view: Number | None = None
+    window: Window | None = None
+    longitude: Pair | None = None
+    latitude: Pair | None = None
+    resolution: Size = (800, 600)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -57,6 +57,6 @@ class Sampling(Part):
     error that is allowed as a part of the largest brightness. ``filter`` is ``"box"``, ``"triangle"``, ``"gaussian"`` or
     ``"mitchell"``."""
 
-    samples: int | None = optional(whole)
-    tolerance: float | None = optional(number)
-    filter: str = optional(word, "box")
+    samples: Whole | None = None
+    tolerance: Number | None = None
+    filter: Word = "box"

@@ -97,7 +97,8 @@ class MapFile(Mapping[str, NDArray[Any]]):
         if len(lines) - 1 != width * height:
             raise ArgumentError(f"{self.path} has {len(lines) - 1} rows for {width * height} pixels: it is no whole table")
         columns = np.genfromtxt(lines, delimiter=",", names=True, deletechars="", replace_space=" ")
-        arrays = {name: columns[name].reshape(height, width) for name in columns.dtype.names}
+        names = columns.dtype.names or ()
+        arrays = {name: columns[name].reshape(height, width) for name in names}
         return {name: self._joined(arrays, name) for name in self._channels}
 
     def __repr__(self) -> str:
@@ -118,5 +119,5 @@ def _npy(content: bytes) -> NDArray[Any]:
 def _zarr_array(path: str, stored_as: list[str]) -> NDArray[Any]:
     import zarr
 
-    array: NDArray[Any] = np.asarray(zarr.open_group(path, mode="r")[stored_as[0]])
+    array: NDArray[Any] = np.asarray(zarr.open_array(path, path=stored_as[0], mode="r"))
     return array

@@ -6,10 +6,11 @@ Strengths are in W and W/sr, or in lm and cd in a photometric scene: a number, o
 from __future__ import annotations
 
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
-from ._convert import Amount, Vector, amount, flag, number, vector, whole, word
-from ._part import Part, optional, required
+from ._convert import Amount, Flag, Number, Vector, Whole, Word
+from ._part import Part
 
 __all__ = ["Ambient", "LambertianLight", "Light", "ParallelLight", "PointLight", "SpotLight"]
 
@@ -18,17 +19,17 @@ __all__ = ["Ambient", "LambertianLight", "Light", "ParallelLight", "PointLight",
 class Light(Part):
     """What all lights have: a name of their own, and whether shapes keep their light from each other."""
 
-    name: str | None = optional(word)
-    casts_shadows: bool = optional(flag, True)
+    name: Word | None = None
+    casts_shadows: Flag = True
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class PointLight(Light):
     """A point that sends the same in every direction: either ``intensity``, or ``power`` = 4π times it."""
 
-    position: Vector = required(vector)
-    intensity: Amount | None = optional(amount)
-    power: Amount | None = optional(amount)
+    position: Vector
+    intensity: Amount | None = None
+    power: Amount | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -37,12 +38,12 @@ class LambertianLight(Light):
 
     It is aimed by its ``axis``, or by the point ``target``."""
 
-    _FIXED = {"emission": "lambertian"}
-    position: Vector = required(vector)
-    intensity: Amount | None = optional(amount)
-    power: Amount | None = optional(amount)
-    axis: Vector | None = optional(vector)
-    target: Vector | None = optional(vector)
+    _FIXED = MappingProxyType({"emission": "lambertian"})
+    position: Vector
+    intensity: Amount | None = None
+    power: Amount | None = None
+    axis: Vector | None = None
+    target: Vector | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -50,14 +51,14 @@ class SpotLight(Light):
     """A point that sends its full intensity up to ``inner_angle`` from its axis, nothing beyond ``outer_angle``, and a
     smooth step between; aimed by its ``axis``, or by the point ``target``."""
 
-    _FIXED = {"emission": "spot"}
-    position: Vector = required(vector)
-    inner_angle: float = required(number)
-    outer_angle: float = required(number)
-    intensity: Amount | None = optional(amount)
-    power: Amount | None = optional(amount)
-    axis: Vector | None = optional(vector)
-    target: Vector | None = optional(vector)
+    _FIXED = MappingProxyType({"emission": "spot"})
+    position: Vector
+    inner_angle: Number
+    outer_angle: Number
+    intensity: Amount | None = None
+    power: Amount | None = None
+    axis: Vector | None = None
+    target: Vector | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -65,9 +66,9 @@ class ParallelLight(Light):
     """Light from one direction, without loss, like the sun's: ``direction`` is the one in which it travels, ``irradiance``
     what a plane at right angles to it receives, in W/m² or lx."""
 
-    _FIXED = {"emission": "parallel"}
-    direction: Vector = required(vector)
-    irradiance: Amount = required(amount)
+    _FIXED = MappingProxyType({"emission": "parallel"})
+    direction: Vector
+    irradiance: Amount
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -75,9 +76,9 @@ class Ambient(Part):
     """Light from all around, of the same ``radiance`` (W/(m²·sr) or cd/m²) from every direction; with ``obstructed``, each
     point looks in ``samples`` directions for shapes that are in the way."""
 
-    radiance: Amount = required(amount)
-    obstructed: bool = optional(flag, False)
-    samples: int = optional(whole, 64)
+    radiance: Amount
+    obstructed: Flag = False
+    samples: Whole = 64
 
 
 _BY_EMISSION: dict[Any, type[Light]] = {

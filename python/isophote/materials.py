@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from enum import Enum
 
 from . import _isophote
-from ._convert import Amount, amount, number
-from ._part import Part, optional, required
+from ._convert import Amount, Number
+from ._part import Part
 
 __all__ = ["Convention", "Material"]
 
@@ -17,9 +17,9 @@ class Material(Part):
     """What a surface is made of: the diffuse coefficient k_d, the specular one k_s (numbers, or one for each of red, green
     and blue), and the shininess n, which must be given where k_s is not 0."""
 
-    diffuse: Amount = required(amount)
-    specular: Amount = optional(amount, 0.0)
-    shininess: float | None = optional(number)
+    diffuse: Amount
+    specular: Amount = 0.0
+    shininess: Number | None = None
 
 
 class Convention(str, Enum):

@@ -83,15 +83,18 @@ class Values(Mapping[str, NDArray[Any]]):
         about = self._scene.core.describe()
         length = self._scene.length
         lines = []
-        for index in range(min(self.count, _SHOWN)):
+        indices = np.flatnonzero(self["shape"] >= 0)
+        for index in indices[:_SHOWN]:
             x, y, z = self["position"][index]
             brightness, irradiance = self["brightness"][index], self["irradiance"][index]
             where = f"({x:.6g}, {y:.6g}, {z:.6g}) {length}"
             values = f"B = {brightness:.15g} {about['brightness_unit']}, E = {irradiance:.15g} {about['irradiance_unit']}"
             name = self._names[index] if index < len(self._names) else f"[{index}]"
             lines.append(f"  {name}: {where}: {values}")
-        if self.count > _SHOWN:
-            lines.append(f"  … {self.count - _SHOWN} more points")
+        if len(indices) > _SHOWN:
+            lines.append(f"  … {len(indices) - _SHOWN} more points")
+        if len(indices) < self.count:
+            lines.append(f"  no surface at {self.count - len(indices)} points")
         return lines
 
     def __repr__(self) -> str:
@@ -166,16 +169,18 @@ def probe(
     names: list[str] = []
     with reporter(progress, "points") as report:
         if pixels is not None:
-            places = _Places(None, _pixels(pixels), elsewhere)
-            arrays = _isophote.probe_pixels(scene.core, places.pixels, elsewhere, per_light, report)
+            columns_rows = _pixels(pixels)
+            places = _Places(None, columns_rows, elsewhere)
+            arrays = _isophote.probe_pixels(scene.core, columns_rows, elsewhere, per_light, report)
         else:
             if at is None:
                 names = list(scene.core.describe()["probes"])
                 if not names:
                     raise ArgumentError("the scene has no probes; say where: at=[(x, y, z), …] or pixels=[(column, row), …]")
-                at = [one.at for one in scene.probes]
-            places = _Places(points(at, "at"), None, elsewhere)
-            arrays = _isophote.probe_points(scene.core, places.points, elsewhere, per_light, report)
+                at = np.array([one.at for one in scene.probes])
+            wanted = points(at, "at")
+            places = _Places(wanted, None, elsewhere)
+            arrays = _isophote.probe_points(scene.core, wanted, elsewhere, per_light, report)
     return Probes(scene, arrays, names, places)
 
 
@@ -227,9 +232,7 @@ class Section(Values):
     def _unit(self, name: str) -> str:
         return self._scene.core.describe()["screen_unit"] if name == "screen" else super()._unit(name)
 
-    def plot(
-        self, *names: str, ax: matplotlib.axes.Axes | None = None, **options: Any
-    ) -> matplotlib.axes.Axes:
+    def plot(self, *names: str, ax: matplotlib.axes.Axes | None = None, **options: Any) -> matplotlib.axes.Axes:
         """Draws values along the line by matplotlib, the brightness by default; further options are those of ``plot``."""
         from ._plots import plot_section
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Union
 
 from . import _isophote
 from ._convert import Invalid, Size, whole
@@ -14,7 +13,7 @@ from .scene import Scene
 
 __all__ = ["Channels", "channel_names", "render"]
 
-Channels = Union[str, Sequence[str], None]
+Channels = str | Sequence[str] | None
 """Names of channels; ``"lights"`` stands for the irradiance by each light, ``"all"`` for all that there are."""
 
 

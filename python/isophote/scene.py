@@ -7,32 +7,30 @@ import json
 import os
 import re
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, TypeVar
+from typing import Annotated, Any
 
 from . import _isophote
-from ._convert import Invalid, Size, Vector, flag, number, size, vector, word
-from ._part import Part, nested, optional, required
+from ._convert import Flag, Invalid, Number, Size, Vector, Word
+from ._part import Part
 from .camera import Camera, Sampling
 from .errors import ArgumentError, SceneWarning
 from .lights import Ambient, Light, light_from_dict
-from .materials import Convention, Material
+from .materials import Material
 from .shapes import KINDS, Shape
 
 __all__ = ["Grid", "Probe", "Scene"]
-
-Item = TypeVar("Item", bound=Part)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Probe(Part):
     """A point of a surface whose values are reported. ``published`` is a value that somebody printed for it."""
 
-    at: Vector = required(vector)
-    name: str | None = optional(word)
-    published: float | None = optional(number)
+    at: Vector
+    name: Word | None = None
+    published: Number | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -40,13 +38,13 @@ class Grid(Part):
     """Points on a rectangle at which the irradiance is computed: ``points`` of them along the edges ``u`` and ``v``, which
     begin at ``corner`` or have ``center`` between them. ``side`` is ``"front"`` (to which u × v leads) or ``"back"``."""
 
-    u: Vector = required(vector)
-    v: Vector = required(vector)
-    points: Size = required(size)
-    corner: Vector | None = optional(vector)
-    center: Vector | None = optional(vector)
-    name: str | None = optional(word)
-    side: str = optional(word, "front")
+    u: Vector
+    v: Vector
+    points: Size
+    corner: Vector | None = None
+    center: Vector | None = None
+    name: Word | None = None
+    side: Word = "front"
 
 
 def _several(kind: type[Part]) -> Any:
@@ -77,7 +75,7 @@ def _materials(value: Any) -> Mapping[str, Material]:
 
 
 def _directory(value: Any) -> str:
-    return os.path.abspath(os.fspath(value))
+    return str(os.path.abspath(value))
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -91,24 +89,22 @@ class Scene(Part):
     probes, by kind first. ``directory`` is where relative names of files start.
     """
 
-    length: str = required(word)
-    camera: Camera = required(nested(Camera))
-    title: str = optional(word, "")
-    convention: str | Convention = optional(word, "radiance")
-    handedness: str = optional(word, "right")
-    quantities: str = optional(word, "radiometric")
-    color_space: str = optional(word, "rec709")
-    shadows: bool = optional(flag, False)
-    sampling: Sampling | None = optional(nested(Sampling))
-    materials: Mapping[str, Material] = dataclasses.field(
-        default_factory=lambda: MappingProxyType({}), metadata={"convert": _materials}
-    )
-    shapes: tuple[Shape, ...] = optional(_shapes, ())
-    lights: tuple[Light, ...] = optional(_several(Light), ())
-    ambient: Ambient | None = optional(nested(Ambient))
-    probes: tuple[Probe, ...] = optional(_several(Probe), ())
-    grids: tuple[Grid, ...] = optional(_several(Grid), ())
-    directory: str = optional(_directory, "")
+    length: Word
+    camera: Camera
+    title: Word = ""
+    convention: Word = "radiance"
+    handedness: Word = "right"
+    quantities: Word = "radiometric"
+    color_space: Word = "rec709"
+    shadows: Flag = False
+    sampling: Sampling | None = None
+    materials: Annotated[Mapping[str, Material], _materials] = dataclasses.field(default_factory=dict)
+    shapes: Annotated[Sequence[Shape], _shapes] = ()
+    lights: Annotated[Sequence[Light], _several(Light)] = ()
+    ambient: Ambient | None = None
+    probes: Annotated[Sequence[Probe], _several(Probe)] = ()
+    grids: Annotated[Sequence[Grid], _several(Grid)] = ()
+    directory: Annotated[str | os.PathLike[str], _directory] = ""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -244,8 +240,12 @@ class Scene(Part):
 
 _LISTS = ("materials", "shapes", "lights", "probes", "grids")
 _SHOWN = 12
-_LENGTHS = ("position", "center", "radius", "radii", "size", "start", "end", "base", "apex", "apex_radius", "point")
-_LENGTHS += ("width", "height", "target")
+# fmt: off
+_LENGTHS = frozenset({
+    "apex", "apex_radius", "base", "center", "end", "height", "point", "position", "radii", "radius", "size", "start", "target",
+    "width",
+})
+# fmt: on
 _ANGLES = ("inner_angle", "outer_angle")
 
 
@@ -260,8 +260,7 @@ def _fields(written: dict[str, Any]) -> dict[str, Any]:
     """The fields of a scene, of what its file says; those that it does not mention have their defaults."""
     fields: dict[str, Any] = {}
     for field in dataclasses.fields(Scene):
-        default = field.default_factory() if field.default_factory is not dataclasses.MISSING else field.default
-        fields[field.name] = written.get(field.name, default)
+        fields[field.name] = written.get(field.name, field.default)
     fields["materials"] = {name: Material.from_dict(one) for name, one in written.get("material", {}).items()}
     fields["shapes"] = [kind.from_dict(one) for kind in KINDS for one in written.get(kind.KEY, [])]
     fields["lights"] = [light_from_dict(one) for one in written.get("light", [])]
@@ -278,7 +277,9 @@ def _set(scene: Scene, changes: dict[str, Any], path: str, value: Any) -> None:
 
     match = re.fullmatch(r"(?P<table>\w+)(?:\[(?P<index>\d+)\])?(?:\.(?P<rest>.+))?", path)
     if match is None:
-        raise ArgumentError(f"{path!r} is no path; allowed: such as light.lamp.position, material.clay.shininess, camera.eye")
+        raise ArgumentError(
+            f"{path!r} is no path; allowed: such as light.lamp.position, material.clay.shininess, camera.eye"
+        )
     table, index, rest = match["table"], match["index"], match["rest"]
     if table in _SIMPLE and rest is None and index is None:
         changes[table] = value
@@ -302,7 +303,9 @@ def _set(scene: Scene, changes: dict[str, Any], path: str, value: Any) -> None:
         items[number] = _inside(items[number], keys, path, value)
         changes[field] = items
     else:
-        allowed = sorted([*_SIMPLE, "camera.…", "sampling.…", "ambient.…", "material.NAME.…", *(f"{t}.NAME.…" for t in _TABLES)])
+        allowed = sorted(
+            [*_SIMPLE, "camera.…", "sampling.…", "ambient.…", "material.NAME.…", *(f"{t}.NAME.…" for t in _TABLES)]
+        )
         raise ArgumentError(f"{path!r} leads nowhere; allowed: {', '.join(allowed)}")
 
 
@@ -372,5 +375,3 @@ def _body(part: Part, length: str = "", units: Mapping[str, str] = MappingProxyT
 
 def _more(count: int, what: str) -> list[str]:
     return [f"  … {count - _SHOWN} more {what}"] if count > _SHOWN else []
-
-

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import ClassVar
 
-from ._convert import Vector, flag, number, vector, word
-from ._part import Part, nested, optional, required
+from ._convert import Flag, Number, Vector, Word
+from ._part import Part
 
 __all__ = [
     "Box",
@@ -28,8 +29,8 @@ __all__ = [
 class Rotation(Part):
     """A turn by ``degrees`` about ``axis``, counter-clockwise for who looks against the axis."""
 
-    axis: Vector = required(vector)
-    degrees: float = required(number)
+    axis: Vector
+    degrees: Number
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -39,10 +40,10 @@ class Shape(Part):
     KEY: ClassVar[str]
     """The table of a scene file that holds such shapes."""
 
-    name: str | None = optional(word)
-    material: str | None = optional(word)
-    casts_shadow: bool = optional(flag, True)
-    receives_shadow: bool = optional(flag, True)
+    name: Word | None = None
+    material: Word | None = None
+    casts_shadow: Flag = True
+    receives_shadow: Flag = True
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -50,8 +51,8 @@ class Sphere(Shape):
     """A sphere."""
 
     KEY = "sphere"
-    center: Vector = required(vector)
-    radius: float = required(number)
+    center: Vector
+    radius: Number
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -59,9 +60,9 @@ class Ellipsoid(Shape):
     """An ellipsoid with its radii along its own x, y and z."""
 
     KEY = "ellipsoid"
-    center: Vector = required(vector)
-    radii: Vector = required(vector)
-    rotation: Rotation | None = optional(nested(Rotation))
+    center: Vector
+    radii: Vector
+    rotation: Rotation | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -69,9 +70,9 @@ class Box(Shape):
     """A box with its sides along its own x, y and z."""
 
     KEY = "box"
-    center: Vector = required(vector)
-    size: Vector = required(vector)
-    rotation: Rotation | None = optional(nested(Rotation))
+    center: Vector
+    size: Vector
+    rotation: Rotation | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -80,9 +81,10 @@ class Cylinder(Shape):
 
     KEY = "cylinder"
     # Python keeps `from` for itself.
-    start: Vector = required(vector, key="from")
-    end: Vector = required(vector, key="to")
-    radius: float = required(number)
+    _KEYS = MappingProxyType({"start": "from", "end": "to"})
+    start: Vector
+    end: Vector
+    radius: Number
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -90,10 +92,10 @@ class Cone(Shape):
     """A cone with its base, cut off at the top if ``apex_radius`` is not 0."""
 
     KEY = "cone"
-    base: Vector = required(vector)
-    apex: Vector = required(vector)
-    radius: float = required(number)
-    apex_radius: float = optional(number, 0.0)
+    base: Vector
+    apex: Vector
+    radius: Number
+    apex_radius: Number = 0.0
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -101,8 +103,8 @@ class Plane(Shape):
     """A plane without end."""
 
     KEY = "plane"
-    point: Vector = required(vector)
-    normal: Vector = required(vector)
+    point: Vector
+    normal: Vector
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -110,11 +112,11 @@ class Rectangle(Shape):
     """A rectangle, seen from both sides; its height runs along ``up``."""
 
     KEY = "rectangle"
-    center: Vector = required(vector)
-    normal: Vector = required(vector)
-    width: float = required(number)
-    height: float = required(number)
-    up: Vector = optional(vector, (0.0, 1.0, 0.0))
+    center: Vector
+    normal: Vector
+    width: Number
+    height: Number
+    up: Vector = (0.0, 1.0, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -122,9 +124,9 @@ class Disk(Shape):
     """A disk, seen from both sides."""
 
     KEY = "disk"
-    center: Vector = required(vector)
-    normal: Vector = required(vector)
-    radius: float = required(number)
+    center: Vector
+    normal: Vector
+    radius: Number
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -132,11 +134,11 @@ class Mesh(Shape):
     """A mesh of triangles from an OBJ, PLY, STL or binary glTF file, scaled, then turned, then moved."""
 
     KEY = "mesh"
-    file: str = required(word)
-    scale: Vector = optional(vector, (1.0, 1.0, 1.0))
-    rotation: Rotation | None = optional(nested(Rotation))
-    position: Vector = optional(vector, (0.0, 0.0, 0.0))
-    smooth: bool = optional(flag, True)
+    file: Word
+    scale: Vector = (1.0, 1.0, 1.0)
+    rotation: Rotation | None = None
+    position: Vector = (0.0, 0.0, 0.0)
+    smooth: Flag = True
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -144,7 +146,7 @@ class Spheres(Shape):
     """Many spheres from a CSV, NPY or PLY file of centres and radii."""
 
     KEY = "spheres"
-    file: str = required(word)
+    file: Word
 
 
 KINDS: tuple[type[Shape], ...] = (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -23,7 +24,7 @@ __all__ = ["StoredMap", "render_to_zarr"]
 @dataclass(frozen=True)
 class StoredMap:
     """A store that is complete: how many pixels it has, how many see a surface, and how many of those are lit; and each
-    channel's extremes with their columns and rows, and its mean, as ``((min, [column, row]), (max, [column, row]), mean)``."""
+    channel's extremes with their columns and rows, and its mean: ``((min, [column, row]), (max, [column, row]), mean)``."""
 
     path: str
     pixels: int
@@ -34,8 +35,13 @@ class StoredMap:
     def open(self) -> xarray.Dataset:
         """The store as an xarray Dataset, which reads what is asked of it."""
         import xarray
+        import zarr
 
-        return xarray.open_zarr(self.path, chunks=None, consolidated=False)
+        with warnings.catch_warnings():
+            # The picture and the records beside the arrays are none of Zarr's.
+            warnings.simplefilter("ignore", zarr.errors.ZarrUserWarning)
+            dataset: xarray.Dataset = xarray.open_zarr(self.path, chunks=None, consolidated=False)
+        return dataset
 
 
 def render_to_zarr(
@@ -59,7 +65,7 @@ def render_to_zarr(
     ``client``: a Dask client: its workers render, one shard each at a time, and write it themselves, whole. A shard whose
     worker died is rendered by another one. The workers must see the store under the same name.
     ``threads``, ``memory``: without a client, how many shards at a time, and in how many bytes.
-    ``resume``: goes on with a store that holds a part of the same map. Whatever broke off an earlier run, what was done stays.
+    ``resume``: goes on with a store that holds a part of the same map. However an earlier run ended, what was done stays.
     ``check``: whether, in the end, every byte is read again and compared with its checksum.
     """
     if size is not None:
@@ -72,9 +78,7 @@ def render_to_zarr(
     with reporter(progress, "pixels" if client is None else "shards") as report:
         if client is None:
             bytes_of = None if memory is None else positive(memory, "memory")
-            _isophote.store_render(
-                scene.core, path, names, precision, side, None, threads_of(threads), bytes_of, report
-            )
+            _isophote.store_render(scene.core, path, names, precision, side, None, threads_of(threads), bytes_of, report)
         else:
             _on_cluster(plan, due, count, client, report)
     merged = _isophote.store_merge(path, check)

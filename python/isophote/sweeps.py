@@ -69,7 +69,8 @@ def sweep(
                 report(done, len(tasks))
     if isinstance(into, _Memory):
         return template.dataset(into.arrays)
-    return xarray.open_zarr(into.path, chunks=None, consolidated=False)
+    dataset: xarray.Dataset = xarray.open_zarr(into.path, chunks=None, consolidated=False)
+    return dataset.assign_coords(template.dataset({}).coords)
 
 
 @dataclass(frozen=True)
@@ -93,9 +94,7 @@ class _Stopped(Exception):
     """Another map failed, or the user stopped all of them."""
 
 
-def _tasks(
-    scene: Scene, values: Mapping[str, Sequence[Any]], names: list[str], precision: str
-) -> Iterator[_Task]:
+def _tasks(scene: Scene, values: Mapping[str, Sequence[Any]], names: list[str], precision: str) -> Iterator[_Task]:
     """Every combination: what is wrong with any of them is known before the first map is rendered."""
     size = scene.core.describe()["resolution"]
     for index in itertools.product(*(range(len(several)) for several in values.values())):
@@ -128,6 +127,15 @@ class _Template:
 
         variables = {name: (self.variables[name][0], array, self.variables[name][2]) for name, array in arrays.items()}
         return xarray.Dataset(variables, self.coordinates, self.attributes)
+
+    def numbered(self) -> xarray.Dataset:
+        """The same with numbers for words, which Zarr has no settled form for; the words are in the attribute ``labels``."""
+        dataset = self.dataset({})
+        for name, coordinate in dataset.coords.items():
+            if coordinate.dtype.kind == "U":
+                numbers = np.arange(coordinate.size)
+                dataset = dataset.assign_coords({name: (coordinate.dims, numbers, {"labels": coordinate.values.tolist()})})
+        return dataset
 
 
 def _template(values: Mapping[str, Sequence[Any]], first: Map) -> _Template:
@@ -187,7 +195,7 @@ class _Store:
 
         if os.path.lexists(path):
             raise ArgumentError(f"{path} exists already; choose another name, or remove it")
-        template.dataset({}).to_zarr(path, mode="w-", zarr_format=3, consolidated=False)
+        template.numbered().to_zarr(path, mode="w-", zarr_format=3, consolidated=False)
         group = zarr.open_group(path, mode="r+")
         for name, (dims, dtype, attrs) in template.variables.items():
             shape = template.shape(name)
