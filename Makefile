@@ -33,7 +33,7 @@ test: python-env ## Run every test (those in Python, and with it as a foreign re
 	@[ ! -e $(PYTHON_ENV)/ready ] || $(MAKE) --no-print-directory test-python
 
 test-python: python-env python-module ## Run the tests of the Python package alone
-	cd python && PYTHONPATH=. $(PYTHON) -m pytest
+	cd python && PYTHONPATH="$(CURDIR)/python" $(PYTHON) -m pytest
 
 check: generated-is-current check-python ## Formatting, lints, documentation without warnings, generated files up to date
 	$(CARGO) fmt --all --check

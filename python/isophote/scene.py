@@ -211,7 +211,7 @@ class Scene(Part):
 
     def _files_start(self) -> str:
         """Where names of files start, if there are any: else it makes no difference."""
-        return self.directory if any(isinstance(shape, (Mesh, Spheres)) for shape in self.shapes) else ""
+        return str(self.directory) if any(isinstance(shape, (Mesh, Spheres)) for shape in self.shapes) else ""
 
     def __repr__(self) -> str:
         about = self.core.describe()
