@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib.util
 import os
 import signal
 import subprocess
@@ -15,6 +16,8 @@ import xarray
 from conftest import REPOSITORY
 
 import isophote as iso
+
+needs_zarr = pytest.mark.skipif(importlib.util.find_spec("zarr") is None, reason="zarr 3 is for Python from 3.11")
 
 POSITIONS = [(5, 5, -10), (0, 5, -10), (-5, 5, -10)]
 SHININESS = [5, 20.0, 80]
@@ -59,6 +62,7 @@ def test_a_sweep_has_a_dimension_for_each_parameter(small):
     assert heard == [(number, 9) for number in range(1, 10)]
 
 
+@needs_zarr
 def test_a_sweep_into_a_store_is_the_same(small, tmp_path):
     store = tmp_path / "sweep.zarr"
     found = iso.sweep(small, PARAMETERS, channels=["brightness", "normal"], store=store, workers=3)
@@ -97,6 +101,7 @@ def test_what_is_wrong_with_a_sweep_is_known_before_it_begins(small, tmp_path):
     assert not store.exists()
 
 
+@needs_zarr
 def test_a_cluster_sweeps_as_well(small, client, tmp_path):
     check(iso.sweep(small, PARAMETERS, client=client), small)
     found = iso.sweep(small, PARAMETERS, client=client, store=tmp_path / "sweep.zarr")
@@ -116,6 +121,7 @@ def by_command(store: Path, scene: Path, *options: str) -> dict[str, bytes]:
 LAB = REPOSITORY / "scenes" / "lab.toml"
 
 
+@needs_zarr
 def test_a_store_is_the_commands_byte_for_byte(tmp_path):
     scene = iso.Scene.from_file(LAB)
     expected = by_command(tmp_path / "command.zarr", LAB, "--size", "1000x750", "--shard-side", "256")
