@@ -28,11 +28,12 @@ pub fn build(count: u32, bounds: impl Fn(u32) -> Option<Bounds> + Sync) -> Accel
     let unit = Unit::around((0..count).filter_map(bounded).reduce(Bounds::union).unwrap_or_default());
     let leaf = |number: u32| bounded(number).map(|bounds| leaf(single_box(&unit, &bounds), Child::primitive(number)));
     let mut nodes = vec![Node::EMPTY];
-    let numbers = sorted(count, |number| bounded(number).map(|bounds| unit.place((bounds.least + bounds.greatest) * 0.5)));
+    let numbers =
+        sorted(count, |number| bounded(number).map(|bounds| unit.place((bounds.least + bounds.greatest) * 0.5)));
     let parts: Vec<&[u64]> = numbers.chunks(PART).collect();
     let leaves = |part: &[u64]| part.iter().filter_map(|entry| leaf(number_of(*entry))).collect();
     if let [part] = parts[..] {
-        widen(&binary_tree(leaves(part)), 0, &mut nodes, 0);
+        widen_all(&binary_tree(leaves(part)), &mut nodes);
     } else if !parts.is_empty() {
         let mut pieces = Vec::with_capacity(parts.len() * PIECES);
         for parts in parts.chunks(AT_ONCE) {
@@ -41,7 +42,7 @@ pub fn build(count: u32, bounds: impl Fn(u32) -> Option<Bounds> + Sync) -> Accel
                 part.append_to(&mut nodes, &mut pieces);
             }
         }
-        widen(&binary_tree(pieces), 0, &mut nodes, 0);
+        widen_all(&binary_tree(pieces), &mut nodes);
     }
     nodes.shrink_to_fit();
     let unbounded = (0..count).filter(|number| bounded(*number).is_none()).collect();
@@ -110,10 +111,11 @@ struct Part {
 
 impl Part {
     fn of(tree: &Bvh2) -> Self {
+        let counts = leaf_counts(tree);
         let mut part = Self { nodes: Vec::new(), pieces: Vec::with_capacity(PIECES) };
         let mut pieces = vec![0];
         while pieces.len() < PIECES
-            && let Some(largest) = largest(tree, &pieces)
+            && let Some(largest) = largest(tree, &pieces, |_| true)
         {
             open(tree, &mut pieces, largest);
         }
@@ -124,7 +126,7 @@ impl Part {
             } else {
                 part.nodes.push(Node::EMPTY);
                 let place = part.nodes.len() - 1;
-                widen(tree, piece, &mut part.nodes, place);
+                widen(tree, &counts, piece, &mut part.nodes, place);
                 leaf(*node.aabb(), Child::node(place))
             });
         }
@@ -134,15 +136,24 @@ impl Part {
     /// Puts its nodes after others, and its pieces.
     fn append_to(self, nodes: &mut Vec<Node>, pieces: &mut Vec<Bvh2Node>) {
         let by = nodes.len();
-        nodes.extend(self.nodes.into_iter().map(|node| Node { children: node.children.map(|child| child.moved(by)), ..node }));
+        nodes.extend(
+            self.nodes.into_iter().map(|node| Node { children: node.children.map(|child| child.moved(by)), ..node }),
+        );
         let moved = |piece: Bvh2Node| leaf(*piece.aabb(), Child::from_bits(piece.first_index).moved(by));
         pieces.extend(self.pieces.into_iter().map(moved));
     }
 }
 
+/// A whole tree, whose root goes to the first place.
+fn widen_all(tree: &Bvh2, nodes: &mut Vec<Node>) {
+    widen(tree, &leaf_counts(tree), 0, nodes, 0);
+}
+
 /// Merges the nodes of a binary tree from `root` on into wide ones, the first of which goes to `place`: each takes the
-/// children of its largest boxes for as long as there is room.
-fn widen(tree: &Bvh2, root: usize, nodes: &mut Vec<Node>, place: usize) {
+/// children of its largest boxes for as long as there is room. But what fits into one node stays together, else the lowest
+/// ones, which are most of all, would be almost empty.
+fn widen(tree: &Bvh2, counts: &[u32], root: usize, nodes: &mut Vec<Node>, place: usize) {
+    let fits = |node: usize| counts[node] as usize <= WIDTH;
     // Places in `nodes` to be filled, with the binary node that goes there.
     let mut to_fill = vec![(place, root)];
     let mut members = Vec::with_capacity(WIDTH);
@@ -150,7 +161,7 @@ fn widen(tree: &Bvh2, root: usize, nodes: &mut Vec<Node>, place: usize) {
         members.clear();
         members.push(root);
         while members.len() < WIDTH
-            && let Some(largest) = largest(tree, &members)
+            && let Some(largest) = largest(tree, &members, |node| fits(root) || !fits(node))
         {
             open(tree, &mut members, largest);
         }
@@ -168,10 +179,20 @@ fn widen(tree: &Bvh2, root: usize, nodes: &mut Vec<Node>, place: usize) {
     }
 }
 
-/// Which of some binary nodes has the largest box, leaves aside.
-fn largest(tree: &Bvh2, members: &[usize]) -> Option<usize> {
+/// How many leaves are below each node, which comes before its children.
+fn leaf_counts(tree: &Bvh2) -> Vec<u32> {
+    let mut counts = vec![1; tree.nodes.len()];
+    for (index, node) in tree.nodes.iter().enumerate().rev().filter(|(_, node)| !node.is_leaf()) {
+        let first = node.first_index as usize;
+        counts[index] = counts[first] + counts[first + 1];
+    }
+    counts
+}
+
+/// Which of some binary nodes has the largest box, of those that have children and may be opened.
+fn largest(tree: &Bvh2, members: &[usize], may_open: impl Fn(usize) -> bool) -> Option<usize> {
     let area = |place: &usize| tree.nodes[members[*place]].aabb().half_area();
-    let inner = (0..members.len()).filter(|place| !tree.nodes[members[*place]].is_leaf());
+    let inner = (0..members.len()).filter(|place| !tree.nodes[members[*place]].is_leaf() && may_open(members[*place]));
     inner.max_by(|first, second| area(first).total_cmp(&area(second)))
 }
 

@@ -1,5 +1,6 @@
 //! Pixels as means over their area instead of values at their centres.
 
+mod bands;
 mod filter;
 mod fixed;
 mod pattern;
@@ -66,8 +67,16 @@ const FIRST_SAMPLES: u32 = 16;
 /// So many uncertain pixels are shared by several threads.
 const WORTH_THREADS: usize = 100;
 
-/// What renders the centres of pixels, in memory of an earlier map if there is any.
-pub type Centres<'c> = dyn Fn(Vec<Values>, &PreparedScene, &RenderSettings<'_>) -> Result<Map, RenderError> + 'c;
+/// Renders the centres of pixels, in memory of an earlier map if there is any.
+pub type Centres<'c> = dyn Fn(Vec<Values>, &PreparedScene, &RenderSettings<'_>) -> Result<Map, RenderError> + Sync + 'c;
+
+/// What renders the centres of pixels.
+pub struct Renders<'c> {
+    /// On all threads there are.
+    pub shared: &'c Centres<'c>,
+    /// On the thread that asks.
+    pub alone: &'c Centres<'c>,
+}
 
 /// Renders means over pixels: of as many samples as the scene asks for, or of more where the value is uncertain.
 ///
@@ -77,7 +86,7 @@ pub fn render(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
     pool: Option<&ThreadPool>,
-    centres: &Centres<'_>,
+    renders: &Renders<'_>,
 ) -> Result<Map, RenderError> {
     let sampling = scene.scene().sampling();
     let reach = sampling.filter.reach();
@@ -86,8 +95,8 @@ pub fn render(
     band::check(region, full)?;
     let settings = RenderSettings { region: Some(grown(region, reach, full)), ..settings.clone() };
     let map = match sampling.tolerance {
-        Some(tolerance) => refined(scene, &settings, tolerance, pool, centres)?,
-        None => fixed::render(scene, &settings, pool, centres)?,
+        Some(tolerance) => refined(scene, &settings, tolerance, pool, renders)?,
+        None => fixed::render(scene, &settings, pool, renders)?,
     };
     let mut map = cropped(map, region, scene);
     map.retain(|quantity| settings.quantities.contains(quantity));
@@ -101,7 +110,7 @@ fn refined(
     settings: &RenderSettings<'_>,
     tolerance: f64,
     pool: Option<&ThreadPool>,
-    centres: &Centres<'_>,
+    renders: &Renders<'_>,
 ) -> Result<Map, RenderError> {
     let sampling = scene.scene().sampling();
     let full = scene.scene().camera().resolution;
@@ -109,8 +118,8 @@ fn refined(
     let mut quantities = settings.quantities.clone();
     quantities.push(Quantity::Brightness);
     let wide = RenderSettings { region: Some(grown(region, 1, full)), quantities, ..settings.clone() };
-    let mut map = centres(Vec::new(), scene, &wide)?;
-    let tolerance = tolerance * peak(scene, centres)?;
+    let mut map = (renders.shared)(Vec::new(), scene, &wide)?;
+    let tolerance = tolerance * peak(scene, renders)?;
     let averages = Averages::of(&map, scene);
     let (patterns, offsets) = (Patterns::new(sampling.samples), refine::offsets(sampling.filter));
     let wanted = Wanted { averages: &averages, sampling, patterns: &patterns, offsets: &offsets, tolerance };
@@ -144,14 +153,14 @@ fn grown(region: Region, by: u32, full: Resolution) -> Region {
 const GLANCE: u32 = 96;
 
 /// About the largest brightness of the whole image, whatever the region: that of a small image of it.
-fn peak(scene: &PreparedScene, centres: &Centres<'_>) -> Result<f64, RenderError> {
+fn peak(scene: &PreparedScene, renders: &Renders<'_>) -> Result<f64, RenderError> {
     let full = scene.scene().camera().resolution;
     let longer = f64::from(full.width.max(full.height));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the side it had")]
     let side = |side: u32| ((f64::from(side) * f64::from(GLANCE) / longer).ceil() as u32).clamp(1, side);
     let small = scene.at_resolution(Resolution { width: side(full.width), height: side(full.height) });
     let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
-    let map = centres(Vec::new(), &small, &settings)?;
+    let map = (renders.shared)(Vec::new(), &small, &settings)?;
     Ok(totals(&map, &Quantity::Brightness).map_or(0.0, |totals| totals.max.value))
 }
 

@@ -261,14 +261,13 @@ pub fn put_shapes(map: &mut Map, shapes: &[i32]) {
 
 /// Writes a value into a scalar channel.
 pub fn put(map: &mut Map, channel: usize, index: usize, value: f64) -> Result<(), RenderError> {
-    let pixel = map.pixel(index);
     match &mut map.channels[channel].values {
         Values::Scalar(values) => values[index] = value,
         Values::Single(values) => {
             #[expect(clippy::cast_possible_truncation, reason = "what does not fit is refused")]
             let single = value as f32;
             if !single.is_finite() {
-                return Err(RenderError::Overflow { pixel, value });
+                return Err(RenderError::Overflow { pixel: map.pixel(index), value });
             }
             values[index] = single;
         }
