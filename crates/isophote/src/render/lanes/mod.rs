@@ -3,10 +3,10 @@
 //! Shapes are found by their [outlines](crate::shape::Outline) instead of ray by ray; what they see is shaded several
 //! pixels at a time. Pixels for which that is not exact enough are traced and summed one by one, as the reference does.
 
-mod kernel;
+pub(super) mod kernel;
 pub(super) mod lights;
 pub(super) mod power;
-mod visible;
+pub(super) mod visible;
 
 use std::num::NonZeroUsize;
 use std::sync::OnceLock;

@@ -3,8 +3,10 @@
 mod bands;
 mod filter;
 mod fixed;
+mod outlined;
 mod pattern;
 mod refine;
+mod rule;
 mod uncertain;
 
 use rayon::ThreadPool;
@@ -12,6 +14,7 @@ use rayon::prelude::*;
 
 pub use filter::Filter;
 
+use self::outlined::Outlined;
 use self::pattern::Patterns;
 use self::refine::{Averages, Refinement, Wanted};
 use self::uncertain::Uncertain;
@@ -124,9 +127,12 @@ fn refined(
     let (patterns, offsets) = (Patterns::new(sampling.samples), refine::offsets(sampling.filter));
     let wanted = Wanted { averages: &averages, sampling, patterns: &patterns, offsets: &offsets, tolerance };
     let pixels = uncertain::pixels(&map, region, tolerance, pool);
+    let outlined = Outlined::new(scene, &averages, sampling, tolerance);
     let refine = |uncertain: &Uncertain| {
         advance(settings.observer, 0)?;
-        Ok(Refinement::new(scene, &wanted, map.pixel(uncertain.index), uncertain))
+        let pixel = map.pixel(uncertain.index);
+        let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&averages, pixel, uncertain));
+        Ok(mean.unwrap_or_else(|| Refinement::new(scene, &wanted, pixel, uncertain)))
     };
     let refined = match pool {
         Some(pool) if pixels.len() > WORTH_THREADS => {

@@ -36,7 +36,7 @@ pub struct Refinement {
     samples: u32,
     /// The part of them that saw a surface.
     coverage: f64,
-    /// What the first one saw that saw anything.
+    /// What the first one saw that saw anything; needed where the centre does not.
     hit: Option<Hit>,
     /// For each pixel that the filter reaches, row by row from the upper left: the mean of weight × value of each
     /// averaged channel, and last the mean weight.
@@ -51,10 +51,19 @@ impl Averages {
         Self { channels: channels.collect() }
     }
 
+    /// Index among the map's channels, and what it is.
+    pub fn channels(&self) -> &[(usize, ScalarChannel)] {
+        &self.channels
+    }
+
+    /// The lights whose irradiance is averaged by itself, in the order of their channels.
+    pub fn lights(&self) -> impl Iterator<Item = usize> {
+        self.channels.iter().filter_map(|(_, channel)| channel.light())
+    }
+
     /// The values of a hit, and its brightness.
     fn values(&self, scene: &PreparedScene, hit: &Hit, position: ScreenPosition, values: &mut [f64]) -> f64 {
-        let lights = self.channels.iter().filter_map(|(_, channel)| channel.light());
-        let mut by_light = ByLight::of(lights);
+        let mut by_light = ByLight::of(self.lights());
         let shading = scene.shade(hit, Some(position), |light, term| by_light.take(light, term));
         for (value, (_, channel)) in values.iter_mut().zip(&self.channels) {
             match channel {
@@ -105,6 +114,13 @@ impl Refinement {
             }
             samples = enough;
         }
+    }
+
+    /// A mean over the pixel itself that no rays were sent for. Where its centre sees nothing, a hit belongs to it.
+    pub fn integrated(index: usize, samples: u32, coverage: f64, hit: Option<Hit>, means: Vec<f64>) -> Self {
+        let mut sums = means;
+        sums.push(1.0);
+        Self { index, samples, coverage, hit, sums }
     }
 
     /// With so many samples; and how much their brightness differs.

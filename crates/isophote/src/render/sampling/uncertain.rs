@@ -13,6 +13,8 @@ pub struct Uncertain {
     pub index: usize,
     /// By how much its neighbours differ from it: so much may be in a corner of it that the first samples miss.
     pub contrast: f64,
+    /// Whether its centre sees a surface.
+    pub sees: bool,
 }
 
 /// The uncertain pixels of a region: those where the brightness bends by more than the tolerance on one of the four lines
@@ -129,6 +131,6 @@ impl View<'_> {
             };
             is_uncertain |= bend.abs() > self.tolerance;
         }
-        is_uncertain.then_some(Uncertain { index: row * self.width + column, contrast })
+        is_uncertain.then_some(Uncertain { index: row * self.width + column, contrast, sees: shape >= 0 })
     }
 }
