@@ -58,43 +58,62 @@ pub fn each<T: Send, U: Send>(
     }
 }
 
-/// The map of a region whose bands are done, in their order from the top.
-pub fn stacked(parts: Vec<(Band, Map)>, region: Region, scene: &PreparedScene) -> Map {
-    let pixels = region.size.pixels();
-    let width = region.size.width as usize;
-    let mut channels: Vec<Channel> = Vec::new();
-    if let Some((_, map)) = parts.first() {
-        let empty = |Channel { quantity, unit, values }: &Channel| {
-            let values = match values {
-                Values::Scalar(_) => Values::Scalar(vec![0.0; pixels]),
-                Values::Single(_) => Values::Single(vec![0.0; pixels]),
-                Values::Vector(_) => Values::Vector(vec![[0.0; 3]; pixels]),
-                Values::Index(_) => Values::Index(vec![-1; pixels]),
-            };
-            Channel { quantity: quantity.clone(), unit: unit.clone(), values }
-        };
-        channels = map.channels.iter().map(empty).collect();
+/// The map of a region, band by band.
+pub struct Stack {
+    region: Region,
+    /// What the bands have in common, and what they hold.
+    map: Option<Map>,
+    runs: Vec<Run>,
+}
+
+impl Stack {
+    /// No band yet.
+    pub fn new(region: Region) -> Self {
+        Self { region, map: None, runs: Vec::new() }
     }
-    let mut runs = Vec::new();
-    let mut provenance = None;
-    for (band, map) in parts {
+
+    /// Puts a band to the others, whichever came before.
+    pub fn add(&mut self, band: Band, part: &Map) {
+        let Self { region, map, runs } = self;
+        let width = region.size.width as usize;
+        let map = map.get_or_insert_with(|| {
+            let channels = part.channels.iter().map(|channel| empty(channel, region.size.pixels())).collect();
+            let mask = Mask::new(region.size, Vec::new());
+            let (window, provenance) = (part.window, part.provenance.clone());
+            Map { full: part.full, region: *region, window, provenance, mask, channels }
+        });
         let above = band.above as usize * width;
         let start = (band.region.corner.row + band.above - region.corner.row) as usize * width;
         let own = above..above + band.rows as usize * width;
         // No run goes on in another row.
-        let seen = map.mask.runs().iter().filter(|run| own.contains(&run.start));
-        for Run { start: from, end: to, shape } in seen {
-            let run = Run { start: from - above + start, end: to - above + start, shape: *shape };
-            for (channel, part) in channels.iter_mut().zip(&map.channels) {
-                copy(&part.values, *from..*to, &mut channel.values, run.start..run.end);
+        for run in part.mask.runs().iter().filter(|run| own.contains(&run.start)) {
+            let target = run.start - above + start..run.end - above + start;
+            for (channel, part) in map.channels.iter_mut().zip(&part.channels) {
+                copy(&part.values, run.start..run.end, &mut channel.values, target.clone());
             }
-            runs.push(run);
+            runs.push(Run { start: target.start, end: target.end, shape: run.shape });
         }
-        provenance = provenance.or(Some((map.full, map.provenance)));
     }
-    let (full, provenance) = provenance.expect("a region has rows");
-    let window = scene.scene().camera().window(region, scene.scene().length());
-    Map { full, region, window, provenance, mask: Mask::new(region.size, runs), channels }
+
+    /// The map of all bands.
+    pub fn finish(self, scene: &PreparedScene) -> Map {
+        let Self { region, map, mut runs } = self;
+        runs.sort_unstable_by_key(|run| run.start);
+        let map = map.expect("a region has rows");
+        let window = scene.scene().camera().window(region, scene.scene().length());
+        Map { mask: Mask::new(region.size, runs), window, ..map }
+    }
+}
+
+/// A channel of so many pixels that see nothing.
+fn empty(like: &Channel, pixels: usize) -> Channel {
+    let values = match &like.values {
+        Values::Scalar(_) => Values::Scalar(vec![0.0; pixels]),
+        Values::Single(_) => Values::Single(vec![0.0; pixels]),
+        Values::Vector(_) => Values::Vector(vec![[0.0; 3]; pixels]),
+        Values::Index(_) => Values::Index(vec![-1; pixels]),
+    };
+    Channel { quantity: like.quantity.clone(), unit: like.unit.clone(), values }
 }
 
 /// Values of the same kind.

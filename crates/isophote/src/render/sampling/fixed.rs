@@ -1,9 +1,11 @@
 //! As many rays through every pixel: band by band an image of each of their places, by what renders the centres, and the
 //! means of all.
 
+use std::sync::{Mutex, PoisonError};
+
 use rayon::ThreadPool;
 
-use super::bands::{Band, bands, each, stacked};
+use super::bands::{Band, Stack, bands, each};
 use super::pattern::Patterns;
 use super::refine::{copy_geometry, is_mean, offsets, put, put_exactly, put_shapes};
 use super::{Filter, Renders, Sampling};
@@ -29,16 +31,28 @@ pub fn render(
     let centres = RenderSettings { observer, ..settings.clone() };
     let start = |band: Band| {
         let map = (renders.alone)(Vec::new(), scene, &band.settings(&centres))?;
-        Ok(Part { means: Means::new(&map, filter), map, band, memory: Vec::new() })
+        Ok(Part { means: Means::new(&map, filter), map, memory: Vec::new() })
     };
-    let mut parts = each(pool, bands(region, filter.reach()), start)?;
+    let stack = Mutex::new(Stack::new(region));
+    let mut parts: Vec<(Band, Option<Part>)> =
+        bands(region, filter.reach()).into_iter().map(|band| (band, None)).collect();
     let patterns = Patterns::new(samples);
+    let mut left = samples as usize;
     for places in patterns.of(samples).chunks(views_at_once(scene)) {
+        left -= places.len();
         let views: Vec<_> = places.iter().map(|place| (*place, scene.seen_through(*place))).collect();
-        parts = each(pool, parts, |part| part.with(&views, &sampled, renders))?;
+        parts = each(pool, parts, |(band, part)| {
+            let mut part = part.map_or_else(|| start(band), Ok)?;
+            part.add(&views, &band.settings(&sampled), renders)?;
+            if left > 0 {
+                return Ok((band, Some(part)));
+            }
+            let map = part.finish(samples)?;
+            stack.lock().unwrap_or_else(PoisonError::into_inner).add(band, &map);
+            Ok((band, None))
+        })?;
     }
-    let maps = each(pool, parts, |part| part.finish(samples))?;
-    Ok(stacked(maps, region, scene))
+    Ok(stack.into_inner().unwrap_or_else(PoisonError::into_inner).finish(scene))
 }
 
 /// How many views of a scene are kept at a time: each has a list of its shapes.
@@ -53,7 +67,6 @@ fn is_sampled(quantity: &Quantity) -> bool {
 
 /// What a band is so far.
 struct Part {
-    band: Band,
     map: Map,
     means: Means,
     /// Of the last image, cleared.
@@ -61,27 +74,25 @@ struct Part {
 }
 
 impl Part {
-    /// The same with more samples.
-    fn with(
-        mut self,
+    /// Adds samples.
+    fn add(
+        &mut self,
         views: &[([f64; 2], PreparedScene)],
         settings: &RenderSettings<'_>,
         renders: &Renders<'_>,
-    ) -> Result<Self, RenderError> {
-        let settings = self.band.settings(settings);
+    ) -> Result<(), RenderError> {
         for (place, view) in views {
-            let sample = (renders.alone)(self.memory, view, &settings)?;
+            let sample = (renders.alone)(std::mem::take(&mut self.memory), view, settings)?;
             self.means.add(&self.map, &sample, *place);
             self.means.fill_in(&mut self.map, &sample);
             self.memory = band::recycle(sample);
         }
-        Ok(self)
+        Ok(())
     }
 
-    fn finish(self, samples: u32) -> Result<(Band, Map), RenderError> {
-        let Self { band, mut map, means, .. } = self;
-        means.finish(&mut map, samples)?;
-        Ok((band, map))
+    fn finish(mut self, samples: u32) -> Result<Map, RenderError> {
+        self.means.finish(&mut self.map, samples)?;
+        Ok(self.map)
     }
 }
 

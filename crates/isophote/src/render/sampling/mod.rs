@@ -9,15 +9,18 @@ mod refine;
 mod rule;
 mod uncertain;
 
+use std::ops::Range;
+
 use rayon::ThreadPool;
-use rayon::prelude::*;
 
 pub use filter::Filter;
 
+use self::bands::each;
 use self::outlined::Outlined;
 use self::pattern::Patterns;
 use self::refine::{Averages, Refinement, Wanted};
-use self::uncertain::Uncertain;
+use self::rule::Nodes;
+use self::uncertain::Finder;
 use super::band::{self, advance};
 use super::{RenderError, RenderSettings};
 use crate::analysis::statistics::totals;
@@ -67,8 +70,8 @@ impl Sampling {
 /// The first samples of a pixel that is uncertain: enough to see how much its values differ.
 const FIRST_SAMPLES: u32 = 16;
 
-/// So many uncertain pixels are shared by several threads.
-const WORTH_THREADS: usize = 100;
+/// So many rows are looked through and refined by one thread at a time.
+const ROWS: usize = 16;
 
 /// Renders the centres of pixels, in memory of an earlier map if there is any.
 pub type Centres<'c> = dyn Fn(Vec<Values>, &PreparedScene, &RenderSettings<'_>) -> Result<Map, RenderError> + Sync + 'c;
@@ -126,20 +129,23 @@ fn refined(
     let averages = Averages::of(&map, scene);
     let (patterns, offsets) = (Patterns::new(sampling.samples), refine::offsets(sampling.filter));
     let wanted = Wanted { averages: &averages, sampling, patterns: &patterns, offsets: &offsets, tolerance };
-    let pixels = uncertain::pixels(&map, region, tolerance, pool);
     let outlined = Outlined::new(scene, &averages, sampling, tolerance);
-    let refine = |uncertain: &Uncertain| {
-        advance(settings.observer, 0)?;
-        let pixel = map.pixel(uncertain.index);
-        let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&averages, pixel, uncertain));
-        Ok(mean.unwrap_or_else(|| Refinement::new(scene, &wanted, pixel, uncertain)))
-    };
-    let refined = match pool {
-        Some(pool) if pixels.len() > WORTH_THREADS => {
-            pool.install(|| pixels.par_iter().map(refine).collect::<Result<Vec<_>, RenderError>>())?
+    let finder = Finder::new(&map, region, tolerance);
+    let refine = |rows: Range<usize>| {
+        let mut nodes = Nodes::new();
+        let mut refined = Vec::new();
+        for uncertain in rows.flat_map(|row| finder.in_row(row)) {
+            advance(settings.observer, 0)?;
+            let pixel = map.pixel(uncertain.index);
+            let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&mut nodes, pixel, &uncertain));
+            refined.push(mean.unwrap_or_else(|| Refinement::new(scene, &wanted, pixel, &uncertain)));
         }
-        _ => pixels.iter().map(refine).collect::<Result<Vec<_>, RenderError>>()?,
+        Ok(refined)
     };
+    let first = (region.corner.row - map.region.corner.row) as usize;
+    let last = first + region.size.height as usize;
+    let parts = (first..last).step_by(ROWS).map(|row| row..(row + ROWS).min(last)).collect();
+    let refined: Vec<Refinement> = each(pool, parts, refine)?.into_iter().flatten().collect();
     refine::apply(&mut map, &averages, sampling.filter, &refined)?;
     Ok(map)
 }

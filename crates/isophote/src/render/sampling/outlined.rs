@@ -22,17 +22,22 @@ use crate::vector::Vector;
 pub struct Outlined<'s> {
     scene: &'s PreparedScene,
     spheres: Vec<OutlinedSphere<'s>>,
+    averages: &'s Averages,
     instructions: Instructions,
     most: u32,
     tolerance: f64,
 }
 
 struct OutlinedSphere<'s> {
+    shape: usize,
     outline: &'s Ellipse,
     center: Vector,
     formula: &'s BrightnessFormula,
     lights: ShapeLights<f64>,
 }
+
+/// A pixel of which an outline covers less is left to rays.
+const NEGLIGIBLE: f64 = 1e-9;
 
 /// With more spheres than this, most pixels show several, and none is asked which.
 const FEW: usize = 16;
@@ -40,7 +45,7 @@ const FEW: usize = 16;
 impl<'s> Outlined<'s> {
     /// Of a scene with a few spheres, all before the eye and none in another one's light, through a filter that is the pixel
     /// itself; nothing for others.
-    pub fn new(scene: &'s PreparedScene, averages: &Averages, sampling: Sampling, tolerance: f64) -> Option<Self> {
+    pub fn new(scene: &'s PreparedScene, averages: &'s Averages, sampling: Sampling, tolerance: f64) -> Option<Self> {
         let lights = scene.scene().lights();
         if sampling.filter != Filter::Box || scene.scene().shapes().len() > FEW {
             return None;
@@ -54,6 +59,7 @@ impl<'s> Outlined<'s> {
             }
             match ShapeShading::new(scene, primitive, sphere, &order, &wanted, Precision::Double) {
                 ShapeShading::Double(lights) => Some(OutlinedSphere {
+                    shape: candidate.shape,
                     outline: candidate.ellipse,
                     center: sphere.center,
                     formula: scene.formula(primitive),
@@ -64,33 +70,51 @@ impl<'s> Outlined<'s> {
         };
         let rows = 0..scene.scene().camera().resolution.height;
         let spheres: Option<Vec<_>> = Candidate::all(scene, rows)?.iter().map(sphere).collect();
-        Some(Self { scene, spheres: spheres?, instructions: Instructions::best(), most: sampling.samples, tolerance })
+        Some(Self {
+            scene,
+            spheres: spheres?,
+            averages,
+            instructions: Instructions::best(),
+            most: sampling.samples,
+            tolerance,
+        })
     }
 
     /// The mean over a pixel; nothing where several spheres meet, or where the brightness varies too much to be integrated.
-    pub fn mean(&self, averages: &Averages, pixel: Pixel, uncertain: &Uncertain) -> Option<Refinement> {
+    pub fn mean(&self, nodes: &mut Nodes, pixel: Pixel, uncertain: &Uncertain) -> Option<Refinement> {
         let mut touching = self.spheres.iter().filter(|sphere| sphere.may_touch(pixel));
         let (Some(sphere), None) = (touching.next(), touching.next()) else { return None };
         let center = sphere.center_of(pixel);
-        let mut nodes = Nodes::new();
-        let mut means = vec![0.0; averages.channels().len()];
+        let channels = self.averages.channels();
+        let mut means = vec![0.0; channels.len()];
         for (rows, widest) in [(Rows::Two, 16.0), (Rows::Four, 36.0)] {
             nodes.place(sphere.outline, center, rows);
             let samples = u32::try_from(nodes.count).unwrap_or(u32::MAX);
-            if samples == 0 || samples > self.most {
+            if nodes.coverage < NEGLIGIBLE || samples > self.most {
                 return None;
             }
-            let job = Evaluate { sphere, nodes: &nodes, channels: averages.channels(), means: &mut means };
+            let job = Evaluate { sphere, nodes, channels, means: &mut means };
             // Where the brightness has a kink, at a terminator, two rows may miss 0.03 of its range and four 0.014.
             if self.instructions.run(job) <= widest * self.tolerance {
-                let [column, row] = nodes.inside;
-                let place = [column - center.column + 0.5, row - center.row + 0.5];
-                let hit = if uncertain.sees {
+                let hit = if uncertain.sees || !self.averages.have_geometry() {
                     None
                 } else {
-                    Some(self.scene.trace(ScreenPosition::InPixel { pixel, place })?)
+                    let [column, row] = nodes.inside;
+                    let place = [column - center.column + 0.5, row - center.row + 0.5];
+                    Some(Box::new(self.scene.trace(ScreenPosition::InPixel { pixel, place })?))
                 };
-                return Some(Refinement::integrated(uncertain.index, samples, nodes.coverage.min(1.0), hit, means));
+                let coverage = nodes.coverage.min(1.0);
+                means.push(1.0);
+                let (seen, sums) = (Some(sphere.shape), means);
+                return Some(Refinement {
+                    index: uncertain.index,
+                    sees: uncertain.sees,
+                    samples,
+                    coverage,
+                    seen,
+                    hit,
+                    sums,
+                });
             }
         }
         None
@@ -156,7 +180,7 @@ impl Evaluate<'_> {
     #[inline(always)]
     fn sums<V: Lane<Element = f64>, L: Lobe<V>>(self, kind: V::Kind, lobe: &L) -> f64 {
         let Self { sphere, nodes, channels, means } = self;
-        let OutlinedSphere { outline, center, formula, lights } = sphere;
+        let OutlinedSphere { outline, center, formula, lights, .. } = sphere;
         let outline = outline.map(
             #[inline(always)]
             |value| V::splat(kind, value),
