@@ -20,7 +20,7 @@ use self::outlined::Outlined;
 use self::pattern::Patterns;
 use self::refine::{Averages, Refinement, Wanted};
 use self::rule::Nodes;
-use self::uncertain::Finder;
+use self::uncertain::{Finder, Suspects};
 use super::band::{self, advance};
 use super::{RenderError, RenderSettings};
 use crate::analysis::statistics::totals;
@@ -69,6 +69,9 @@ impl Sampling {
 
 /// The first samples of a pixel that is uncertain: enough to see how much its values differ.
 const FIRST_SAMPLES: u32 = 16;
+
+/// Where pixels are integrated, fewer than these are done before another thread has woken up.
+const WORTH_THREADS: usize = 100_000;
 
 /// So many rows are looked through and refined by one thread at a time.
 const ROWS: usize = 16;
@@ -132,20 +135,27 @@ fn refined(
     let outlined = Outlined::new(scene, &averages, sampling, tolerance);
     let finder = Finder::new(&map, region, tolerance);
     let refine = |rows: Range<usize>| {
-        let mut nodes = Nodes::new();
+        let (mut nodes, mut suspects) = (Nodes::new(), Suspects::default());
         let mut refined = Vec::new();
-        for uncertain in rows.flat_map(|row| finder.in_row(row)) {
-            advance(settings.observer, 0)?;
-            let pixel = map.pixel(uncertain.index);
-            let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&mut nodes, pixel, &uncertain));
-            refined.push(mean.unwrap_or_else(|| Refinement::new(scene, &wanted, pixel, &uncertain)));
+        for row in rows {
+            for uncertain in finder.in_row(row, &mut suspects) {
+                let pixel = map.pixel(uncertain.index);
+                if outlined.as_ref().is_some_and(|outlined| outlined.is_missed_by_all(pixel, &uncertain)) {
+                    continue;
+                }
+                advance(settings.observer, 0)?;
+                let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&mut nodes, pixel, &uncertain));
+                refined.push(mean.unwrap_or_else(|| Refinement::new(scene, &wanted, pixel, &uncertain)));
+            }
         }
         Ok(refined)
     };
     let first = (region.corner.row - map.region.corner.row) as usize;
     let last = first + region.size.height as usize;
     let parts = (first..last).step_by(ROWS).map(|row| row..(row + ROWS).min(last)).collect();
-    let refined: Vec<Refinement> = each(pool, parts, refine)?.into_iter().flatten().collect();
+    let is_worth_threads = outlined.is_none() || map.mask.visible() > WORTH_THREADS;
+    let refined: Vec<Refinement> =
+        each(pool.filter(|_| is_worth_threads), parts, refine)?.into_iter().flatten().collect();
     refine::apply(&mut map, &averages, sampling.filter, &refined)?;
     Ok(map)
 }

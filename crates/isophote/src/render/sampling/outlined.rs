@@ -80,6 +80,11 @@ impl<'s> Outlined<'s> {
         })
     }
 
+    /// Whether a pixel whose centre sees nothing shows nothing all over.
+    pub fn is_missed_by_all(&self, pixel: Pixel, uncertain: &Uncertain) -> bool {
+        !uncertain.sees && !self.spheres.iter().any(|sphere| sphere.may_touch(pixel))
+    }
+
     /// The mean over a pixel; nothing where several spheres meet, or where the brightness varies too much to be integrated.
     pub fn mean(&self, nodes: &mut Nodes, pixel: Pixel, uncertain: &Uncertain) -> Option<Refinement> {
         let mut touching = self.spheres.iter().filter(|sphere| sphere.may_touch(pixel));
@@ -160,10 +165,10 @@ impl LaneJob for Evaluate<'_> {
         D: Lane<Element = f64, Kind = S::Kind>,
     {
         match &self.sphere.lights.power {
-            Power::None => self.with::<D, _>(kind, &NoPower),
-            Power::Even(lobe) => self.with::<D, _>(kind, lobe),
-            Power::Odd(lobe) => self.with::<D, _>(kind, lobe),
-            Power::Any(lobe) => self.with::<D, _>(kind, lobe),
+            Power::None => self.with::<D::Narrow, _>(kind, &NoPower),
+            Power::Even(lobe) => self.with::<D::Narrow, _>(kind, lobe),
+            Power::Odd(lobe) => self.with::<D::Narrow, _>(kind, lobe),
+            Power::Any(lobe) => self.with::<D::Narrow, _>(kind, lobe),
         }
     }
 }

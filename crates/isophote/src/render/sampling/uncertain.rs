@@ -15,6 +15,13 @@ pub struct Uncertain {
     pub sees: bool,
 }
 
+/// Columns of a row that are to be looked at; the memory serves for the next row.
+#[derive(Default)]
+pub struct Suspects {
+    columns: Vec<usize>,
+    cuts: Vec<usize>,
+}
+
 /// Finds the uncertain pixels of a region: those where the brightness bends by more than the tolerance on one of the four
 /// lines through the pixel and two of its neighbours, or differs by more from a neighbour that sees something else. A slope
 /// alone needs nothing: its mean is the value at the centre. But across a limb it may be an accident.
@@ -56,15 +63,15 @@ impl<'m> Finder<'m> {
     }
 
     /// Those of a row of the map, from the left.
-    pub fn in_row(&self, row: usize) -> Vec<Uncertain> {
-        let mut suspects = Vec::new();
-        self.suspect_edges(row, &mut suspects);
+    pub fn in_row<'f>(&'f self, row: usize, suspects: &'f mut Suspects) -> impl Iterator<Item = Uncertain> {
+        suspects.columns.clear();
+        self.suspect_edges(row, suspects);
         if let Some(inner) = self.inner(row) {
-            self.instructions.run(Bends { finder: self, row, inner, suspects: &mut suspects });
+            self.instructions.run(Bends { finder: self, row, inner, suspects: &mut suspects.columns });
         }
-        suspects.sort_unstable();
-        suspects.dedup();
-        suspects.into_iter().filter_map(|column| self.uncertain(row, column)).collect()
+        suspects.columns.sort_unstable();
+        suspects.columns.dedup();
+        suspects.columns.iter().filter_map(move |column| self.uncertain(row, *column))
     }
 
     fn runs_of(&self, row: usize) -> &[Run] {
@@ -89,9 +96,11 @@ impl<'m> Finder<'m> {
     }
 
     /// The columns beside which another shape is seen, and the border of the map.
-    fn suspect_edges(&self, row: usize, suspects: &mut Vec<usize>) {
+    fn suspect_edges(&self, row: usize, suspects: &mut Suspects) {
+        let Suspects { columns: suspects, cuts } = suspects;
         // Between two cuts each of the three rows sees one shape or none.
-        let mut cuts = vec![0, self.width];
+        cuts.clear();
+        cuts.extend([0, self.width]);
         for around in self.around(row) {
             let runs = self.runs_of(around).iter();
             cuts.extend(runs.flat_map(|run| [run.start, run.end]).map(|index| index - around * self.width));
