@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import base64
-import html
-
 
 def escaped(text: str) -> str:
     """A text as HTML has it."""
+    import html
+
     return html.escape(text)
 
 
 def image(png: bytes, description: str) -> str:
     """A picture within the page."""
+    import base64
+
     data = base64.b64encode(png).decode("ascii")
     return f'<img src="data:image/png;base64,{data}" alt="{escaped(description)}" style="max-width: 320px">'
 

@@ -14,7 +14,7 @@ from .errors import Problem, SceneError
 PartType = TypeVar("PartType", bound="Part")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True, repr=False)
+@dataclasses.dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Part:
     """A part of a scene. It never changes; :meth:`replace` gives another one."""
 
@@ -25,13 +25,13 @@ class Part:
 
     def __post_init__(self) -> None:
         problems = []
-        converters = _converters(type(self))
+        convert = converters(type(self))
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
             if value is None and field.default is None:
                 continue
             try:
-                object.__setattr__(self, field.name, converters[field.name](value))
+                object.__setattr__(self, field.name, convert[field.name](value))
             except Invalid as invalid:
                 path = f"{type(self).__name__}.{field.name}"
                 problems.append(Problem("wrong-type", path, f"`{path}` {invalid.message}", invalid.allowed))
@@ -53,14 +53,29 @@ class Part:
                 value = value.to_dict()
             elif isinstance(value, tuple):
                 value = list(value)
-            written[self._KEYS.get(field.name, field.name)] = value
+            written[self.key_of(field.name)] = value
         return written
+
+    @classmethod
+    def key_of(cls, field: str) -> str:
+        """The key of a scene file for a field."""
+        return cls._KEYS.get(field, field)
 
     @classmethod
     def from_dict(cls: type[PartType], written: Mapping[str, Any]) -> PartType:
         """The part of which a scene file says this."""
         names = {key: name for name, key in cls._KEYS.items()}
         return cls(**{names.get(key, key): value for key, value in written.items() if key not in cls._FIXED})
+
+    def _values(self) -> tuple[Any, ...]:
+        return tuple(getattr(self, field.name) for field in dataclasses.fields(self))
+
+    # Once for all parts: a dataclass would compile them anew for each.
+    def __eq__(self, other: object) -> bool:
+        return self._values() == other._values() if isinstance(other, Part) and type(other) is type(self) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash((type(self), self._values()))
 
     def __repr__(self) -> str:
         given = (
@@ -74,7 +89,7 @@ class Part:
 _KNOWN: dict[type[Part], dict[str, Converter]] = {}
 
 
-def _converters(part: type[Part]) -> dict[str, Converter]:
+def converters(part: type[Part]) -> dict[str, Converter]:
     """How each field becomes what it holds, by its declared type."""
     if part not in _KNOWN:
         hints = typing.get_type_hints(part, include_extras=True)

@@ -10,7 +10,7 @@ from ._part import Part
 __all__ = ["Camera", "Sampling", "Screen", "Window"]
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Screen(Part):
     """The window of a perspective camera: left and right edge ``x``, lower and upper edge ``y``, on the plane at
     ``distance`` from the eye."""
@@ -20,7 +20,7 @@ class Screen(Part):
     y: Pair
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Window(Part):
     """The window of an orthographic camera, on the plane through the eye."""
 
@@ -28,7 +28,7 @@ class Window(Part):
     y: Pair
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Camera(Part):
     """The observer.
 
@@ -51,7 +51,7 @@ class Camera(Part):
     resolution: Size = (800, 600)
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Sampling(Part):
     """How many rays a pixel's value is made of: ``samples`` of them, or as many as a ``tolerance`` takes, which is the
     error that is allowed as a part of the largest brightness. ``filter`` is ``"box"``, ``"triangle"``, ``"gaussian"`` or

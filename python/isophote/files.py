@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import json
 import os
-import zipfile
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -73,6 +72,9 @@ class MapFile(Mapping[str, NDArray[Any]]):
             stored = dict(_isophote.read_exr(self.path))
             return {name: self._joined(stored, name) for name in self._channels}
         if start.startswith(b"PK\x03\x04"):
+            # Modules that take long to load are loaded where they are needed.
+            import zipfile
+
             with zipfile.ZipFile(self.path) as archive:
                 stored = {entry[:-4]: _npy(archive.read(entry)) for entry in archive.namelist() if entry.endswith(".npy")}
             return {name: stored[self._stored(name)[0]] for name in self._channels}

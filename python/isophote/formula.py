@@ -65,7 +65,7 @@ def brightness(
             lights=(lights,) if isinstance(lights, Light) else tuple(lights),
             ambient=ambient,
         )
-    if scene.core.describe()["has_color"]:
+    if scene.core.has_color:
         raise ArgumentError("the bare formula takes single numbers; call it once for each component of a colour")
     values, _ = _isophote.brightness(
         scene.core, np.ascontiguousarray(placed), np.ascontiguousarray(directions), np.ascontiguousarray(eyes)

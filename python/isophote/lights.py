@@ -15,7 +15,7 @@ from ._part import Part
 __all__ = ["Ambient", "LambertianLight", "Light", "ParallelLight", "PointLight", "SpotLight"]
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Light(Part):
     """What all lights have: a name of their own, and whether shapes keep their light from each other."""
 
@@ -23,7 +23,7 @@ class Light(Part):
     casts_shadows: Flag = True
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class PointLight(Light):
     """A point that sends the same in every direction: either ``intensity``, or ``power`` = 4π times it."""
 
@@ -32,7 +32,7 @@ class PointLight(Light):
     power: Amount | None = None
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class LambertianLight(Light):
     """A point that sends I₀ cosγ, γ the angle from its axis: either ``intensity`` I₀, or ``power`` = π I₀.
 
@@ -46,7 +46,7 @@ class LambertianLight(Light):
     target: Vector | None = None
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class SpotLight(Light):
     """A point that sends its full intensity up to ``inner_angle`` from its axis, nothing beyond ``outer_angle``, and a
     smooth step between; aimed by its ``axis``, or by the point ``target``."""
@@ -61,7 +61,7 @@ class SpotLight(Light):
     target: Vector | None = None
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class ParallelLight(Light):
     """Light from one direction, without loss, like the sun's: ``direction`` is the one in which it travels, ``irradiance``
     what a plane at right angles to it receives, in W/m² or lx."""
@@ -71,7 +71,7 @@ class ParallelLight(Light):
     irradiance: Amount
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Ambient(Part):
     """Light from all around, of the same ``radiance`` (W/(m²·sr) or cd/m²) from every direction; with ``obstructed``, each
     point looks in ``samples`` directions for shapes that are in the way."""

@@ -12,7 +12,7 @@ from ._part import Part
 __all__ = ["Convention", "Material"]
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Material(Part):
     """What a surface is made of: the diffuse coefficient k_d, the specular one k_s (numbers, or one for each of red, green
     and blue), and the shininess n, which must be given where k_s is not 0."""

@@ -109,11 +109,43 @@ _SHOWN = 10
 
 
 class Probes(Values):
-    """What :func:`probe` finds."""
+    """What :func:`probe` finds. Of many points, what is not asked for is not computed."""
 
-    def __init__(self, scene: Scene, arrays: Mapping[str, NDArray[Any]], names: Sequence[str], places: _Places) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        arrays: Mapping[str, NDArray[Any]],
+        names: Sequence[str],
+        places: _Places,
+        later: Sequence[str] = (),
+    ) -> None:
         super().__init__(scene, arrays, names)
         self._places = places
+        self._later = tuple(name for name in later if name not in arrays)
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        if name in self._later:
+            self._complete()
+        return super().__getitem__(name)
+
+    def __getattr__(self, name: str) -> NDArray[Any]:
+        if name in self.__dict__.get("_later", ()):
+            self._complete()
+        return super().__getattr__(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter((*self._arrays, *self._later))
+
+    def __len__(self) -> int:
+        return len(self._arrays) + len(self._later)
+
+    def _complete(self) -> None:
+        """Computes what was left out."""
+        arrays = self._places.arrays(self._scene, None)
+        for name in self._later:
+            arrays[name].flags.writeable = False
+            self._arrays[name] = arrays[name]
+        self._later = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -139,10 +171,50 @@ class Probes(Values):
 
 
 class _Places:
-    def __init__(self, points: NDArray[np.float64] | None, pixels: NDArray[np.uint32] | None, elsewhere: str) -> None:
+    """Where values are asked for."""
+
+    def __init__(
+        self, points: NDArray[np.float64] | None, pixels: NDArray[np.uint32] | None, elsewhere: str, per_light: bool
+    ) -> None:
         self.points = points
         self.pixels = pixels
         self.elsewhere = elsewhere
+        self.per_light = per_light
+
+    def arrays(self, scene: Scene, report: Any) -> dict[str, NDArray[Any]]:
+        """Everything, point by point."""
+        if self.pixels is not None:
+            return _isophote.probe_pixels(scene.core, self.pixels, self.elsewhere, self.per_light, report)
+        assert self.points is not None
+        return _isophote.probe_points(scene.core, self.points, self.elsewhere, self.per_light, report)
+
+    def values(self, scene: Scene, report: Any) -> dict[str, NDArray[Any]] | None:
+        """Brightness and irradiance of many points at once, if that can be had and all goes well."""
+        if self.points is None or self.per_light or len(self.points) <= _MANY:
+            return None
+        found = _isophote.probe_values(scene.core, self.points, self.elsewhere == "nearest", report)
+        if found is None or (found[3] > 0 and self.elsewhere != "nan"):
+            return None
+        brightness, irradiance, shape, _ = found
+        return {"brightness": brightness, "irradiance": irradiance, "shape": shape}
+
+
+_MANY = 1000
+"""Up to so many points have the values of the command to the last bit."""
+
+_NAMES = (
+    "position",
+    "normal",
+    "shape",
+    "part",
+    "seen",
+    "cos_theta_o",
+    "brightness",
+    "irradiance",
+    "ambient",
+    "diffuse",
+    "specular",
+)
 
 
 def probe(
@@ -156,6 +228,9 @@ def probe(
 ) -> Probes:
     """The exact values at points, within 1e-12 whatever the map's resolution.
 
+    Over a thousand points of a few spheres are computed several at a time, which may round the last bits differently, and
+    only what is asked of the result: brightness and irradiance at once, the others when they are first looked at.
+
     ``at``: n points, n × 3, in the scene's unit. ``pixels``: n × 2, columns and rows: what is seen at their centres. Without
     either, the scene's own probes.
     ``elsewhere``: what becomes of points on no surface: ``"error"``, ``"nearest"`` (the nearest surface's point is taken) or
@@ -167,21 +242,20 @@ def probe(
     if at is not None and pixels is not None:
         raise ArgumentError("say where once: either at or pixels")
     names: list[str] = []
+    if pixels is not None:
+        places = _Places(None, _pixels(pixels), elsewhere, per_light)
+    else:
+        if at is None:
+            names = list(scene.core.describe()["probes"])
+            if not names:
+                raise ArgumentError("the scene has no probes; say where: at=[(x, y, z), …] or pixels=[(column, row), …]")
+            at = np.array([one.at for one in scene.probes])
+        places = _Places(points(at, "at"), None, elsewhere, per_light)
     with reporter(progress, "points") as report:
-        if pixels is not None:
-            columns_rows = _pixels(pixels)
-            places = _Places(None, columns_rows, elsewhere)
-            arrays = _isophote.probe_pixels(scene.core, columns_rows, elsewhere, per_light, report)
-        else:
-            if at is None:
-                names = list(scene.core.describe()["probes"])
-                if not names:
-                    raise ArgumentError("the scene has no probes; say where: at=[(x, y, z), …] or pixels=[(column, row), …]")
-                at = np.array([one.at for one in scene.probes])
-            wanted = points(at, "at")
-            places = _Places(wanted, None, elsewhere)
-            arrays = _isophote.probe_points(scene.core, wanted, elsewhere, per_light, report)
-    return Probes(scene, arrays, names, places)
+        values = places.values(scene, report)
+        if values is not None:
+            return Probes(scene, values, names, places, _NAMES)
+        return Probes(scene, places.arrays(scene, report), names, places)
 
 
 def points(values: ArrayLike, name: str) -> NDArray[np.float64]:
@@ -193,7 +267,8 @@ def points(values: ArrayLike, name: str) -> NDArray[np.float64]:
         array = array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ProbeError(f"{name} has the shape {array.shape}; allowed: n × 3")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    # A copy: what is computed later is that of the same points.
+    return np.array(array, dtype=np.float64, order="C")
 
 
 def numbers(values: ArrayLike, name: str) -> NDArray[Any]:

@@ -19,11 +19,11 @@ Channels = str | Sequence[str] | None
 
 def channel_names(scene: Scene, channels: Channels) -> list[str]:
     """The names of channels, with those that a word stands for."""
-    about = scene.core.describe()
-    color = ["color"] if about["has_color"] else []
-    lights = [f"light.{name}" for name in about["lights"]]
+    color = ["color"] if scene.core.has_color else []
     if channels is None:
         return ["brightness", *color]
+    about = scene.core.describe()
+    lights = [f"light.{name}" for name in about["lights"]]
     common = ["brightness", *color, "irradiance", "diffuse", "specular", "depth", "position", "normal", "shape"]
     ambient = ["ambient", *(["ambient-error"] if scene.ambient is not None and scene.ambient.obstructed else [])]
     sampling = ["samples", "coverage"] if about["is_sampled"] else []

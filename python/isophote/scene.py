@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
-import re
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,8 +14,9 @@ from typing import Annotated, Any
 from . import _isophote
 from ._convert import Flag, Invalid, Number, Size, Vector, Word
 from ._part import Part
+from ._paths import locate
 from .camera import Camera, Sampling
-from .errors import ArgumentError, SceneWarning
+from .errors import SceneWarning
 from .lights import Ambient, Light, light_from_dict
 from .materials import Material
 from .shapes import KINDS, Mesh, Shape, Spheres
@@ -24,7 +24,7 @@ from .shapes import KINDS, Mesh, Shape, Spheres
 __all__ = ["Grid", "Probe", "Scene"]
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Probe(Part):
     """A point of a surface whose values are reported. ``published`` is a value that somebody printed for it."""
 
@@ -33,7 +33,7 @@ class Probe(Part):
     published: Number | None = None
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Grid(Part):
     """Points on a rectangle at which the irradiance is computed: ``points`` of them along the edges ``u`` and ``v``, which
     begin at ``corner`` or have ``center`` between them. ``side`` is ``"front"`` (to which u × v leads) or ``"back"``."""
@@ -78,7 +78,7 @@ def _directory(value: Any) -> str:
     return str(os.path.abspath(value))
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Scene(Part):
     """A scene: who looks, what is seen, what it is made of, and what lights it.
 
@@ -187,12 +187,12 @@ class Scene(Part):
 
         A path is that of a scene file, with the name of the thing in the middle: ``light.lamp.position``,
         ``material.clay.shininess``, ``sphere.ball.radius``, ``camera.eye``, ``camera.screen.distance``, ``convention``. Things
-        without a name have their number: ``light[0].position``.
+        without a name have their number: ``light[0].position``. ``None`` takes a value away.
         """
-        changes: dict[str, Any] = {}
+        written = self.to_dict()
         for path, value in values.items():
-            _set(self, changes, path, value)
-        return self.replace(**changes)
+            locate(self, path).put(written, value)
+        return self._of_core(_isophote.Scene.from_json(json.dumps(written), str(self.directory)), self.directory)
 
     def unit(self, channel: str) -> str:
         """The unit of a channel of this scene's maps: ``"1"`` for pure numbers, ``""`` for indices."""
@@ -272,91 +272,6 @@ def _fields(written: dict[str, Any]) -> dict[str, Any]:
     fields["probes"] = [Probe.from_dict(one) for one in written.get("probe", [])]
     fields["grids"] = [Grid.from_dict(one) for one in written.get("grid", [])]
     return fields
-
-
-def _set(scene: Scene, changes: dict[str, Any], path: str, value: Any) -> None:
-    """Puts what one path changes among the changes of the others."""
-
-    def now(field: str) -> Any:
-        return changes.get(field, getattr(scene, field))
-
-    match = re.fullmatch(r"(?P<table>\w+)(?:\[(?P<index>\d+)\])?(?:\.(?P<rest>.+))?", path)
-    if match is None:
-        raise ArgumentError(
-            f"{path!r} is no path; allowed: such as light.lamp.position, material.clay.shininess, camera.eye"
-        )
-    table, index, rest = match["table"], match["index"], match["rest"]
-    if table in _SIMPLE and rest is None and index is None:
-        changes[table] = value
-    elif table in ("camera", "sampling", "ambient") and rest is not None and index is None:
-        part = now(table)
-        if part is None:
-            raise ArgumentError(f"{path!r}: the scene has no {table}")
-        changes[table] = _inside(part, rest.split("."), path, value)
-    elif table == "material" and rest is not None and "." in rest:
-        name, key = rest.rsplit(".", 1)
-        materials = dict(now("materials"))
-        if name not in materials:
-            raise ArgumentError(f"{path!r}: the scene has no material {name!r}; there are: {', '.join(materials)}")
-        materials[name] = _inside(materials[name], [key], path, value)
-        changes["materials"] = materials
-    elif table in _TABLES and rest is not None:
-        field, kind = _TABLES[table]
-        items = list(now(field))
-        names = _names(scene, field, items)
-        number, keys = _find(table, kind, items, names, index, rest, path)
-        items[number] = _inside(items[number], keys, path, value)
-        changes[field] = items
-    else:
-        allowed = sorted(
-            [*_SIMPLE, "camera.…", "sampling.…", "ambient.…", "material.NAME.…", *(f"{t}.NAME.…" for t in _TABLES)]
-        )
-        raise ArgumentError(f"{path!r} leads nowhere; allowed: {', '.join(allowed)}")
-
-
-_SIMPLE = ("title", "convention", "handedness", "quantities", "color_space", "shadows", "length", "ambient", "sampling")
-_TABLES: dict[str, tuple[str, type[Part]]] = {
-    "light": ("lights", Light),
-    "probe": ("probes", Probe),
-    "grid": ("grids", Grid),
-    "shape": ("shapes", Shape),
-    **{kind.KEY: ("shapes", kind) for kind in KINDS},
-}
-
-
-def _names(scene: Scene, field: str, items: list[Any]) -> list[str]:
-    """The names of things, those included that the core gives to things without one."""
-    known = scene.core.describe()[field]
-    return [item.name or name for item, name in zip(items, known)]
-
-
-def _find(
-    table: str, kind: type[Part], items: list[Any], names: list[str], index: str | None, rest: str, path: str
-) -> tuple[int, list[str]]:
-    of_kind = [number for number, item in enumerate(items) if isinstance(item, kind)]
-    if index is not None:
-        if int(index) >= len(of_kind):
-            raise ArgumentError(f"{path!r}: the scene has {len(of_kind)} {table}, counted from 0")
-        return of_kind[int(index)], rest.split(".")
-    for number in of_kind:
-        # Names may have dots in them.
-        if rest.startswith(names[number] + "."):
-            return number, rest[len(names[number]) + 1 :].split(".")
-    there_are = ", ".join(names[number] for number in of_kind[:20]) or "none"
-    raise ArgumentError(f"{path!r}: the scene has no such {table}; there are: {there_are}")
-
-
-def _inside(part: Part, keys: list[str], path: str, value: Any) -> Part:
-    key, *rest = keys
-    fields = [field.name for field in dataclasses.fields(part)]
-    if key not in fields:
-        raise ArgumentError(f"{path!r}: a {type(part).__name__} has no {key!r}; it has {', '.join(fields)}")
-    if not rest:
-        return part.replace(**{key: value})
-    inner = getattr(part, key)
-    if not isinstance(inner, Part):
-        raise ArgumentError(f"{path!r}: {key!r} has nothing in it to change")
-    return part.replace(**{key: _inside(inner, rest, path, value)})
 
 
 def _text(value: Any) -> str:

@@ -25,7 +25,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Rotation(Part):
     """A turn by ``degrees`` about ``axis``, counter-clockwise for who looks against the axis."""
 
@@ -33,7 +33,7 @@ class Rotation(Part):
     degrees: Number
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Shape(Part):
     """What all shapes have: a name of their own, the name of a material, and what they have to do with shadows."""
 
@@ -46,7 +46,7 @@ class Shape(Part):
     receives_shadow: Flag = True
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Sphere(Shape):
     """A sphere."""
 
@@ -55,7 +55,7 @@ class Sphere(Shape):
     radius: Number
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Ellipsoid(Shape):
     """An ellipsoid with its radii along its own x, y and z."""
 
@@ -65,7 +65,7 @@ class Ellipsoid(Shape):
     rotation: Rotation | None = None
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Box(Shape):
     """A box with its sides along its own x, y and z."""
 
@@ -75,7 +75,7 @@ class Box(Shape):
     rotation: Rotation | None = None
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Cylinder(Shape):
     """A cylinder with both its ends, from the middle of one to the middle of the other."""
 
@@ -87,7 +87,7 @@ class Cylinder(Shape):
     radius: Number
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Cone(Shape):
     """A cone with its base, cut off at the top if ``apex_radius`` is not 0."""
 
@@ -98,7 +98,7 @@ class Cone(Shape):
     apex_radius: Number = 0.0
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Plane(Shape):
     """A plane without end."""
 
@@ -107,7 +107,7 @@ class Plane(Shape):
     normal: Vector
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Rectangle(Shape):
     """A rectangle, seen from both sides; its height runs along ``up``."""
 
@@ -119,7 +119,7 @@ class Rectangle(Shape):
     up: Vector = (0.0, 1.0, 0.0)
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Disk(Shape):
     """A disk, seen from both sides."""
 
@@ -129,7 +129,7 @@ class Disk(Shape):
     radius: Number
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Mesh(Shape):
     """A mesh of triangles from an OBJ, PLY, STL or binary glTF file, scaled, then turned, then moved."""
 
@@ -141,7 +141,7 @@ class Mesh(Shape):
     smooth: Flag = True
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Spheres(Shape):
     """Many spheres from a CSV, NPY or PLY file of centres and radii."""
 

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import itertools
+import json
 import os
 import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _isophote
+from ._paths import locate
 from ._progress import Progress, reporter
 from ._xarray import COMPONENTS, attributes
 from .errors import ArgumentError
 from .map import Map
-from .rendering import Channels, channel_names, positive, render
+from .rendering import Channels, channel_names, positive
 from .scene import Scene
 
 if TYPE_CHECKING:
@@ -58,9 +60,9 @@ def sweep(
     tasks = list(_tasks(scene, values, names, precision))
     # What it holds tells how all are held.
     first = tasks[0].render(threads=None)
-    template = _template(values, first)
+    template = _template(values, Map(first, scene))
     into: _Memory | _Store = _Memory(template) if store is None else _Store.create(os.path.abspath(store), template)
-    into.put(tasks[0].index, _arrays(first))
+    into.put(tasks[0].index, first)
     with reporter(progress, "maps") as report:
         rest = tasks[1:]
         finished = _on_threads(rest, workers, into) if client is None else _on_cluster(rest, client, into)
@@ -77,17 +79,17 @@ def sweep(
 class _Task:
     """One map."""
 
-    scene: Scene
+    scene: _isophote.Scene
     index: tuple[int, ...]
     names: list[str]
     precision: str
 
-    def render(self, threads: int | None = 1, stop: threading.Event | None = None) -> Map:
+    def render(self, threads: int | None = 1, stop: threading.Event | None = None) -> _isophote.Map:
         def listen(_done: int, _all: int) -> None:
             if stop is not None and stop.is_set():
                 raise _Stopped
 
-        return render(self.scene, channels=self.names, precision=self.precision, threads=threads, progress=listen)
+        return _isophote.render(self.scene, self.names, self.precision, None, threads, listen)
 
 
 class _Stopped(Exception):
@@ -96,16 +98,15 @@ class _Stopped(Exception):
 
 def _tasks(scene: Scene, values: Mapping[str, Sequence[Any]], names: list[str], precision: str) -> Iterator[_Task]:
     """Every combination: what is wrong with any of them is known before the first map is rendered."""
-    size = scene.core.describe()["resolution"]
+    pointers = [locate(scene, path) for path in values]
+    if any(pointer.keys[:2] == ("camera", "resolution") for pointer in pointers):
+        raise ArgumentError("a sweep cannot change the number of pixels")
+    written = scene.to_dict()
     for index in itertools.product(*(range(len(several)) for several in values.values())):
-        changed = scene.set({path: several[number] for (path, several), number in zip(values.items(), index)})
-        if changed.core.describe()["resolution"] != size:
-            raise ArgumentError("a sweep cannot change the number of pixels")
-        yield _Task(changed, index, names, precision)
-
-
-def _arrays(of: Map) -> dict[str, NDArray[Any]]:
-    return {**of, "visible": of.mask}
+        for pointer, several, number in zip(pointers, values.values(), index):
+            pointer.put(written, several[number])
+        core = _isophote.Scene.from_json(json.dumps(written), str(scene.directory))
+        yield _Task(core, index, names, precision)
 
 
 @dataclass(frozen=True)
@@ -176,11 +177,12 @@ class _Memory:
     """Arrays for all maps."""
 
     def __init__(self, template: _Template) -> None:
-        self.arrays = {name: np.empty(template.shape(name), of[1]) for name, of in template.variables.items()}
+        # What no map sees is never written: memory that nobody touches costs nothing.
+        self.arrays = {name: np.zeros(template.shape(name), of[1]) for name, of in template.variables.items()}
 
-    def put(self, index: tuple[int, ...], values: Mapping[str, NDArray[Any]]) -> None:
+    def put(self, index: tuple[int, ...], of: _isophote.Map) -> None:
         for name, array in self.arrays.items():
-            array[index] = values[name]
+            of.copy_into(None if name == "visible" else name, array[index])
 
 
 @dataclass(frozen=True)
@@ -205,23 +207,29 @@ class _Store:
             )
         return cls(path)
 
-    def put(self, index: tuple[int, ...], values: Mapping[str, NDArray[Any]]) -> None:
+    def put(self, index: tuple[int, ...], of: _isophote.Map) -> None:
         import zarr
 
         group = zarr.open_group(self.path, mode="r+")
-        for name, array in values.items():
+        for name, array in _arrays(of).items():
             stored = group[name]
             assert isinstance(stored, zarr.Array)
             stored[index] = array
 
 
+def _arrays(of: _isophote.Map) -> dict[str, NDArray[Any]]:
+    return {**{name: of.channel(name) for name, _ in of.units()}, "visible": of.shapes() >= 0}
+
+
 def _on_threads(tasks: Sequence[_Task], workers: int | None, into: _Memory | _Store) -> Iterator[None]:
     """Renders on threads of this process; each map takes one."""
+    from concurrent.futures import ThreadPoolExecutor, as_completed
+
     count = (os.cpu_count() or 1) if workers is None else positive(workers, "workers")
     stop = threading.Event()
 
     def work(task: _Task) -> None:
-        into.put(task.index, _arrays(task.render(stop=stop)))
+        into.put(task.index, task.render(stop=stop))
 
     with ThreadPoolExecutor(count, thread_name_prefix="isophote") as pool:
         futures = [pool.submit(work, task) for task in tasks]
@@ -247,7 +255,8 @@ def _on_cluster(tasks: Sequence[_Task], client: distributed.Client, into: _Memor
         for future in distributed.as_completed(futures):
             values = future.result()
             if isinstance(into, _Memory):
-                into.put(index[future.key], values)
+                for name, array in into.arrays.items():
+                    array[index[future.key]] = values[name]
             future.release()
             yield
     finally:
@@ -256,9 +265,8 @@ def _on_cluster(tasks: Sequence[_Task], client: distributed.Client, into: _Memor
 
 def _work(task: _Task, store: _Store | None) -> dict[str, NDArray[Any]] | None:
     """What a cluster's worker does: a map into the store, or into its answer."""
-    arrays = _arrays(task.render())
+    of = task.render()
     if store is None:
-        # Views of the map's memory travel as well as their own.
-        return arrays
-    store.put(task.index, arrays)
+        return _arrays(of)
+    store.put(task.index, of)
     return None

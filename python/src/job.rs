@@ -48,19 +48,22 @@ impl Progress {
     }
 
     fn report(&self, py: Python<'_>, watch: &Watch) -> PyResult<()> {
-        let Some(function) = &self.function else { return Ok(()) };
-        function.call1(py, (watch.done.load(Ordering::Relaxed).min(self.total), self.total))?;
+        self.say(py, watch.done.load(Ordering::Relaxed).min(self.total))
+    }
+
+    fn say(&self, py: Python<'_>, done: u64) -> PyResult<()> {
+        if let Some(function) = &self.function {
+            function.call1(py, (done, self.total))?;
+        }
         Ok(())
     }
 }
 
-/// What becomes of a job that is interrupted.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
-    /// Its result is let go of; it ends when it next looks, and nobody waits for that.
-    Alone,
-    /// It holds files, which the caller may use next: it is waited for.
-    AwaitedBecauseOfFiles,
+/// Runs a job that is done in a moment, on this thread, without the interpreter's lock.
+pub fn run_here<T: Send>(py: Python<'_>, progress: &Progress, job: impl FnOnce() -> T + Send) -> PyResult<T> {
+    let result = py.detach(|| catch_unwind(AssertUnwindSafe(job)));
+    progress.say(py, progress.total)?;
+    result.map_err(|panic| error::internal(py, message(&*panic)))
 }
 
 /// Runs a job on a thread of its own. This thread waits without the interpreter's lock, and takes it now and then for the
@@ -70,27 +73,64 @@ pub fn run<T: Send + 'static>(
     progress: &Progress,
     job: impl FnOnce(&Watch) -> T + Send + 'static,
 ) -> PyResult<T> {
-    run_to(py, Ending::Alone, progress, job)
-}
-
-/// The same, with a word about the end.
-pub fn run_to<T: Send + 'static>(
-    py: Python<'_>,
-    ending: Ending,
-    progress: &Progress,
-    job: impl FnOnce(&Watch) -> T + Send + 'static,
-) -> PyResult<T> {
     let watch = Arc::new(Watch::default());
-    let (sender, mut receiver) = mpsc::channel();
+    let (sender, receiver) = mpsc::channel();
     let worker = {
         let watch = Arc::clone(&watch);
-        move || {
-            let result = catch_unwind(AssertUnwindSafe(|| apart_from_the_parent(|| job(&watch))));
-            // Nobody listens any more after an interruption.
-            let _ = sender.send(result);
-        }
+        // Nobody listens any more after an interruption.
+        move || drop(sender.send(outcome(|| job(&watch))))
     };
-    std::thread::Builder::new().name("isophote".into()).spawn(worker).map_err(error::file)?;
+    named().spawn(worker).map_err(error::file)?;
+    wait(py, progress, &watch, receiver).map_err(|Interruption { error, .. }| error)
+}
+
+/// The same for a job that borrows, or holds files that the caller may use next: after an interruption it is waited for.
+pub fn run_to_its_end<T: Send>(
+    py: Python<'_>,
+    progress: &Progress,
+    job: impl FnOnce(&Watch) -> T + Send,
+) -> PyResult<T> {
+    let watch = &Watch::default();
+    std::thread::scope(|scope| {
+        let (sender, receiver) = mpsc::channel();
+        named().spawn_scoped(scope, move || drop(sender.send(outcome(|| job(watch))))).map_err(error::file)?;
+        wait(py, progress, watch, receiver).map_err(|Interruption { error, receiver }| {
+            // What it says does not matter any more.
+            drop(py.detach(move || receiver.map(|receiver| receiver.recv())));
+            error
+        })
+    })
+}
+
+type Outcome<T> = Result<T, Box<dyn Any + Send>>;
+
+fn named() -> std::thread::Builder {
+    std::thread::Builder::new().name("isophote".into())
+}
+
+fn outcome<T: Send>(job: impl FnOnce() -> T + Send) -> Outcome<T> {
+    catch_unwind(AssertUnwindSafe(|| apart_from_the_parent(job)))
+}
+
+/// What ended the waiting, and the way to hear of the job's own end, if that is still to come.
+struct Interruption<T> {
+    error: PyErr,
+    receiver: Option<mpsc::Receiver<Outcome<T>>>,
+}
+
+impl<T> From<PyErr> for Interruption<T> {
+    fn from(error: PyErr) -> Self {
+        Self { error, receiver: None }
+    }
+}
+
+/// Waits for a job.
+fn wait<T: Send>(
+    py: Python<'_>,
+    progress: &Progress,
+    watch: &Watch,
+    mut receiver: mpsc::Receiver<Outcome<T>>,
+) -> Result<T, Interruption<T>> {
     loop {
         let answer;
         (receiver, answer) = py.detach(move || {
@@ -99,22 +139,18 @@ pub fn run_to<T: Send + 'static>(
         });
         match answer {
             Ok(Ok(result)) => {
-                progress.report(py, &watch)?;
+                progress.report(py, watch)?;
                 return Ok(result);
             }
-            Ok(Err(panic)) => return Err(error::internal(py, message(&*panic))),
+            Ok(Err(panic)) => return Err(error::internal(py, message(&*panic)).into()),
             Err(mpsc::RecvTimeoutError::Timeout) => {
-                if let Err(error) = py.check_signals().and_then(|()| progress.report(py, &watch)) {
+                if let Err(error) = py.check_signals().and_then(|()| progress.report(py, watch)) {
                     watch.is_stopped.store(true, Ordering::Relaxed);
-                    if ending == Ending::AwaitedBecauseOfFiles {
-                        // What it says does not matter any more.
-                        let _ = py.detach(move || receiver.recv());
-                    }
-                    return Err(error);
+                    return Err(Interruption { error, receiver: Some(receiver) });
                 }
             }
             Err(mpsc::RecvTimeoutError::Disconnected) => {
-                return Err(error::internal(py, "the work ended without a word"));
+                return Err(error::internal(py, "the work ended without a word").into());
             }
         }
     }

@@ -10,16 +10,16 @@ use isophote::export::colormap::Colormap;
 use isophote::export::csv::Rows;
 use isophote::export::png::{Depth, PictureColor, PictureOptions};
 use isophote::export::{self, ExportError, FileMetadata, Format, write_atomically};
-use isophote::map::{Map as CoreMap, Quantity, Resolution, Values};
+use isophote::map::{Map as CoreMap, Quantity, Resolution, Run, Values};
 use isophote::units::Choice;
 use numpy::ndarray::{ArrayView, Dimension, ShapeBuilder};
-use numpy::{Element, IntoPyArray, PyArray, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{Element, IntoPyArray, PyArray, PyArray2, PyArrayMethods, PyReadwriteArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::error;
-use crate::job::{self, Ending, Progress};
+use crate::job::{self, Progress};
 
 /// A map of the core; its arrays are views of its memory.
 #[pyclass(frozen, module = "isophote._isophote")]
@@ -154,7 +154,7 @@ impl Map {
             colormap: colormap_named(py, colormap)?,
         };
         let map = Arc::clone(&self.map);
-        let saved = job::run_to(py, Ending::AwaitedBecauseOfFiles, &Progress::none(), move |_| {
+        let saved = job::run_to_its_end(py, &Progress::none(), move |_| {
             write_atomically(&path, |file| match format {
                 Format::Png => style.write(&map, file),
                 Format::Exr => export::exr::write(&map, file),
@@ -170,6 +170,23 @@ impl Map {
             | ExportError::Taken { .. } => error::file(error),
             error => error::value(py, error),
         })
+    }
+
+    /// Copies a channel, or whether a surface is seen, into a contiguous array of its shape and type that is 0 everywhere.
+    #[pyo3(signature = (name, out))]
+    fn copy_into(&self, py: Python<'_>, name: Option<&str>, out: &Bound<'_, PyAny>) -> PyResult<()> {
+        let runs = self.map.mask().runs();
+        let Some(name) = name else {
+            return copy(py, out, |seen: &mut [bool]| runs.iter().for_each(|run| seen[run.start..run.end].fill(true)));
+        };
+        let quantity = self.quantity(name)?;
+        let Some(channel) = self.map.channel(quantity) else { return Err(PyKeyError::new_err(name.to_owned())) };
+        match &channel.values {
+            Values::Scalar(values) => copy(py, out, |out| copy_runs(runs, values, out, 1)),
+            Values::Single(values) => copy(py, out, |out| copy_runs(runs, values, out, 1)),
+            Values::Vector(values) => copy(py, out, |out| copy_runs(runs, values.as_flattened(), out, 3)),
+            Values::Index(values) => copy(py, out, |out| out.copy_from_slice(values)),
+        }
     }
 
     /// The picture of a channel, as the bytes of a PNG.
@@ -192,6 +209,22 @@ impl Map {
 #[pyo3(name = "nice_levels")]
 pub fn levels(least: f64, greatest: f64, about: usize) -> Vec<f64> {
     nice_levels(least, greatest, about)
+}
+
+/// Fills an array without the interpreter's lock.
+fn copy<T: Element + Send>(py: Python<'_>, out: &Bound<'_, PyAny>, fill: impl FnOnce(&mut [T]) + Send) -> PyResult<()> {
+    let mut out = out.extract::<PyReadwriteArrayDyn<'_, T>>()?;
+    let out = out.as_slice_mut().map_err(|error| error::internal(py, error))?;
+    py.detach(|| fill(out));
+    Ok(())
+}
+
+/// What sees a surface, with so many numbers a pixel.
+fn copy_runs<T: Copy>(runs: &[Run], values: &[T], out: &mut [T], width: usize) {
+    for run in runs {
+        let range = run.start * width..run.end * width;
+        out[range.clone()].copy_from_slice(&values[range]);
+    }
 }
 
 /// How a picture shows its channel.

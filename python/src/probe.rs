@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use isophote::analysis::probe::{Place, ProbeError, ProbeReading};
 use isophote::map::Pixel;
 use isophote::prepare::{Hit, PreparedScene};
-use isophote::render::Observer;
+use isophote::render::{Observer, PointKernel, PointValues};
 use isophote::scene::{Scene as CoreScene, limits};
 use isophote::shade::Shading;
 use isophote::units::{Choice, LengthUnit};
@@ -54,6 +54,41 @@ pub fn probe_points<'py>(
     let places = points.into_iter().map(|point| is_possible(&point).then(|| place(point))).collect();
     probe_places(py, scene, places, elsewhere == "nan", per_light, progress)
 }
+
+/// Brightness, irradiance and shape at many points, n × 3 in the scene's unit, and how many are on no surface, where the
+/// values are NaN and the shape is −1; nothing for a scene whose points have to be taken one by one.
+#[pyfunction]
+pub fn probe_values<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    points: PyReadonlyArray2<'py, f64>,
+    snaps: bool,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Option<Many<'py>>> {
+    let prepared = scene.prepared();
+    let Some(kernel) = PointKernel::new(&prepared) else { return Ok(None) };
+    let (points, rest) = points.as_slice().map_err(|error| error::internal(py, error))?.as_chunks::<3>();
+    debug_assert!(rest.is_empty());
+    let (mut brightness, mut irradiance, mut shape) =
+        (vec![0.0; points.len()], vec![0.0; points.len()], vec![0; points.len()]);
+    let progress = Progress { function: progress, total: points.len() as u64 };
+    let misses = job::run_to_its_end(py, &progress, |watch| {
+        let values = brightness.par_chunks_mut(CHUNK).zip(irradiance.par_chunks_mut(CHUNK));
+        let values = values.zip(shape.par_chunks_mut(CHUNK)).zip(points.par_chunks(CHUNK));
+        let fill = values.map(|(((brightness, irradiance), shape), points)| {
+            if watch.is_stopped() {
+                return 0;
+            }
+            advance(watch, points.len());
+            kernel.fill(points, snaps, &mut PointValues { brightness, irradiance, shape })
+        });
+        fill.sum::<usize>()
+    })?;
+    Ok(Some((brightness.into_pyarray(py), irradiance.into_pyarray(py), shape.into_pyarray(py), misses)))
+}
+
+/// What [`probe_values`] finds.
+type Many<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i32>>, usize);
 
 /// The values at what is seen at the centres of pixels, n × 2: column and row.
 #[pyfunction]

@@ -31,10 +31,17 @@ pub fn render(
     let renderer = renderer(self::precision(py, precision)?, threads);
     let region = region.map_or_else(|| Region::all(scene.core().camera().resolution), region_of);
     let prepared = scene.prepared();
-    let progress = Progress { function: progress, total: region.size.pixels() as u64 };
-    let map = job::run(py, &progress, move |watch| {
-        renderer.render(&prepared, &RenderSettings { region: Some(region), quantities, observer: Some(watch) })
-    })?;
+    let total = region.size.pixels() as u64;
+    // Waiting for another thread would take longer than many a small map.
+    let progress = Progress { function: progress, total };
+    let map = if renderer.is_quick(&prepared, region) {
+        let settings = RenderSettings { region: Some(region), quantities, observer: None };
+        job::run_here(py, &progress, || renderer.render(&prepared, &settings))?
+    } else {
+        job::run(py, &progress, move |watch| {
+            renderer.render(&prepared, &RenderSettings { region: Some(region), quantities, observer: Some(watch) })
+        })?
+    };
     Ok(Map::new(map.map_err(|error| error::of_render(py, &error))?))
 }
 

@@ -77,6 +77,13 @@ impl Scene {
         serde_json::to_string(self.scene.source()).map_err(|error| error::internal(py, error))
     }
 
+    /// For other processes: the scene is read again there.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, PathBuf))> {
+        let scene = slf.get();
+        let again = slf.get_type().getattr("from_json")?;
+        Ok((again, (scene.to_json(slf.py())?, scene.scene.source().directory.clone())))
+    }
+
     fn to_toml(&self) -> String {
         self.scene.source().to_toml()
     }
@@ -84,6 +91,12 @@ impl Scene {
     fn with_resolution(&self, py: Python<'_>, width: u32, height: u32) -> PyResult<Self> {
         let scene = self.scene.clone();
         Self::new(py, py.detach(|| scene.with_resolution(Resolution { width, height })))
+    }
+
+    /// Whether the scene has colours.
+    #[getter]
+    fn has_color(&self) -> bool {
+        self.scene.color().is_some()
     }
 
     /// The unit of a channel.
@@ -118,7 +131,6 @@ impl Scene {
         description.set_item("grids", scene.grids().iter().map(|grid| grid.name.as_str()).collect::<Vec<_>>())?;
         let probes: Vec<_> = scene.probes().iter().map(|probe| probe.name.as_str()).collect();
         description.set_item("probes", probes)?;
-        description.set_item("has_color", scene.color().is_some())?;
         description.set_item("is_sampled", scene.sampling().is_more_than_centres())?;
         let resolution = scene.camera().resolution;
         description.set_item("resolution", (resolution.width, resolution.height))?;

@@ -167,7 +167,6 @@ def test_values_are_set_by_their_paths(lab):
         "light[1].position",
         "light.lamp.colour",
         "material.clay",
-        "camera",
         "nothing",
         "",
         "camera.eye.x",

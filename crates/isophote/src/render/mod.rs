@@ -11,7 +11,7 @@ mod tiles;
 use std::ops::ControlFlow;
 
 pub(crate) use band::provenance;
-pub use lanes::Lanes;
+pub use lanes::{Lanes, PointKernel, PointValues};
 pub use reference::Reference;
 pub use sampling::{Filter, Sampling};
 

@@ -5,6 +5,7 @@
 
 pub(super) mod kernel;
 pub(super) mod lights;
+mod points;
 pub(super) mod power;
 pub(super) mod visible;
 
@@ -15,6 +16,7 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use self::kernel::BandJob;
+pub use self::points::{PointKernel, PointValues};
 use self::visible::Candidate;
 use super::band::{self, Band};
 use super::color;
@@ -22,7 +24,7 @@ use super::sampling::{self, Renders};
 use super::tiles::{self, Tiles};
 use super::{RenderError, RenderSettings, Renderer};
 use crate::lanes::{Instructions, Precision};
-use crate::map::{Map, Run, Values};
+use crate::map::{Map, Region, Run, Values};
 use crate::prepare::PreparedScene;
 use crate::shape::{Outline, Primitive};
 use crate::units::Choice;
@@ -48,6 +50,19 @@ impl Lanes {
     #[must_use]
     pub fn with_instructions(self, instructions: Instructions) -> Self {
         Self { instructions, ..self }
+    }
+
+    /// Whether a part of an image is done before other threads have woken up, so that nobody needs to wait for it on another
+    /// thread, or to be able to stop it.
+    #[must_use]
+    pub fn is_quick(&self, scene: &PreparedScene, region: Region) -> bool {
+        let description = scene.scene();
+        let is_plain = !description.sampling().is_more_than_centres() && description.color().is_none();
+        let is_known = |shape| !matches!(scene.outline(shape), Outline::Unknown);
+        is_plain
+            && !tiles::suit(scene)
+            && (0..description.shapes().len()).all(is_known)
+            && estimated_time(scene, region, false) < WORTH_THREADS
     }
 
     /// The threads, started when they are first needed.
@@ -104,7 +119,7 @@ impl Lanes {
                 self.fill_by_rows(band, scene, &order, settings)
             }
         };
-        let runs = if threads == 1 || estimated_time(scene, &map, suits_tiles) < WORTH_THREADS {
+        let runs = if threads == 1 || estimated_time(scene, map.region, suits_tiles) < WORTH_THREADS {
             let bands = band::split(&mut map, scene, height).into_iter();
             bands.map(fill).collect::<Result<Vec<_>, _>>()?
         } else {
@@ -157,8 +172,7 @@ const WORTH_THREADS: f64 = 200_000.0;
 const BANDS_A_THREAD: u32 = 8;
 
 /// About the time that one thread takes, in nanoseconds.
-fn estimated_time(scene: &PreparedScene, map: &Map, suits_tiles: bool) -> f64 {
-    let region = map.region;
+fn estimated_time(scene: &PreparedScene, region: Region, suits_tiles: bool) -> f64 {
     let pixels = f64::from(region.size.width) * f64::from(region.size.height);
     if suits_tiles {
         return 50.0 * pixels;

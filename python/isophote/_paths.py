@@ -1,0 +1,128 @@
+"""Paths to values in a scene, such as ``light.lamp.position``."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ._convert import Converter, Invalid
+from ._part import Part, converters
+from .errors import ArgumentError, Problem, SceneError
+from .lights import Light
+from .shapes import KINDS, Shape
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+
+@dataclasses.dataclass(frozen=True)
+class Pointer:
+    """Where a value stands in the dictionary of a scene, and how it is converted."""
+
+    path: str
+    keys: tuple[str | int, ...]
+    convert: Converter
+
+    def put(self, written: dict[str, Any], value: Any) -> None:
+        """Puts a value there; ``None`` takes away what is there."""
+        container: Any = written
+        for key in self.keys[:-1]:
+            container = container[key]
+        if value is None:
+            container.pop(self.keys[-1], None)
+            return
+        try:
+            converted = self.convert(value)
+        except Invalid as invalid:
+            problem = Problem("wrong-type", self.path, f"`{self.path}` {invalid.message}", invalid.allowed)
+            raise SceneError(str(problem), [problem]) from None
+        container[self.keys[-1]] = converted.to_dict() if isinstance(converted, Part) else converted
+
+
+def locate(scene: Scene, path: str) -> Pointer:
+    """Where a path leads in a scene."""
+    match = re.fullmatch(r"(?P<table>\w+)(?:\[(?P<index>\d+)\])?(?:\.(?P<rest>.+))?", path, re.DOTALL)
+    if match is None:
+        example = "such as light.lamp.position, material.clay.shininess, camera.eye"
+        raise ArgumentError(f"{path!r} is no path; allowed: {example}")
+    table, index, rest = match["table"], match["index"], match["rest"]
+    if table in _WHOLE and rest is None and index is None:
+        return Pointer(path, (table,), converters(type(scene))[table])
+    if table in _PARTS and rest is not None and index is None:
+        part = getattr(scene, table)
+        if part is None:
+            raise ArgumentError(f"{path!r}: the scene has no {table}")
+        return _within(part, (table,), rest.split("."), path)
+    if table == "material" and rest is not None and "." in rest:
+        name, key = rest.rsplit(".", 1)
+        if name not in scene.materials:
+            raise ArgumentError(f"{path!r}: the scene has no material {name!r}; there are: {', '.join(scene.materials)}")
+        return _within(scene.materials[name], ("material", name), [key], path)
+    if table in _TABLES and rest is not None:
+        field, kind = _TABLES[table]
+        items: Sequence[Any] = getattr(scene, field)
+        number, keys = _find(scene, field, table, kind, index, rest, path)
+        item = items[number]
+        if isinstance(item, Shape):
+            table = item.KEY
+            number = sum(type(other) is type(item) for other in items[:number])
+        return _within(item, (table, number), keys, path)
+    parts, tables = (f"{name}.…" for name in _PARTS), (f"{name}.NAME.…" for name in ("material", *_TABLES))
+    raise ArgumentError(f"{path!r} leads nowhere; allowed: {', '.join((*_WHOLE, *parts, *tables))}")
+
+
+_WHOLE = (
+    "title",
+    "convention",
+    "handedness",
+    "quantities",
+    "color_space",
+    "shadows",
+    "length",
+    "ambient",
+    "sampling",
+    "camera",
+)
+_PARTS = ("camera", "sampling", "ambient")
+_TABLES: Mapping[str, tuple[str, type[Part]]] = {
+    "light": ("lights", Light),
+    "probe": ("probes", Part),
+    "grid": ("grids", Part),
+    "shape": ("shapes", Shape),
+    **{kind.KEY: ("shapes", kind) for kind in KINDS},
+}
+
+
+def _find(
+    scene: Scene, field: str, table: str, kind: type[Part], index: str | None, rest: str, path: str
+) -> tuple[int, list[str]]:
+    """The number of a thing among those of its field, and what follows its name or its number in the path."""
+    items = getattr(scene, field)
+    of_kind = [number for number, item in enumerate(items) if isinstance(item, kind)]
+    if index is not None:
+        if int(index) >= len(of_kind):
+            raise ArgumentError(f"{path!r}: the scene has {len(of_kind)} {table}, counted from 0")
+        return of_kind[int(index)], rest.split(".")
+    names = scene.core.describe()[field]
+    # Names may have dots in them, and one may begin like another.
+    for number in sorted(of_kind, key=lambda number: -len(names[number])):
+        if rest.startswith(names[number] + "."):
+            return number, rest[len(names[number]) + 1 :].split(".")
+    there_are = ", ".join(names[number] for number in of_kind[:20]) or "none"
+    raise ArgumentError(f"{path!r}: the scene has no such {table}; there are: {there_are}")
+
+
+def _within(part: Part, keys: tuple[str | int, ...], names: list[str], path: str) -> Pointer:
+    name, *rest = names
+    fields = [field.name for field in dataclasses.fields(part)]
+    if name not in fields:
+        raise ArgumentError(f"{path!r}: a {type(part).__name__} has no {name!r}; it has {', '.join(fields)}")
+    here = (*keys, part.key_of(name))
+    if not rest:
+        return Pointer(path, here, converters(type(part))[name])
+    inner = getattr(part, name)
+    if not isinstance(inner, Part):
+        raise ArgumentError(f"{path!r}: {name!r} has nothing in it to change")
+    return _within(inner, here, rest, path)
