@@ -24,7 +24,10 @@ exclude_patterns = ["requirements.txt"]
 highlight_language = "text"
 nitpicky = True
 # Types of other packages, which are linked nowhere: the site is built without the network.
-nitpick_ignore_regex = [("py:.*", r"(numpy|np|matplotlib|xarray|distributed|collections|os|typing)\..*")]
+nitpick_ignore_regex = [
+    ("py:.*", r"(numpy|np|matplotlib|xarray|distributed|collections|os|typing)\..*"),
+    ("py:.*", r"(Vector|Pair|Size|Amount|Channels|Progress)"),
+]
 
 # Links to headings work as they do where the pages are read without a site.
 myst_heading_anchors = 3
@@ -33,10 +36,18 @@ myst_links_external_new_tab = False
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
+nb_execution_in_temp = True
 
 autodoc_member_order = "bysource"
-autodoc_typehints = "description"
-autodoc_class_signature = "mixed"
+autodoc_typehints = "signature"
+# Named at the top of the reference, which is where they are explained.
+TYPES = ("Vector", "Pair", "Size", "Amount", "Channels", "Progress")
+PLAIN = {"Number": "float", "Whole": "int", "Word": "str", "Flag": "bool"}
+autodoc_type_aliases = {name: name for name in (*TYPES, *PLAIN)}
+maximum_signature_line_length = 90
+python_use_unqualified_type_names = True
+# Nobody makes these but the package.
+RESULTS = ("Map", "SurfaceMap", "GridMap", "Values", "Probes", "Section", "MapFile")
 
 copybutton_prompt_text = r">>> |\.\.\. "
 copybutton_prompt_is_regexp = True
@@ -45,6 +56,20 @@ html_theme = "furo"
 html_title = f"Isophote {release}"
 html_show_copyright = False
 html_show_sourcelink = False
+
+
+def signature(app, what, name, obj, options, signature, returned):
+    """Types as users know them, in place of those that tell the package how to convert what they write."""
+    if what == "class" and name.removeprefix("isophote.") in RESULTS:
+        return "", None
+    if signature is not None:
+        signature = re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", signature)
+        signature = re.sub(r"~?[\w.]*Annotated\[(.+?), <function .+? at 0x[0-9a-f]+>\]", r"\1", signature)
+        signature = re.sub(r"\b(Number|Whole|Word|Flag)\b", lambda match: PLAIN[match[0]], signature)
+        signature = signature.replace("<factory>", "{}")
+    if returned is not None and returned.endswith("PartType"):
+        returned = name.split(".")[-2]
+    return signature, returned
 
 
 def setup(app):
@@ -60,3 +85,4 @@ def setup(app):
         source[0] = link.sub(lambda match: outside(match, page), source[0])
 
     app.connect("source-read", read)
+    app.connect("autodoc-process-signature", signature)
