@@ -26,7 +26,7 @@ nitpicky = True
 # Types of other packages, which are linked nowhere: the site is built without the network.
 nitpick_ignore_regex = [
     ("py:.*", r"(numpy|np|matplotlib|xarray|distributed|collections|os|typing)\..*"),
-    ("py:.*", r"(Vector|Pair|Size|Amount|Channels|Progress)"),
+    ("py:.*", r"(Vector|Pair|Size|Amount|ArrayLike|Channels|Progress)"),
 ]
 
 # Links to headings work as they do where the pages are read without a site.
@@ -41,7 +41,7 @@ nb_execution_in_temp = True
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 # Named at the top of the reference, which is where they are explained.
-TYPES = ("Vector", "Pair", "Size", "Amount", "Channels", "Progress")
+TYPES = ("Vector", "Pair", "Size", "Amount", "ArrayLike", "Channels", "Progress")
 PLAIN = {"Number": "float", "Whole": "int", "Word": "str", "Flag": "bool"}
 autodoc_type_aliases = {name: name for name in (*TYPES, *PLAIN)}
 maximum_signature_line_length = 90
@@ -67,9 +67,24 @@ def signature(app, what, name, obj, options, signature, returned):
         signature = re.sub(r"~?[\w.]*Annotated\[(.+?), <function .+? at 0x[0-9a-f]+>\]", r"\1", signature)
         signature = re.sub(r"\b(Number|Whole|Word|Flag)\b", lambda match: PLAIN[match[0]], signature)
         signature = signature.replace("<factory>", "{}")
-    if returned is not None and returned.endswith("PartType"):
-        returned = name.split(".")[-2]
+    if returned is not None:
+        returned = re.sub(r"~numpy\.ndarray\[.+?, ~numpy\.dtype\[(.+?)\]\]", r"~numpy.typing.NDArray[\1]", returned)
+        if returned.endswith("PartType"):
+            returned = name.split(".")[-2]
     return signature, returned
+
+
+def docstring(app, what, name, obj, options, lines):
+    """What is said of parameters, which is a line each, becomes a list."""
+    listed, within = [], False
+    for line in lines:
+        if re.match(r"``\w+``(, ``\w+``)*:", line):
+            listed.extend([f"- {line}"] if within else ["", f"- {line}"])
+            within = True
+        else:
+            within = within and bool(line.strip())
+            listed.append(f"  {line}" if within else line)
+    lines[:] = listed
 
 
 def setup(app):
@@ -86,3 +101,4 @@ def setup(app):
 
     app.connect("source-read", read)
     app.connect("autodoc-process-signature", signature)
+    app.connect("autodoc-process-docstring", docstring)
