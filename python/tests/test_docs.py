@@ -6,6 +6,7 @@ Run as a program, this draws the tutorial's pictures anew.
 from __future__ import annotations
 
 import doctest
+import importlib
 import os
 import re
 import shutil
@@ -29,6 +30,7 @@ PAGES = [
     *(DOCS / name for name in ("tutorial.md", "tutorial.ru.md", "conventions.md", "conventions.ru.md")),
     *sorted((DOCS / "python").glob("*.md")),
 ]
+MODULES = [path for path in sorted((ROOT / "python/isophote").glob("*.py")) if ">>>" in path.read_text(encoding="utf-8")]
 NOTEBOOKS = sorted((DOCS / "notebooks").glob("*.ipynb"))
 TRANSLATED = [DOCS / "tutorial.md", DOCS / "conventions.md", ROOT / "README.md"]
 # Of a picture's brightness: room for another version of matplotlib, none for another curve or map.
@@ -78,6 +80,14 @@ def test_every_example_gives_what_the_page_shows(page: Path, folder: Path) -> No
         assert there.shape == drawn.shape, f"{picture.name} has another size: run make docs-figures"
         difference = float(np.abs(there - drawn).mean())
         assert difference < PICTURES_DIFFER_BY, f"{picture.name} is out of date by {difference}: run make docs-figures"
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("module", MODULES, ids=_name)
+def test_every_example_in_a_docstring_gives_what_it_shows(module: Path, folder: Path) -> None:
+    """Those that `help` and the reference show."""
+    name = ".".join(("isophote", *(() if module.stem == "__init__" else (module.stem,))))
+    assert doctest.testmod(importlib.import_module(name)).failed == 0
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=_name)
