@@ -57,6 +57,7 @@ html_theme = "furo"
 html_title = f"Isophote {release}"
 html_show_copyright = False
 html_show_sourcelink = False
+html_copy_source = False
 
 
 def signature(app, what, name, obj, options, signature, returned):
