@@ -3,8 +3,12 @@
 CARGO := cargo
 ISOPHOTE := $(CARGO) run --quiet --release --
 # As the tests build it, so that nothing is compiled twice.
-TESTED := $(or $(CARGO_TARGET_DIR),target)/debug/isophote
+TESTED_BUILD := $(CARGO) build --quiet --workspace --lib --bins --tests
+TESTED_DIR := $(or $(CARGO_TARGET_DIR),target)/debug
+TESTED := $(TESTED_DIR)/isophote
 PYTHON_ENV := target/python
+PYTHON := $(CURDIR)/$(PYTHON_ENV)/bin/python
+PYTHON_MODULE := python/isophote/_isophote.abi3.so
 GENERATED := target/generated
 DOCS_ENV := target/docs-python
 DOCS_SITE := target/docs-site
@@ -17,7 +21,7 @@ FUZZ_TARGETS := $(notdir $(basename $(wildcard fuzz/fuzz_targets/*.rs)))
 FUZZ_SECONDS := 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check bench bench-instructions compare growth audit fuzz docs generate generated-is-current
+.PHONY: help demo test test-python check check-python bench bench-instructions compare growth audit fuzz docs generate generated-is-current
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-18s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -25,15 +29,24 @@ help: ## List the targets
 demo: ## Render the lab's scene: its numbers, lab.png, and lab-figure.png with axes and isophotes
 	$(ISOPHOTE) render -o lab.png --figure lab-figure.png
 
-test: python-env ## Run every test (with NumPy, zarr and xarray as foreign readers, where Python 3 can have them)
-	@if [ -e $(PYTHON_ENV)/readers-ready ]; then export ISOPHOTE_PYTHON="$$PWD/$(PYTHON_ENV)/bin/python"; fi; \
+test: python-env ## Run every test (those in Python, and with it as a foreign reader, where there is Python 3.10 or later)
+	@if [ -e $(PYTHON_ENV)/ready ]; then export ISOPHOTE_PYTHON="$(PYTHON)"; fi; \
 	$(CARGO) test --workspace
+	@[ ! -e $(PYTHON_ENV)/ready ] || $(MAKE) --no-print-directory test-python
 
-check: generated-is-current ## Formatting, lints, documentation without warnings, generated files up to date
+test-python: python-env python-module ## Run the tests of the Python package alone
+	cd python && PYTHONPATH="$(CURDIR)/python" $(PYTHON) -m pytest
+
+check: generated-is-current check-python ## Formatting, lints, documentation without warnings, generated files up to date
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets -- -D warnings
 	$(CARGO) clippy --workspace --bench instructions -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --quiet
+
+check-python: python-env python-module ## The same of the Python package: formatting, lints, types, and the stubs beside the module
+	@[ -e $(PYTHON_ENV)/ready ] || exit 0; cd python && \
+	$(PYTHON) -m ruff format --check --quiet . && $(PYTHON) -m ruff check --quiet . && \
+	$(PYTHON) -m mypy && $(PYTHON) -m mypy.stubtest isophote._isophote --mypy-config-file pyproject.toml
 
 bench: ## Time every stage, the whole program from start to picture, and all that beside other programs
 	$(CARGO) bench --workspace
@@ -95,7 +108,7 @@ generated-is-current: $(GENERATED)
 
 .PHONY: $(GENERATED)
 $(GENERATED):
-	$(CARGO) build --quiet --workspace --tests
+	$(TESTED_BUILD)
 	@rm -rf $@ && mkdir -p $@/schema $@/docs/images
 	$(TESTED) schema > $@/schema/scene.schema.json
 	$(TESTED) render --quiet --figure $@/docs/images/lab.png > /dev/null
@@ -110,11 +123,20 @@ $(GENERATED):
 	$(TESTED) surface --quiet scenes/surface.toml --figure $@/docs/images/gallery/surface.png > /dev/null
 	$(TESTED) grid --quiet scenes/grid.toml --name floor --figure $@/docs/images/gallery/grid.png > /dev/null
 
-# NumPy, zarr and xarray read what we write for them. Without them two tests say that they are skipped, and all others run.
+# The compiled part of the Python package, where Python finds it in the source.
+.PHONY: python-module
+python-module:
+	$(TESTED_BUILD)
+	@for module in $(TESTED_DIR)/lib_isophote.so $(TESTED_DIR)/lib_isophote.dylib; do \
+		[ ! -e "$$module" ] || cmp -s "$$module" $(PYTHON_MODULE) || { rm -f $(PYTHON_MODULE); cp "$$module" $(PYTHON_MODULE); }; \
+	done
+
+# Without Python the tests of its package do not run, two others say that they are skipped, and all the rest runs.
 .PHONY: python-env
 python-env:
-	@[ -e $(PYTHON_ENV)/readers-ready ] || { \
-		rm -rf $(PYTHON_ENV) && mkdir -p target && python3 -m venv $(PYTHON_ENV) && \
-		$(PYTHON_ENV)/bin/python -m pip install --quiet --disable-pip-version-check numpy 'zarr>=3' xarray && \
-		touch $(PYTHON_ENV)/readers-ready; \
-	} || { rm -rf $(PYTHON_ENV); echo "no Python with NumPy, zarr and xarray here: the tests that need them are skipped"; }
+	@cmp -s python/requirements-dev.txt $(PYTHON_ENV)/ready || { \
+		rm -rf $(PYTHON_ENV) && mkdir -p target && python3 -c 'import sys; sys.exit(sys.version_info < (3, 10))' && \
+		python3 -m venv $(PYTHON_ENV) && \
+		$(PYTHON) -m pip install --quiet --disable-pip-version-check -r python/requirements-dev.txt && \
+		cp python/requirements-dev.txt $(PYTHON_ENV)/ready; \
+	} || { rm -rf $(PYTHON_ENV); echo "no Python from 3.10 with its packages here: the tests that need it are skipped"; }

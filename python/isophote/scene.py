@@ -19,7 +19,7 @@ from .camera import Camera, Sampling
 from .errors import ArgumentError, SceneWarning
 from .lights import Ambient, Light, light_from_dict
 from .materials import Material
-from .shapes import KINDS, Shape
+from .shapes import KINDS, Mesh, Shape, Spheres
 
 __all__ = ["Grid", "Probe", "Scene"]
 
@@ -86,7 +86,8 @@ class Scene(Part):
     changes: :meth:`replace` and :meth:`set` give other ones.
 
     ``length`` is the unit of every length: ``"m"``, ``"cm"`` or ``"mm"``. ``shapes`` are kept in the order of maps and
-    probes, by kind first. ``directory`` is where relative names of files start.
+    probes, by kind first. ``directory`` is where relative names of files start. ``shadows`` tells
+    whether shapes stand in each other's light; a scene of several shapes that does not say is warned of.
     """
 
     length: Word
@@ -96,7 +97,7 @@ class Scene(Part):
     handedness: Word = "right"
     quantities: Word = "radiometric"
     color_space: Word = "rec709"
-    shadows: Flag = False
+    shadows: Flag | None = None
     sampling: Sampling | None = None
     materials: Annotated[Mapping[str, Material], _materials] = dataclasses.field(default_factory=dict)
     shapes: Annotated[Sequence[Shape], _shapes] = ()
@@ -206,7 +207,11 @@ class Scene(Part):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Scene):
             return NotImplemented
-        return self.to_dict() == other.to_dict() and self.directory == other.directory
+        return self.to_dict() == other.to_dict() and self._files_start() == other._files_start()
+
+    def _files_start(self) -> str:
+        """Where names of files start, if there are any: else it makes no difference."""
+        return str(self.directory) if any(isinstance(shape, (Mesh, Spheres)) for shape in self.shapes) else ""
 
     def __repr__(self) -> str:
         about = self.core.describe()

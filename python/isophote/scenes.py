@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
+
 from . import _isophote
+from .errors import SceneWarning
 from .scene import Scene
 
 __all__ = ["course", "lab", "photometric", "two_lights"]
@@ -29,4 +32,7 @@ def photometric() -> Scene:
 
 
 def _starter(name: str) -> Scene:
-    return Scene.from_toml(_isophote.starter(name), name=f"scenes/{name}.toml")
+    with warnings.catch_warnings():
+        # They are as they are on purpose.
+        warnings.simplefilter("ignore", SceneWarning)
+        return Scene.from_toml(_isophote.starter(name), name=f"scenes/{name}.toml")

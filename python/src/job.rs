@@ -54,10 +54,29 @@ impl Progress {
     }
 }
 
+/// What becomes of a job that is interrupted.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// Its result is let go of; it ends when it next looks, and nobody waits for that.
+    Alone,
+    /// It holds files, which the caller may use next: it is waited for.
+    AwaitedBecauseOfFiles,
+}
+
 /// Runs a job on a thread of its own. This thread waits without the interpreter's lock, and takes it now and then for the
 /// signal handlers and the progress function; what they raise ends the waiting at once, and the job as soon as it looks.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
+    progress: &Progress,
+    job: impl FnOnce(&Watch) -> T + Send + 'static,
+) -> PyResult<T> {
+    run_to(py, Ending::Alone, progress, job)
+}
+
+/// The same, with a word about the end.
+pub fn run_to<T: Send + 'static>(
+    py: Python<'_>,
+    ending: Ending,
     progress: &Progress,
     job: impl FnOnce(&Watch) -> T + Send + 'static,
 ) -> PyResult<T> {
@@ -87,6 +106,10 @@ pub fn run<T: Send + 'static>(
             Err(mpsc::RecvTimeoutError::Timeout) => {
                 if let Err(error) = py.check_signals().and_then(|()| progress.report(py, &watch)) {
                     watch.is_stopped.store(true, Ordering::Relaxed);
+                    if ending == Ending::AwaitedBecauseOfFiles {
+                        // What it says does not matter any more.
+                        let _ = py.detach(move || receiver.recv());
+                    }
                     return Err(error);
                 }
             }

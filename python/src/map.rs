@@ -19,7 +19,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::error;
-use crate::job::{self, Progress};
+use crate::job::{self, Ending, Progress};
 
 /// A map of the core; its arrays are views of its memory.
 #[pyclass(frozen, module = "isophote._isophote")]
@@ -154,7 +154,7 @@ impl Map {
             colormap: colormap_named(py, colormap)?,
         };
         let map = Arc::clone(&self.map);
-        let saved = job::run(py, &Progress::none(), move |_| {
+        let saved = job::run_to(py, Ending::AwaitedBecauseOfFiles, &Progress::none(), move |_| {
             write_atomically(&path, |file| match format {
                 Format::Png => style.write(&map, file),
                 Format::Exr => export::exr::write(&map, file),

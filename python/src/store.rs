@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error;
-use crate::job::{self, Progress};
+use crate::job::{self, Ending, Progress};
 use crate::render::{precision, quantities};
 use crate::scene::Scene;
 
@@ -52,7 +52,7 @@ pub fn store_prepare(
     let plan = plan(py, path, &channels, precision, shard_side)?;
     let prepared = scene.prepared();
     let opening = if resume { Opening::Continue } else { Opening::New };
-    let found = job::run(py, &Progress::none(), move |_| {
+    let found = job::run_to(py, Ending::AwaitedBecauseOfFiles, &Progress::none(), move |_| {
         let store = plan.open(&prepared, None, opening)?;
         let count = store.plan().count();
         let is_due = |number: &u32| {
@@ -86,10 +86,11 @@ pub fn store_render<'py>(
     let prepared = scene.prepared();
     let resolution = scene.core().camera().resolution;
     let total = u64::from(resolution.width) * u64::from(resolution.height);
-    let outcome = job::run(py, &Progress { function: progress, total }, move |watch| {
-        let store = plan.open(&prepared, part, Opening::Continue)?;
-        store.render(&prepared, &plan.renderer(), Workers { threads, memory }, part, Some(watch))
-    })?;
+    let outcome =
+        job::run_to(py, Ending::AwaitedBecauseOfFiles, &Progress { function: progress, total }, move |watch| {
+            let store = plan.open(&prepared, part, Opening::Continue)?;
+            store.render(&prepared, &plan.renderer(), Workers { threads, memory }, part, Some(watch))
+        })?;
     match outcome.map_err(|error| error::of_store(py, &error))? {
         Outcome::Complete(statistics) => Ok(Some(described(py, &statistics)?)),
         Outcome::Part { .. } => Ok(None),
@@ -100,7 +101,7 @@ pub fn store_render<'py>(
 #[pyfunction]
 pub fn store_merge(py: Python<'_>, path: PathBuf, check: bool) -> PyResult<Bound<'_, PyDict>> {
     let check = if check { Check::Content } else { Check::Presence };
-    let merged = job::run(py, &Progress::none(), move |_| merge(&path, check))?;
+    let merged = job::run_to(py, Ending::AwaitedBecauseOfFiles, &Progress::none(), move |_| merge(&path, check))?;
     described(py, &merged.map_err(|error| error::of_store(py, &error))?)
 }
 

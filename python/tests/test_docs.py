@@ -74,6 +74,8 @@ def test_every_example_gives_what_the_page_shows(page: Path, folder: Path) -> No
     """Word for word; and the pictures are those that the examples draw."""
     from matplotlib.image import imread
 
+    if re.search("render_to_zarr|store=", page.read_text(encoding="utf-8")):
+        pytest.importorskip("zarr", reason="Python 3.10 has no zarr 3")
     _run(page)
     for picture in _pictures(page):
         there, drawn = imread(picture), imread(folder / picture.name)
@@ -122,10 +124,10 @@ def test_a_notebook_is_committed_without_outputs(notebook: Path) -> None:
 
 @pytest.mark.parametrize("page", TRANSLATED, ids=_name)
 def test_a_translated_page_has_the_same_examples(page: Path) -> None:
-    """Whoever changes one changes the other."""
+    """Whoever changes one changes the other; only what comments say is translated."""
     english, russian = (
-        re.findall(r"^```python\n(.*?)^```", path.read_text(encoding="utf-8"), re.M | re.S)
-        for path in (page, page.with_suffix(".ru.md"))
+        [re.sub(r"\s+# .*", "", code) for code in re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)]
+        for text in (path.read_text(encoding="utf-8") for path in (page, page.with_suffix(".ru.md")))
     )
     assert english == russian
 

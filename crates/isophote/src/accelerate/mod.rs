@@ -34,7 +34,7 @@ pub struct Accelerator {
 impl Accelerator {
     /// The tree over so many primitives; what has no end has no box.
     #[must_use]
-    pub fn new(count: u32, bounds: impl Fn(u32) -> Option<Bounds>) -> Self {
+    pub fn new(count: u32, bounds: impl Fn(u32) -> Option<Bounds> + Sync) -> Self {
         build::build(count, bounds)
     }
 

@@ -49,6 +49,21 @@ impl Child {
         Self(index | PRIMITIVE)
     }
 
+    /// As it is stored.
+    pub fn to_bits(self) -> u32 {
+        self.0
+    }
+
+    /// The reverse of [`to_bits`](Self::to_bits).
+    pub fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
+
+    /// The same where so many nodes were put before those that it counts.
+    pub fn moved(self, by: usize) -> Self {
+        self.get().map_or_else(|index| Self::node(index + by), Self::primitive)
+    }
+
     /// The primitive's number, or that of the node.
     #[inline(always)]
     pub fn get(self) -> Result<u32, usize> {

@@ -46,6 +46,27 @@ impl Mask {
         Self::new(size, runs)
     }
 
+    /// The same with more runs, in reading order too, where nothing was seen so far.
+    pub(crate) fn with(&self, more: &[Run]) -> Self {
+        let width = self.size.width as usize;
+        let mut runs: Vec<Run> = Vec::with_capacity(self.runs.len() + more.len());
+        let mut more = more.iter().copied().peekable();
+        let mut push = |run: Run| match runs.last_mut() {
+            Some(last) if last.end == run.start && last.shape == run.shape && run.start % width != 0 => {
+                last.end = run.end
+            }
+            _ => runs.push(run),
+        };
+        for run in &self.runs {
+            while let Some(other) = more.next_if(|other| other.start < run.start) {
+                push(other);
+            }
+            push(*run);
+        }
+        more.for_each(push);
+        Self::new(self.size, runs)
+    }
+
     /// The runs, in reading order.
     #[must_use]
     pub fn runs(&self) -> &[Run] {
@@ -84,6 +105,16 @@ impl Mask {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn runs_that_are_added_join_those_beside_them() {
+        let size = Resolution { width: 4, height: 3 };
+        let shapes = [-1, 0, -1, 1, -1, -1, 2, -1, -1, -1, -1, -1];
+        let more = [(0, 0), (2, 1), (4, 1), (7, 3), (11, 2)];
+        let all = [0, 0, 1, 1, 1, -1, 2, 3, -1, -1, -1, 2];
+        let runs = more.map(|(start, shape)| Run { start, end: start + 1, shape });
+        assert_eq!(Mask::of_shapes(size, &shapes).with(&runs), Mask::of_shapes(size, &all));
+    }
 
     #[test]
     fn a_mask_tells_every_pixel_and_keeps_rows_apart() {

@@ -1,5 +1,6 @@
 //! The reference: one pixel after the other, in double precision.
 
+use super::sampling::Renders;
 use super::{RenderError, RenderSettings, Renderer, band, color, sampling};
 use crate::lanes::Precision;
 use crate::map::Map;
@@ -17,7 +18,9 @@ impl Renderer for Reference {
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
         color::render(scene, settings, |scene, settings| {
             if scene.scene().sampling().is_more_than_centres() {
-                sampling::render(scene, settings, None, &|_, scene, settings| self.centres(scene, settings))
+                let centres =
+                    |_: Vec<_>, scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(scene, settings);
+                sampling::render(scene, settings, None, &Renders { shared: &centres, alone: &centres })
             } else {
                 self.centres(scene, settings)
             }

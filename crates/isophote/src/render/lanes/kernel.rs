@@ -188,21 +188,25 @@ struct StretchWork<'w, 'm> {
 }
 
 /// The sums over the lights at a vector of pixels.
-struct Sums<V> {
-    irradiance: V,
+pub struct Sums<V> {
+    /// E.
+    pub irradiance: V,
     /// Σ E_j (N·H_j)ⁿ.
-    lobes: V,
-    cos_theta_o: V,
+    pub lobes: V,
+    /// cosθ_o.
+    pub cos_theta_o: V,
 }
 
 impl<V: Lane> Sums<V> {
+    /// The diffuse part of B.
     #[inline(always)]
-    fn diffuse(&self, formula: &BrightnessFormula) -> V {
+    pub fn diffuse(&self, formula: &BrightnessFormula) -> V {
         self.irradiance * formula.diffuse_factor(self.cos_theta_o)
     }
 
+    /// The specular part of B.
     #[inline(always)]
-    fn specular(&self, formula: &BrightnessFormula) -> V {
+    pub fn specular(&self, formula: &BrightnessFormula) -> V {
         self.lobes * formula.specular_factor(self.cos_theta_o)
     }
 }
@@ -429,7 +433,7 @@ fn put<V: Lane, O: Element>(values: V, kind: V::Kind, out: &mut [O], count: u32)
 /// E and Σ E_j (N·H_j)ⁿ at a vector of pixels. Blocks of lights are summed plainly, the blocks' sums with compensation,
 /// so that the error does not grow with the number of lights.
 #[inline(always)]
-fn sum<V: Lane, L: Lobe<V>>(
+pub fn sum<V: Lane, L: Lobe<V>>(
     kind: V::Kind,
     point: &SurfacePoint<V>,
     lights: &[PlacedLight<V::Element>],

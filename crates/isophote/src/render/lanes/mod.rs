@@ -3,10 +3,10 @@
 //! Shapes are found by their [outlines](crate::shape::Outline) instead of ray by ray; what they see is shaded several
 //! pixels at a time. Pixels for which that is not exact enough are traced and summed one by one, as the reference does.
 
-mod kernel;
+pub(super) mod kernel;
 pub(super) mod lights;
 pub(super) mod power;
-mod visible;
+pub(super) mod visible;
 
 use std::num::NonZeroUsize;
 use std::sync::OnceLock;
@@ -18,7 +18,7 @@ use self::kernel::BandJob;
 use self::visible::Candidate;
 use super::band::{self, Band};
 use super::color;
-use super::sampling;
+use super::sampling::{self, Renders};
 use super::tiles::{self, Tiles};
 use super::{RenderError, RenderSettings, Renderer};
 use crate::lanes::{Instructions, Precision};
@@ -71,11 +71,14 @@ impl Lanes {
     ) -> Result<Map, RenderError> {
         if scene.scene().sampling().is_more_than_centres() {
             let pool = if self.threads == 1 { None } else { Some(self.pool()?) };
-            let centres =
-                |memory, scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(memory, scene, settings);
-            sampling::render(scene, settings, pool, &centres)
+            let centres = |threads| {
+                move |memory, scene: &PreparedScene, settings: &RenderSettings<'_>| {
+                    self.centres(memory, scene, settings, threads)
+                }
+            };
+            sampling::render(scene, settings, pool, &Renders { shared: &centres(self.threads), alone: &centres(1) })
         } else {
-            self.centres(memory, scene, settings)
+            self.centres(memory, scene, settings, self.threads)
         }
     }
 
@@ -84,6 +87,7 @@ impl Lanes {
         memory: Vec<Values>,
         scene: &PreparedScene,
         settings: &RenderSettings<'_>,
+        threads: usize,
     ) -> Result<Map, RenderError> {
         let mut map = band::empty_map(scene, settings, self.name(), self.precision, memory)?;
         let suits_tiles = tiles::suit(scene);
@@ -93,7 +97,6 @@ impl Lanes {
         }
         let height = map.region.size.height;
         let order = lights::by_place(scene.scene().lights());
-        let threads = self.threads;
         let fill = |band: Band<'_>| {
             if suits_tiles {
                 self.fill_by_tiles(band, scene, &order, settings)

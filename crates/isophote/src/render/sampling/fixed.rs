@@ -1,45 +1,99 @@
-//! As many rays through every pixel: an image of each of their places, by what renders the centres, and the means of all.
+//! As many rays through every pixel: band by band an image of each of their places, by what renders the centres, and the
+//! means of all.
+
+use std::sync::{Mutex, PoisonError};
 
 use rayon::ThreadPool;
-use rayon::prelude::*;
 
+use super::bands::{Band, Stack, bands, each};
 use super::pattern::Patterns;
 use super::refine::{copy_geometry, is_mean, offsets, put, put_exactly, put_shapes};
-use super::{Centres, Filter, Sampling};
+use super::{Filter, Renders, Sampling};
 use crate::map::{Map, Quantity, Run, Scalars, Values};
 use crate::prepare::PreparedScene;
 use crate::render::share::Share;
 use crate::render::{Observer, RenderError, RenderSettings, band};
 
-/// Renders every place in the pixels of a region and takes the means.
+/// Renders every place in the pixels of a region and takes the means. Threads share the bands, not the images: those of a
+/// band come one after the other in the same memory, which stays in the cache.
 pub fn render(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
     pool: Option<&ThreadPool>,
-    centres: &Centres<'_>,
+    renders: &Renders<'_>,
 ) -> Result<Map, RenderError> {
     let Sampling { samples, filter, .. } = scene.scene().sampling();
+    let region = settings.region.expect("it was grown for the filter");
     let share = settings.observer.map(|whole| Share::new(whole, u64::from(samples) + 1));
     let observer = share.as_ref().map(|share| share as &dyn Observer);
-    let settings = RenderSettings { observer, ..settings.clone() };
-    let mut map = centres(Vec::new(), scene, &settings)?;
     let quantities = settings.quantities.iter().filter(|quantity| is_sampled(quantity)).cloned().collect();
-    let settings = RenderSettings { quantities, ..settings };
-    let mut means = Means::new(&map, filter);
-    let mut memory = Vec::new();
-    for &place in Patterns::new(samples).of(samples) {
-        let sample = centres(memory, &scene.seen_through(place), &settings)?;
-        means.add(&map, &sample, place, pool);
-        means.fill_in(&mut map, &sample);
-        memory = band::recycle(sample);
+    let sampled = RenderSettings { quantities, observer, region: None };
+    let centres = RenderSettings { observer, ..settings.clone() };
+    let start = |band: Band| {
+        let map = (renders.alone)(Vec::new(), scene, &band.settings(&centres))?;
+        Ok(Part { means: Means::new(&map, filter), map, memory: Vec::new() })
+    };
+    let stack = Mutex::new(Stack::new(region));
+    let mut parts: Vec<(Band, Option<Part>)> =
+        bands(region, filter.reach()).into_iter().map(|band| (band, None)).collect();
+    let patterns = Patterns::new(samples);
+    let mut left = samples as usize;
+    for places in patterns.of(samples).chunks(views_at_once(scene)) {
+        left -= places.len();
+        let views: Vec<_> = places.iter().map(|place| (*place, scene.seen_through(*place))).collect();
+        parts = each(pool, parts, |(band, part)| {
+            let mut part = part.map_or_else(|| start(band), Ok)?;
+            part.add(&views, &band.settings(&sampled), renders)?;
+            if left > 0 {
+                return Ok((band, Some(part)));
+            }
+            let map = part.finish(samples)?;
+            stack.lock().unwrap_or_else(PoisonError::into_inner).add(band, &map);
+            Ok((band, None))
+        })?;
     }
-    means.finish(&mut map, samples)?;
-    Ok(map)
+    Ok(stack.into_inner().unwrap_or_else(PoisonError::into_inner).finish(scene))
+}
+
+/// How many views of a scene are kept at a time: each has a list of its shapes.
+fn views_at_once(scene: &PreparedScene) -> usize {
+    (1_000_000 / scene.scene().shapes().len().max(1)).clamp(1, 64)
 }
 
 /// Whether the places of a pixel are asked for a quantity: for its mean, or for what the centre may miss.
 fn is_sampled(quantity: &Quantity) -> bool {
     is_mean(quantity) || matches!(quantity, Quantity::Depth | Quantity::Position | Quantity::Normal)
+}
+
+/// What a band is so far.
+struct Part {
+    map: Map,
+    means: Means,
+    /// Of the last image, cleared.
+    memory: Vec<Values>,
+}
+
+impl Part {
+    /// Adds samples.
+    fn add(
+        &mut self,
+        views: &[([f64; 2], PreparedScene)],
+        settings: &RenderSettings<'_>,
+        renders: &Renders<'_>,
+    ) -> Result<(), RenderError> {
+        for (place, view) in views {
+            let sample = (renders.alone)(std::mem::take(&mut self.memory), view, settings)?;
+            self.means.add(&self.map, &sample, *place);
+            self.means.fill_in(&mut self.map, &sample);
+            self.memory = band::recycle(sample);
+        }
+        Ok(())
+    }
+
+    fn finish(mut self, samples: u32) -> Result<Map, RenderError> {
+        self.means.finish(&mut self.map, samples)?;
+        Ok(self.map)
+    }
 }
 
 /// The sums over the samples.
@@ -56,12 +110,6 @@ struct Means {
     shapes: Vec<i32>,
 }
 
-/// Rows that are added at once.
-const ROWS: usize = 16;
-
-/// With fewer additions than this, all is added before another thread has woken up.
-const WORTH_THREADS: usize = 1_000_000;
-
 impl Means {
     fn new(map: &Map, filter: Filter) -> Self {
         let pixels = map.region.size.pixels();
@@ -77,7 +125,7 @@ impl Means {
     }
 
     /// Adds the image of a place: to its pixels and, in part, to those that the filter reaches from there.
-    fn add(&mut self, map: &Map, sample: &Map, [across, down]: [f64; 2], pool: Option<&ThreadPool>) {
+    fn add(&mut self, map: &Map, sample: &Map, [across, down]: [f64; 2]) {
         let Self { filter, width, sums, weights, steps, .. } = self;
         let offsets = offsets(*filter);
         let parts = offsets.iter().map(|[columns, rows]| filter.weight(across - 0.5 - columns, down - 0.5 - rows));
@@ -90,22 +138,15 @@ impl Means {
         }
         for (channel, sums) in sums {
             let values = sample.scalar(&map.channels[*channel].quantity).expect("it was asked for");
-            let add_rows = |(part, sums): (usize, &mut [f64])| {
-                for (row, sums) in sums.chunks_exact_mut(*width).enumerate() {
-                    let row = part * ROWS + row;
-                    for ([columns, rows], weight) in offsets.iter().zip(&parts) {
-                        #[expect(clippy::cast_possible_truncation, reason = "a few pixels")]
-                        let (columns, rows) = (*columns as isize, *rows as isize);
-                        if let Some(from) = row.checked_add_signed(-rows) {
-                            let start = from * *width;
-                            add_row(sums, columns, *weight, values, start, within(runs, start, *width));
-                        }
+            for (row, sums) in sums.chunks_exact_mut(*width).enumerate() {
+                for ([columns, rows], weight) in offsets.iter().zip(&parts) {
+                    #[expect(clippy::cast_possible_truncation, reason = "a few pixels")]
+                    let (columns, rows) = (*columns as isize, *rows as isize);
+                    if let Some(from) = row.checked_add_signed(-rows) {
+                        let start = from * *width;
+                        add_row(sums, columns, *weight, values, start, within(runs, start, *width));
                     }
                 }
-            };
-            match pool.filter(|_| sums.len() * offsets.len() > WORTH_THREADS) {
-                Some(pool) => pool.install(|| sums.par_chunks_mut(ROWS * *width).enumerate().for_each(add_rows)),
-                None => sums.chunks_mut(ROWS * *width).enumerate().for_each(add_rows),
             }
         }
     }
@@ -131,7 +172,7 @@ impl Means {
             self.see_neighbours(map);
         }
         put_shapes(map, &self.shapes);
-        let of_all = self.weights.iter().rev().sum();
+        let of_all: f64 = self.weights.iter().rev().sum();
         for index in (0..self.shapes.len()).filter(|index| self.shapes[*index] >= 0) {
             let weight = if self.is_inner(index) { of_all } else { self.weight(index) };
             for (channel, sums) in &self.sums {
@@ -155,7 +196,11 @@ impl Means {
 
     /// Whether all that the filter reaches is in the image.
     fn is_inner(&self, index: usize) -> bool {
-        let (reach, rows) = (self.filter.reach() as usize, self.shapes.len() / self.width);
+        let reach = self.filter.reach() as usize;
+        if reach == 0 {
+            return true;
+        }
+        let rows = self.shapes.len() / self.width;
         let (row, column) = (index / self.width, index % self.width);
         row >= reach && row + reach < rows && column >= reach && column + reach < self.width
     }

@@ -1,19 +1,26 @@
 //! Pixels as means over their area instead of values at their centres.
 
+mod bands;
 mod filter;
 mod fixed;
+mod outlined;
 mod pattern;
 mod refine;
+mod rule;
 mod uncertain;
 
+use std::ops::Range;
+
 use rayon::ThreadPool;
-use rayon::prelude::*;
 
 pub use filter::Filter;
 
+use self::bands::each;
+use self::outlined::Outlined;
 use self::pattern::Patterns;
 use self::refine::{Averages, Refinement, Wanted};
-use self::uncertain::Uncertain;
+use self::rule::Nodes;
+use self::uncertain::{Finder, Suspects};
 use super::band::{self, advance};
 use super::{RenderError, RenderSettings};
 use crate::analysis::statistics::totals;
@@ -63,11 +70,22 @@ impl Sampling {
 /// The first samples of a pixel that is uncertain: enough to see how much its values differ.
 const FIRST_SAMPLES: u32 = 16;
 
-/// So many uncertain pixels are shared by several threads.
-const WORTH_THREADS: usize = 100;
+/// Where pixels are integrated, fewer than these are done before another thread has woken up.
+const WORTH_THREADS: usize = 100_000;
 
-/// What renders the centres of pixels, in memory of an earlier map if there is any.
-pub type Centres<'c> = dyn Fn(Vec<Values>, &PreparedScene, &RenderSettings<'_>) -> Result<Map, RenderError> + 'c;
+/// So many rows are looked through and refined by one thread at a time.
+const ROWS: usize = 16;
+
+/// Renders the centres of pixels, in memory of an earlier map if there is any.
+pub type Centres<'c> = dyn Fn(Vec<Values>, &PreparedScene, &RenderSettings<'_>) -> Result<Map, RenderError> + Sync + 'c;
+
+/// What renders the centres of pixels.
+pub struct Renders<'c> {
+    /// On all threads there are.
+    pub shared: &'c Centres<'c>,
+    /// On the thread that asks.
+    pub alone: &'c Centres<'c>,
+}
 
 /// Renders means over pixels: of as many samples as the scene asks for, or of more where the value is uncertain.
 ///
@@ -77,7 +95,7 @@ pub fn render(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
     pool: Option<&ThreadPool>,
-    centres: &Centres<'_>,
+    renders: &Renders<'_>,
 ) -> Result<Map, RenderError> {
     let sampling = scene.scene().sampling();
     let reach = sampling.filter.reach();
@@ -86,8 +104,8 @@ pub fn render(
     band::check(region, full)?;
     let settings = RenderSettings { region: Some(grown(region, reach, full)), ..settings.clone() };
     let map = match sampling.tolerance {
-        Some(tolerance) => refined(scene, &settings, tolerance, pool, centres)?,
-        None => fixed::render(scene, &settings, pool, centres)?,
+        Some(tolerance) => refined(scene, &settings, tolerance, pool, renders)?,
+        None => fixed::render(scene, &settings, pool, renders)?,
     };
     let mut map = cropped(map, region, scene);
     map.retain(|quantity| settings.quantities.contains(quantity));
@@ -101,7 +119,7 @@ fn refined(
     settings: &RenderSettings<'_>,
     tolerance: f64,
     pool: Option<&ThreadPool>,
-    centres: &Centres<'_>,
+    renders: &Renders<'_>,
 ) -> Result<Map, RenderError> {
     let sampling = scene.scene().sampling();
     let full = scene.scene().camera().resolution;
@@ -109,22 +127,35 @@ fn refined(
     let mut quantities = settings.quantities.clone();
     quantities.push(Quantity::Brightness);
     let wide = RenderSettings { region: Some(grown(region, 1, full)), quantities, ..settings.clone() };
-    let mut map = centres(Vec::new(), scene, &wide)?;
-    let tolerance = tolerance * peak(scene, centres)?;
+    let mut map = (renders.shared)(Vec::new(), scene, &wide)?;
+    let tolerance = tolerance * peak(scene, renders)?;
     let averages = Averages::of(&map, scene);
     let (patterns, offsets) = (Patterns::new(sampling.samples), refine::offsets(sampling.filter));
     let wanted = Wanted { averages: &averages, sampling, patterns: &patterns, offsets: &offsets, tolerance };
-    let pixels = uncertain::pixels(&map, region, tolerance, pool);
-    let refine = |uncertain: &Uncertain| {
-        advance(settings.observer, 0)?;
-        Ok(Refinement::new(scene, &wanted, map.pixel(uncertain.index), uncertain))
-    };
-    let refined = match pool {
-        Some(pool) if pixels.len() > WORTH_THREADS => {
-            pool.install(|| pixels.par_iter().map(refine).collect::<Result<Vec<_>, RenderError>>())?
+    let outlined = Outlined::new(scene, &averages, sampling, tolerance);
+    let finder = Finder::new(&map, region, tolerance);
+    let refine = |rows: Range<usize>| {
+        let (mut nodes, mut suspects) = (Nodes::new(), Suspects::default());
+        let mut refined = Vec::new();
+        for row in rows {
+            for uncertain in finder.in_row(row, &mut suspects) {
+                let pixel = map.pixel(uncertain.index);
+                if outlined.as_ref().is_some_and(|outlined| outlined.is_missed_by_all(pixel, &uncertain)) {
+                    continue;
+                }
+                advance(settings.observer, 0)?;
+                let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&mut nodes, pixel, &uncertain));
+                refined.push(mean.unwrap_or_else(|| Refinement::new(scene, &wanted, pixel, &uncertain)));
+            }
         }
-        _ => pixels.iter().map(refine).collect::<Result<Vec<_>, RenderError>>()?,
+        Ok(refined)
     };
+    let first = (region.corner.row - map.region.corner.row) as usize;
+    let last = first + region.size.height as usize;
+    let parts = (first..last).step_by(ROWS).map(|row| row..(row + ROWS).min(last)).collect();
+    let is_worth_threads = outlined.is_none() || map.mask.visible() > WORTH_THREADS;
+    let refined: Vec<Refinement> =
+        each(pool.filter(|_| is_worth_threads), parts, refine)?.into_iter().flatten().collect();
     refine::apply(&mut map, &averages, sampling.filter, &refined)?;
     Ok(map)
 }
@@ -144,14 +175,14 @@ fn grown(region: Region, by: u32, full: Resolution) -> Region {
 const GLANCE: u32 = 96;
 
 /// About the largest brightness of the whole image, whatever the region: that of a small image of it.
-fn peak(scene: &PreparedScene, centres: &Centres<'_>) -> Result<f64, RenderError> {
+fn peak(scene: &PreparedScene, renders: &Renders<'_>) -> Result<f64, RenderError> {
     let full = scene.scene().camera().resolution;
     let longer = f64::from(full.width.max(full.height));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the side it had")]
     let side = |side: u32| ((f64::from(side) * f64::from(GLANCE) / longer).ceil() as u32).clamp(1, side);
     let small = scene.at_resolution(Resolution { width: side(full.width), height: side(full.height) });
     let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
-    let map = centres(Vec::new(), &small, &settings)?;
+    let map = (renders.shared)(Vec::new(), &small, &settings)?;
     Ok(totals(&map, &Quantity::Brightness).map_or(0.0, |totals| totals.max.value))
 }
 

@@ -1,24 +1,26 @@
 //! How many samples of a pixel are enough, and where they are.
 
+use std::sync::OnceLock;
+
 use crate::hammersley::points;
 
-/// The places of the samples in a pixel, for every number of them that [`enough`] may name.
-pub struct Patterns(Vec<Vec<[f64; 2]>>);
+/// The places of the samples in a pixel, for every number of them that [`enough`] may name; found when they are first
+/// asked for.
+pub struct Patterns(Vec<(u32, OnceLock<Vec<[f64; 2]>>)>);
 
 impl Patterns {
     /// For up to so many samples.
     pub fn new(most: u32) -> Self {
         let powers = (0..32).map(|exponent| 1_u32 << exponent).take_while(|count| *count < most);
-        // Few digits, so that no column loses any of them.
-        let short = |part: f64| (part * 16_777_216.0).round() / 16_777_216.0;
-        let places = |count| points(count).into_iter().map(|place| place.map(short)).collect();
-        Self(powers.chain([most]).map(places).collect())
+        Self(powers.chain([most]).map(|count| (count, OnceLock::new())).collect())
     }
 
     /// The places of so many samples: a power of two, or the most.
     pub fn of(&self, count: u32) -> &[[f64; 2]] {
-        let places = self.0.iter().find(|places| places.len() == count as usize);
-        places.expect("a power of two, or the most")
+        let (_, places) = self.0.iter().find(|(known, _)| *known == count).expect("a power of two, or the most");
+        // Few digits, so that no column loses any of them.
+        let short = |part: f64| (part * 16_777_216.0).round() / 16_777_216.0;
+        places.get_or_init(|| points(count).into_iter().map(|place| place.map(short)).collect())
     }
 }
 

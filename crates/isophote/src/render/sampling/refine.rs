@@ -5,7 +5,7 @@ use super::uncertain::Uncertain;
 use super::{FIRST_SAMPLES, Filter, Sampling};
 use crate::camera::ScreenPosition;
 use crate::hammersley::points;
-use crate::map::{Map, Mask, Pixel, Quantity, Scalars, Values};
+use crate::map::{Map, Mask, Pixel, Quantity, Run, Scalars, Values};
 use crate::prepare::{Hit, PreparedScene};
 use crate::render::RenderError;
 use crate::render::band::ScalarChannel;
@@ -15,6 +15,7 @@ use crate::shade::ByLight;
 pub struct Averages {
     /// Index among the map's channels, and what it is.
     channels: Vec<(usize, ScalarChannel)>,
+    has_geometry: bool,
 }
 
 /// What is asked of a pixel.
@@ -29,18 +30,23 @@ pub struct Wanted<'w> {
     pub tolerance: f64,
 }
 
-/// What the rays through a pixel saw.
+/// What a pixel is over its area.
 pub struct Refinement {
     /// Index in the map.
-    index: usize,
-    samples: u32,
-    /// The part of them that saw a surface.
-    coverage: f64,
-    /// What the first one saw that saw anything.
-    hit: Option<Hit>,
+    pub index: usize,
+    /// Whether the centre sees a surface.
+    pub sees: bool,
+    /// How many places the mean is made of.
+    pub samples: u32,
+    /// The part of the pixel that shows a surface.
+    pub coverage: f64,
+    /// The shape at the first place that sees any.
+    pub seen: Option<usize>,
+    /// Where that is; needed only where the centre sees nothing, and the map has channels for it.
+    pub hit: Option<Box<Hit>>,
     /// For each pixel that the filter reaches, row by row from the upper left: the mean of weight × value of each
     /// averaged channel, and last the mean weight.
-    sums: Vec<f64>,
+    pub sums: Vec<f64>,
 }
 
 impl Averages {
@@ -48,13 +54,30 @@ impl Averages {
     pub fn of(map: &Map, scene: &PreparedScene) -> Self {
         let channels = map.channels.iter().enumerate().filter(|(_, channel)| is_mean(&channel.quantity));
         let channels = channels.map(|(index, channel)| (index, ScalarChannel::of(&channel.quantity, scene.scene())));
-        Self { channels: channels.collect() }
+        let is_geometry =
+            |quantity: &Quantity| matches!(quantity, Quantity::Depth | Quantity::Position | Quantity::Normal);
+        let has_geometry = map.channels.iter().any(|channel| is_geometry(&channel.quantity));
+        Self { channels: channels.collect(), has_geometry }
+    }
+
+    /// Index among the map's channels, and what it is.
+    pub fn channels(&self) -> &[(usize, ScalarChannel)] {
+        &self.channels
+    }
+
+    /// Whether the map tells where the surface is that a pixel sees.
+    pub fn have_geometry(&self) -> bool {
+        self.has_geometry
+    }
+
+    /// The lights whose irradiance is averaged by itself, in the order of their channels.
+    pub fn lights(&self) -> impl Iterator<Item = usize> {
+        self.channels.iter().filter_map(|(_, channel)| channel.light())
     }
 
     /// The values of a hit, and its brightness.
     fn values(&self, scene: &PreparedScene, hit: &Hit, position: ScreenPosition, values: &mut [f64]) -> f64 {
-        let lights = self.channels.iter().filter_map(|(_, channel)| channel.light());
-        let mut by_light = ByLight::of(lights);
+        let mut by_light = ByLight::of(self.lights());
         let shading = scene.shade(hit, Some(position), |light, term| by_light.take(light, term));
         for (value, (_, channel)) in values.iter_mut().zip(&self.channels) {
             match channel {
@@ -94,11 +117,10 @@ pub fn is_mean(quantity: &Quantity) -> bool {
 impl Refinement {
     /// Sends as many rays through a pixel as its contrast takes.
     pub fn new(scene: &PreparedScene, wanted: &Wanted<'_>, pixel: Pixel, uncertain: &Uncertain) -> Self {
-        let index = uncertain.index;
         let most = wanted.sampling.samples;
         let mut samples = pattern::enough(uncertain.contrast, wanted.tolerance, most).max(FIRST_SAMPLES.min(most));
         loop {
-            let (refinement, contrast) = Self::of_samples(scene, wanted, pixel, index, samples);
+            let (refinement, contrast) = Self::of_samples(scene, wanted, pixel, uncertain, samples);
             let enough = pattern::enough(contrast, wanted.tolerance, most);
             if enough <= samples {
                 return refinement;
@@ -108,7 +130,13 @@ impl Refinement {
     }
 
     /// With so many samples; and how much their brightness differs.
-    fn of_samples(scene: &PreparedScene, wanted: &Wanted<'_>, pixel: Pixel, index: usize, samples: u32) -> (Self, f64) {
+    fn of_samples(
+        scene: &PreparedScene,
+        wanted: &Wanted<'_>,
+        pixel: Pixel,
+        uncertain: &Uncertain,
+        samples: u32,
+    ) -> (Self, f64) {
         let averages = wanted.averages;
         let channels = averages.channels.len();
         let mut sums = vec![0.0; wanted.offsets.len() * (channels + 1)];
@@ -138,7 +166,9 @@ impl Refinement {
             *sum *= share;
         }
         let coverage = f64::from(covered) * share;
-        (Self { index, samples, coverage, hit: first_hit, sums }, greatest - least)
+        let seen = first_hit.map(|hit| hit.primitive.shape);
+        let Uncertain { index, sees, .. } = *uncertain;
+        (Self { index, sees, samples, coverage, seen, hit: first_hit.map(Box::new), sums }, greatest - least)
     }
 }
 
@@ -149,43 +179,73 @@ pub fn offsets(filter: Filter) -> Vec<[f64; 2]> {
     rows.map(|offset| offset.map(f64::from)).collect()
 }
 
-/// Puts refined pixels into a map.
+/// Puts refined pixels, in reading order, into a map.
 pub fn apply(map: &mut Map, averages: &Averages, filter: Filter, refined: &[Refinement]) -> Result<(), RenderError> {
-    let mut shapes = map.mask.shapes();
-    for refinement in refined {
-        if shapes[refinement.index] < 0
-            && let Some(hit) = &refinement.hit
-        {
-            shapes[refinement.index] = i32::try_from(hit.primitive.shape).unwrap_or(i32::MAX);
-            put_geometry(map, refinement.index, hit);
-        }
-        put_exactly(map, &Quantity::Samples, refinement.index, refinement.samples.into());
-        put_exactly(map, &Quantity::Coverage, refinement.index, refinement.coverage);
+    if filter.reach() > 0 {
+        return spread(map, averages, filter, refined);
     }
-    let values = if filter.reach() == 0 {
-        let mean = |refinement: &Refinement| (refinement.index, normalized(&refinement.sums));
-        refined.iter().map(mean).collect()
-    } else {
-        gathered(map, averages, filter, refined, &mut shapes)
-    };
-    for (index, values) in values {
+    let found = find_shapes(map, refined);
+    for refinement in refined {
+        put_counts(map, refinement, refinement.sees || refinement.seen.is_some());
+        for (value, (channel, _)) in normalized(&refinement.sums).zip(&averages.channels) {
+            put(map, *channel, refinement.index, value)?;
+        }
+    }
+    for channel in &mut map.channels {
+        if let Values::Index(values) = &mut channel.values {
+            for run in &found {
+                values[run.start] = i32::try_from(run.shape).unwrap_or(i32::MAX);
+            }
+        }
+    }
+    map.mask = map.mask.with(&found);
+    Ok(())
+}
+
+/// Where the centre saw nothing, what the pixel sees; that is also written into the map's geometry.
+fn find_shapes(map: &mut Map, refined: &[Refinement]) -> Vec<Run> {
+    let mut found = Vec::new();
+    for refinement in refined.iter().filter(|refinement| !refinement.sees) {
+        let index = refinement.index;
+        if let Some(shape) = refinement.seen {
+            found.push(Run { start: index, end: index + 1, shape: u32::try_from(shape).unwrap_or(u32::MAX) });
+        }
+        if let Some(hit) = &refinement.hit {
+            put_geometry(map, index, hit);
+        }
+    }
+    found
+}
+
+/// Writes how many places a pixel is made of, and which part of it shows a surface. Where no surface is, there was none to
+/// sample.
+fn put_counts(map: &mut Map, refinement: &Refinement, is_seen: bool) {
+    let Refinement { index, samples, coverage, .. } = *refinement;
+    let [samples, coverage] = if is_seen { [samples.into(), coverage] } else { [0.0; 2] };
+    put_exactly(map, &Quantity::Samples, index, samples);
+    put_exactly(map, &Quantity::Coverage, index, coverage);
+}
+
+/// The same with a filter that spreads light over more than a pixel.
+fn spread(map: &mut Map, averages: &Averages, filter: Filter, refined: &[Refinement]) -> Result<(), RenderError> {
+    let found = find_shapes(map, refined);
+    let mut shapes = map.mask.with(&found).shapes();
+    for (index, values) in gathered(map, averages, filter, refined, &mut shapes) {
         for (value, (channel, _)) in values.into_iter().zip(&averages.channels) {
             put(map, *channel, index, value)?;
         }
     }
     put_shapes(map, &shapes);
-    // Where no surface is, there was none to sample.
-    for index in refined.iter().map(|refinement| refinement.index).filter(|index| shapes[*index] < 0) {
-        put_exactly(map, &Quantity::Samples, index, 0.0);
-        put_exactly(map, &Quantity::Coverage, index, 0.0);
+    for refinement in refined {
+        put_counts(map, refinement, shapes[refinement.index] >= 0);
     }
     Ok(())
 }
 
 /// Weighted sums of values, over the sum of the weights, which comes last.
-fn normalized(sums: &[f64]) -> Vec<f64> {
+fn normalized(sums: &[f64]) -> impl Iterator<Item = f64> {
     let (weight, sums) = sums.split_last().expect("there is always a weight");
-    sums.iter().map(|sum| sum / weight).collect()
+    sums.iter().map(move |sum| sum / weight)
 }
 
 /// The values of every pixel through a filter that reaches beyond it. A pixel that was not refined is as bright as its
@@ -243,7 +303,7 @@ fn gathered(
             shapes[index] = seen[source];
             copy_geometry(map, source, index);
         }
-        pixels.push((index, normalized(&sums)));
+        pixels.push((index, normalized(&sums).collect()));
     }
     pixels
 }
@@ -261,14 +321,13 @@ pub fn put_shapes(map: &mut Map, shapes: &[i32]) {
 
 /// Writes a value into a scalar channel.
 pub fn put(map: &mut Map, channel: usize, index: usize, value: f64) -> Result<(), RenderError> {
-    let pixel = map.pixel(index);
     match &mut map.channels[channel].values {
         Values::Scalar(values) => values[index] = value,
         Values::Single(values) => {
             #[expect(clippy::cast_possible_truncation, reason = "what does not fit is refused")]
             let single = value as f32;
             if !single.is_finite() {
-                return Err(RenderError::Overflow { pixel, value });
+                return Err(RenderError::Overflow { pixel: map.pixel(index), value });
             }
             values[index] = single;
         }

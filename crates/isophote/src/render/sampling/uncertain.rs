@@ -2,10 +2,8 @@
 
 use std::ops::Range;
 
-use rayon::ThreadPool;
-use rayon::prelude::*;
-
-use crate::map::{Map, Quantity, Region, Scalars};
+use crate::lanes::{Element, Instructions, Lane, LaneJob};
+use crate::map::{Map, Quantity, Region, Run, Scalars};
 
 /// A pixel whose value is not that at its centre.
 pub struct Uncertain {
@@ -13,122 +11,227 @@ pub struct Uncertain {
     pub index: usize,
     /// By how much its neighbours differ from it: so much may be in a corner of it that the first samples miss.
     pub contrast: f64,
+    /// Whether its centre sees a surface.
+    pub sees: bool,
 }
 
-/// The uncertain pixels of a region: those where the brightness bends by more than the tolerance on one of the four lines
-/// through the pixel and two of its neighbours, or differs by more from a neighbour that sees something else. A slope
+/// Columns of a row that are to be looked at; the memory serves for the next row.
+#[derive(Default)]
+pub struct Suspects {
+    columns: Vec<usize>,
+    cuts: Vec<usize>,
+}
+
+/// Finds the uncertain pixels of a region: those where the brightness bends by more than the tolerance on one of the four
+/// lines through the pixel and two of its neighbours, or differs by more from a neighbour that sees something else. A slope
 /// alone needs nothing: its mean is the value at the centre. But across a limb it may be an accident.
-pub fn pixels(map: &Map, region: Region, tolerance: f64, pool: Option<&ThreadPool>) -> Vec<Uncertain> {
-    let Region { corner, size } = map.region;
-    let columns = (region.corner.column - corner.column) as usize;
-    let columns = columns..columns + region.size.width as usize;
-    let rows = (region.corner.row - corner.row) as usize;
-    let rows = rows..rows + region.size.height as usize;
-    let view = View {
-        brightness: map.scalar(&Quantity::Brightness).expect("it was asked for"),
-        shapes: &map.mask().shapes(),
-        width: size.width as usize,
-        height: size.height as usize,
-        tolerance,
-    };
-    let spans = spans(map);
-    let of_row = |row: usize| {
-        // Of the background only pixels beside something can be uncertain.
-        let around = &spans[row.saturating_sub(1)..(row + 2).min(view.height)];
-        let start = around.iter().map(|span| span.start).min().unwrap_or(0).saturating_sub(1);
-        let end = around.iter().map(|span| span.end).max().unwrap_or(0) + 1;
-        view.uncertain_in(row, start.max(columns.start)..end.min(columns.end))
-    };
-    match pool {
-        Some(pool) => pool.install(|| rows.into_par_iter().with_min_len(16).flat_map_iter(of_row).collect()),
-        None => rows.flat_map(of_row).collect(),
-    }
-}
-
-/// From the first to the last pixel of each row that sees anything.
-fn spans(map: &Map) -> Vec<Range<usize>> {
-    let width = map.region.size.width as usize;
-    let mut spans = vec![width..0; map.region.size.height as usize];
-    for run in map.mask().runs() {
-        let row = run.start / width;
-        let span = &mut spans[row];
-        *span = span.start.min(run.start - row * width)..span.end.max(run.end - row * width);
-    }
-    spans
-}
-
-struct View<'m> {
+pub struct Finder<'m> {
     brightness: Scalars<'m>,
-    shapes: &'m [i32],
+    runs: &'m [Run],
+    /// The runs of each row begin and end here.
+    of_row: Vec<Range<usize>>,
+    columns: Range<usize>,
     width: usize,
     height: usize,
     tolerance: f64,
+    instructions: Instructions,
 }
 
-impl View<'_> {
-    fn uncertain_in(&self, row: usize, columns: Range<usize>) -> Vec<Uncertain> {
-        if columns.is_empty() {
-            return Vec::new();
+impl<'m> Finder<'m> {
+    /// In a region of a map.
+    pub fn new(map: &'m Map, region: Region, tolerance: f64) -> Self {
+        let Region { corner, size } = map.region;
+        let first = (region.corner.column - corner.column) as usize;
+        let (width, height) = (size.width as usize, size.height as usize);
+        let runs = map.mask().runs();
+        let mut next = 0;
+        let of_row = (1..=height).map(|row| {
+            let start = next;
+            next += runs[next..].iter().take_while(|run| run.start < row * width).count();
+            start..next
+        });
+        Self {
+            brightness: map.scalar(&Quantity::Brightness).expect("it was asked for"),
+            runs,
+            of_row: of_row.collect(),
+            columns: first..first + region.size.width as usize,
+            width,
+            height,
+            tolerance,
+            instructions: Instructions::best(),
         }
-        let mut suspects = vec![true; columns.len()];
-        let inner = columns.start.max(1)..columns.end.min(self.width - 1);
-        if row > 0 && row + 1 < self.height && inner.start < inner.end {
-            let suspects = &mut suspects[inner.start - columns.start..inner.end - columns.start];
-            match self.brightness {
-                Scalars::Double(values) => self.suspect(values, row, inner, suspects),
-                Scalars::Single(values) => self.suspect(values, row, inner, suspects),
-            }
-        }
-        let suspects = columns.zip(suspects).filter(|(_, is_suspect)| *is_suspect);
-        suspects.filter_map(|(column, _)| self.uncertain(row, column)).collect()
     }
 
-    /// Leaves those columns alone that have a bend or another shape beside them; those of a row that has neighbours all
-    /// around. (Without branches, for compilers to make vectors of it.)
-    fn suspect<T: Copy + Into<f64>>(&self, values: &[T], row: usize, columns: Range<usize>, suspects: &mut [bool]) {
-        let count = columns.len();
-        let start = |row: usize| row * self.width + columns.start - 1;
-        let three = |row: usize| (&values[start(row)..][..count + 2], &self.shapes[start(row)..][..count + 2]);
-        let [(above, shapes_above), (here, shapes), (below, shapes_below)] = [row - 1, row, row + 1].map(three);
-        for (index, suspect) in suspects.iter_mut().enumerate() {
-            let [left, middle, right] = [index, index + 1, index + 2];
-            let twice = 2.0 * here[middle].into();
-            let bends = |before: T, after: T| (before.into() + after.into() - twice).abs() > self.tolerance;
-            let shape = shapes[middle];
-            let differs = |shapes: &[i32]| (shapes[left] ^ shape) | (shapes[middle] ^ shape) | (shapes[right] ^ shape);
-            *suspect = bends(here[left], here[right])
-                | bends(above[middle], below[middle])
-                | bends(above[left], below[right])
-                | bends(above[right], below[left])
-                | (differs(shapes_above) | differs(shapes) | differs(shapes_below) != 0);
+    /// Those of a row of the map, from the left.
+    pub fn in_row<'f>(&'f self, row: usize, suspects: &'f mut Suspects) -> impl Iterator<Item = Uncertain> {
+        suspects.columns.clear();
+        self.suspect_edges(row, suspects);
+        if let Some(inner) = self.inner(row) {
+            self.instructions.run(Bends { finder: self, row, inner, suspects: &mut suspects.columns });
         }
+        suspects.columns.sort_unstable();
+        suspects.columns.dedup();
+        suspects.columns.iter().filter_map(move |column| self.uncertain(row, *column))
+    }
+
+    fn runs_of(&self, row: usize) -> &[Run] {
+        &self.runs[self.of_row[row].clone()]
+    }
+
+    /// The rows around one, as far as the map goes.
+    fn around(&self, row: usize) -> Range<usize> {
+        row.saturating_sub(1)..(row + 2).min(self.height)
+    }
+
+    /// The columns of a row between the first and the last that anything is seen beside, without those at the border.
+    fn inner(&self, row: usize) -> Option<Range<usize>> {
+        let seen = self.around(row).filter_map(|row| {
+            let runs = self.runs_of(row);
+            Some((runs.first()?.start - row * self.width, runs.last()?.end - row * self.width))
+        });
+        let (start, end) = seen.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)))?;
+        let start = start.saturating_sub(1).max(self.columns.start).max(1);
+        let end = (end + 1).min(self.columns.end).min(self.width - 1);
+        (row > 0 && row + 1 < self.height && start < end).then_some(start..end)
+    }
+
+    /// The columns beside which another shape is seen, and the border of the map.
+    fn suspect_edges(&self, row: usize, suspects: &mut Suspects) {
+        let Suspects { columns: suspects, cuts } = suspects;
+        // Between two cuts each of the three rows sees one shape or none.
+        cuts.clear();
+        cuts.extend([0, self.width]);
+        for around in self.around(row) {
+            let runs = self.runs_of(around).iter();
+            cuts.extend(runs.flat_map(|run| [run.start, run.end]).map(|index| index - around * self.width));
+        }
+        cuts.sort_unstable();
+        cuts.dedup();
+        if cuts.len() == 2 && self.runs_of(row).is_empty() {
+            return;
+        }
+        let mut suspect = |columns: Range<usize>| {
+            suspects.extend(columns.start.max(self.columns.start)..columns.end.min(self.columns.end));
+        };
+        for pair in cuts.windows(2) {
+            let [start, end] = [pair[0], pair[1]];
+            let mut shapes = self.around(row).map(|row| self.shape(row, start));
+            let shape = shapes.next().flatten();
+            if shapes.all(|other| other == shape) {
+                suspect(start.saturating_sub(1)..(start + 1).min(end));
+                suspect((end - 1).max(start)..end + 1);
+            } else {
+                suspect(start.saturating_sub(1)..end + 1);
+            }
+        }
+        if row == 0 || row + 1 == self.height {
+            suspect(0..self.width);
+        }
+    }
+
+    /// What is seen at a pixel.
+    fn shape(&self, row: usize, column: usize) -> Option<u32> {
+        let (runs, index) = (self.runs_of(row), row * self.width + column);
+        let before = runs.partition_point(|run| run.end <= index);
+        runs.get(before).filter(|run| run.start <= index).map(|run| run.shape)
     }
 
     fn uncertain(&self, row: usize, column: usize) -> Option<Uncertain> {
-        let at = |row: usize, column: usize| {
-            let index = row * self.width + column;
-            (self.brightness.at(index), self.shapes[index])
-        };
-        let (here, shape) = at(row, column);
-        let (mut is_uncertain, mut contrast) = (false, 0.0_f64);
-        for (down, across) in [(0_isize, 1_isize), (1, 0), (1, 1), (1, -1)] {
-            let neighbour = |sign: isize| {
-                let row = row.checked_add_signed(sign * down).filter(|row| *row < self.height)?;
-                let column = column.checked_add_signed(sign * across).filter(|column| *column < self.width)?;
-                Some(at(row, column))
-            };
-            let [after, before] = [neighbour(1), neighbour(-1)];
-            for (value, other) in [after, before].into_iter().flatten() {
-                contrast = contrast.max((value - here).abs());
-                is_uncertain |= other != shape && (value - here).abs() > self.tolerance;
-            }
-            let bend = match (after, before) {
-                (Some((after, _)), Some((before, _))) => before + after - 2.0 * here,
-                (Some((only, _)), None) | (None, Some((only, _))) => only - here,
-                (None, None) => 0.0,
-            };
-            is_uncertain |= bend.abs() > self.tolerance;
+        let index = row * self.width + column;
+        let here = self.brightness.at(index);
+        let (mut contrast, mut bend) = (0.0_f64, 0.0_f64);
+        for [one, other] in LINES {
+            let by = |offset| self.beside(row, column, offset).map(|(row, column)| self.value(row, column) - here);
+            let (one, other) = (by(one).unwrap_or(0.0), by(other).unwrap_or(0.0));
+            contrast = contrast.max(one.abs()).max(other.abs());
+            bend = bend.max((one + other).abs());
         }
-        is_uncertain.then_some(Uncertain { index: row * self.width + column, contrast })
+        let shape = self.shape(row, column);
+        let is_unlike = |offset: [isize; 2]| {
+            self.beside(row, column, offset).is_some_and(|(row, column)| {
+                (self.value(row, column) - here).abs() > self.tolerance && self.shape(row, column) != shape
+            })
+        };
+        let is_uncertain =
+            bend > self.tolerance || contrast > self.tolerance && LINES.into_iter().flatten().any(is_unlike);
+        is_uncertain.then_some(Uncertain { index, contrast, sees: shape.is_some() })
+    }
+
+    fn value(&self, row: usize, column: usize) -> f64 {
+        self.brightness.at(row * self.width + column)
+    }
+
+    fn beside(&self, row: usize, column: usize, [down, across]: [isize; 2]) -> Option<(usize, usize)> {
+        let row = row.checked_add_signed(down).filter(|row| *row < self.height)?;
+        let column = column.checked_add_signed(across).filter(|column| *column < self.width)?;
+        Some((row, column))
+    }
+}
+
+/// The lines through a pixel: neighbours on both sides, by rows down and columns across.
+const LINES: [[[isize; 2]; 2]; 4] = [[[0, 1], [0, -1]], [[1, 0], [-1, 0]], [[1, 1], [-1, -1]], [[1, -1], [-1, 1]]];
+
+/// Finds the columns of a row where the brightness bends, several at a time.
+struct Bends<'b, 'm> {
+    finder: &'b Finder<'m>,
+    row: usize,
+    /// Columns that have neighbours on all sides.
+    inner: Range<usize>,
+    suspects: &'b mut Vec<usize>,
+}
+
+impl LaneJob for Bends<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S, D>(self, kind: S::Kind)
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Kind = S::Kind>,
+    {
+        match self.finder.brightness {
+            Scalars::Double(values) => self.find::<D>(kind, values),
+            Scalars::Single(values) => self.find::<S>(kind, values),
+        }
+    }
+}
+
+impl Bends<'_, '_> {
+    #[inline(always)]
+    fn find<V: Lane>(self, kind: V::Kind, values: &[V::Element]) {
+        let Self { finder, row, inner, suspects } = self;
+        if inner.len() < V::COUNT {
+            suspects.extend(inner);
+            return;
+        }
+        let tolerance = V::splat(kind, V::Element::from_f64(finder.tolerance));
+        let two = V::splat(kind, V::Element::from_f64(2.0));
+        let width = finder.width;
+        let [above, here, below] = [row - 1, row, row + 1].map(|row| &values[row * width..][..width]);
+        let mut first = inner.start;
+        loop {
+            // Those beside the last ones are looked at twice rather than one by one.
+            let column = first.min(inner.end - V::COUNT);
+            let bend = |before: &[V::Element], after: &[V::Element]| V::load(kind, before) + V::load(kind, after);
+            let [left, middle, right] = [column - 1, column, column + 1];
+            let sums = [
+                bend(&here[left..], &here[right..]),
+                bend(&above[middle..], &below[middle..]),
+                bend(&above[left..], &below[right..]),
+                bend(&above[right..], &below[left..]),
+            ];
+            let twice = V::load(kind, &here[middle..]) * two;
+            let greatest = sums[0].max(sums[1]).max(sums[2].max(sums[3])) - twice;
+            let least = twice - sums[0].min(sums[1]).min(sums[2].min(sums[3]));
+            let mut found = V::bits(tolerance.is_less(greatest.max(least)));
+            while found != 0 {
+                suspects.push(column + found.trailing_zeros() as usize);
+                found &= found - 1;
+            }
+            first += V::COUNT;
+            if first >= inner.end {
+                break;
+            }
+        }
     }
 }

@@ -1,0 +1,128 @@
+//! A region in bands of rows, each sampled by one thread, and the map of all of them.
+
+use rayon::ThreadPool;
+use rayon::prelude::*;
+
+use crate::map::{Channel, Map, Mask, Pixel, Region, Resolution, Run, Values};
+use crate::prepare::PreparedScene;
+use crate::render::{RenderError, RenderSettings};
+
+/// Rows of the region, and those around them whose light a filter spreads into these.
+#[derive(Clone, Copy)]
+pub struct Band {
+    /// All of them.
+    region: Region,
+    /// How many of them come before its own.
+    above: u32,
+    /// How many are its own.
+    rows: u32,
+}
+
+/// Rows of a band: enough that its start costs little, few enough that it stays in the cache and threads end together.
+const ROWS: u32 = 32;
+
+/// The bands of a region, with so many rows around each as far as the region goes.
+pub fn bands(region: Region, reach: u32) -> Vec<Band> {
+    let Region { corner, size } = region;
+    let end = corner.row + size.height;
+    let mut bands = Vec::new();
+    let mut start = corner.row;
+    while start < end {
+        let next = ((start / ROWS + 1) * ROWS).min(end);
+        let first = start.saturating_sub(reach).max(corner.row);
+        let last = next.saturating_add(reach).min(end);
+        let region =
+            Region { corner: Pixel { row: first, ..corner }, size: Resolution { height: last - first, ..size } };
+        bands.push(Band { region, above: start - first, rows: next - start });
+        start = next;
+    }
+    bands
+}
+
+impl Band {
+    /// The settings that render it.
+    pub fn settings<'o>(&self, settings: &RenderSettings<'o>) -> RenderSettings<'o> {
+        RenderSettings { region: Some(self.region), ..settings.clone() }
+    }
+}
+
+/// Does the same to each of some things, on several threads if there are any.
+pub fn each<T: Send, U: Send>(
+    pool: Option<&ThreadPool>,
+    things: Vec<T>,
+    work: impl Fn(T) -> Result<U, RenderError> + Sync + Send,
+) -> Result<Vec<U>, RenderError> {
+    match pool {
+        Some(pool) => pool.install(|| things.into_par_iter().with_max_len(1).map(work).collect()),
+        None => things.into_iter().map(work).collect(),
+    }
+}
+
+/// The map of a region, band by band.
+pub struct Stack {
+    region: Region,
+    /// What the bands have in common, and what they hold.
+    map: Option<Map>,
+    runs: Vec<Run>,
+}
+
+impl Stack {
+    /// No band yet.
+    pub fn new(region: Region) -> Self {
+        Self { region, map: None, runs: Vec::new() }
+    }
+
+    /// Puts a band to the others, whichever came before.
+    pub fn add(&mut self, band: Band, part: &Map) {
+        let Self { region, map, runs } = self;
+        let width = region.size.width as usize;
+        let map = map.get_or_insert_with(|| {
+            let channels = part.channels.iter().map(|channel| empty(channel, region.size.pixels())).collect();
+            let mask = Mask::new(region.size, Vec::new());
+            let (window, provenance) = (part.window, part.provenance.clone());
+            Map { full: part.full, region: *region, window, provenance, mask, channels }
+        });
+        let above = band.above as usize * width;
+        let start = (band.region.corner.row + band.above - region.corner.row) as usize * width;
+        let own = above..above + band.rows as usize * width;
+        // No run goes on in another row.
+        for run in part.mask.runs().iter().filter(|run| own.contains(&run.start)) {
+            let target = run.start - above + start..run.end - above + start;
+            for (channel, part) in map.channels.iter_mut().zip(&part.channels) {
+                copy(&part.values, run.start..run.end, &mut channel.values, target.clone());
+            }
+            runs.push(Run { start: target.start, end: target.end, shape: run.shape });
+        }
+    }
+
+    /// The map of all bands.
+    pub fn finish(self, scene: &PreparedScene) -> Map {
+        let Self { region, map, mut runs } = self;
+        runs.sort_unstable_by_key(|run| run.start);
+        let map = map.expect("a region has rows");
+        let window = scene.scene().camera().window(region, scene.scene().length());
+        Map { mask: Mask::new(region.size, runs), window, ..map }
+    }
+}
+
+/// A channel of so many pixels that see nothing.
+fn empty(like: &Channel, pixels: usize) -> Channel {
+    let values = match &like.values {
+        Values::Scalar(_) => Values::Scalar(vec![0.0; pixels]),
+        Values::Single(_) => Values::Single(vec![0.0; pixels]),
+        Values::Vector(_) => Values::Vector(vec![[0.0; 3]; pixels]),
+        Values::Index(_) => Values::Index(vec![-1; pixels]),
+    };
+    Channel { quantity: like.quantity.clone(), unit: like.unit.clone(), values }
+}
+
+/// Values of the same kind.
+fn copy(from: &Values, source: std::ops::Range<usize>, to: &mut Values, target: std::ops::Range<usize>) {
+    match (from, to) {
+        (Values::Scalar(from), Values::Scalar(to)) => to[target].copy_from_slice(&from[source]),
+        (Values::Single(from), Values::Single(to)) => to[target].copy_from_slice(&from[source]),
+        (Values::Vector(from), Values::Vector(to)) => to[target].copy_from_slice(&from[source]),
+        (Values::Index(from), Values::Index(to)) => to[target].copy_from_slice(&from[source]),
+        _ => unreachable!("all bands have the same channels"),
+    }
+}

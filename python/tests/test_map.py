@@ -1,0 +1,207 @@
+"""Maps as arrays, and their files."""
+
+from __future__ import annotations
+
+import gc
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import REPOSITORY
+
+import isophote as iso
+
+
+def test_channels_are_views_of_the_maps_own_memory(lab_map):
+    first, again = lab_map["brightness"], lab_map["brightness"]
+    assert first.dtype == np.float64 and first.shape == (600, 800)
+    assert lab_map["normal"].shape == (600, 800, 3)
+    assert lab_map["shape"].dtype == np.int32
+    assert first.ctypes.data == again.ctypes.data
+    assert not first.flags.owndata
+    for channel in lab_map:
+        assert not lab_map[channel].flags.writeable
+        with pytest.raises(ValueError, match=r"read-only|WRITEABLE"):
+            lab_map[channel].flags.writeable = True
+            lab_map[channel][0, 0] = 1
+    assert iso.render(iso.scenes.lab(), precision="single")["brightness"].dtype == np.float32
+
+
+def test_an_array_outlives_its_map(lab):
+    array = iso.render(lab)["brightness"]
+    expected = array.copy()
+    gc.collect()
+    more = [iso.render(lab.set({"light.lamp.intensity": 7.0}))["brightness"] for _ in range(3)]
+    assert more[0].max() < array.max()
+    np.testing.assert_array_equal(array, expected)
+
+
+def test_statistics_are_those_of_the_visible_pixels(lab_map):
+    values, mask = lab_map["brightness"], lab_map.mask
+    assert mask.sum() == 32744
+    assert lab_map.max() == values[mask].max() == values[lab_map.argmax()]
+    assert lab_map.min() == values[mask].min() == values[lab_map.argmin()]
+    assert lab_map.mean() == pytest.approx(values[mask].mean(), rel=1e-13)
+    assert lab_map.max("depth") == lab_map["depth"][mask].max()
+    np.testing.assert_array_equal(lab_map.shapes >= 0, mask)
+    assert (values[~mask] == 0).all()
+
+
+def test_a_part_of_the_image_is_the_part_of_its_map(lab, lab_map):
+    part = iso.render(lab, region=(300, 200, 150, 100))
+    assert part.region == (300, 200, 150, 100)
+    np.testing.assert_array_equal(part["brightness"], lab_map["brightness"][200:300, 300:450])
+    row, column = part.argmax()
+    assert part["brightness"][row, column] == part.max()
+    x, y = part.coordinates()
+    whole_x, whole_y = lab_map.coordinates()
+    np.testing.assert_allclose(x, whole_x[300:450], atol=1e-12)
+    np.testing.assert_allclose(y, whole_y[200:300], atol=1e-12)
+
+
+def test_units_and_coordinates(lab_map):
+    assert lab_map.units["brightness"] == "W/m²"
+    assert lab_map.units["position"] == "m"
+    assert lab_map.units["normal"] == "1"
+    x, y = lab_map.coordinates()
+    assert x[0] == pytest.approx(-3.995) and x[-1] == pytest.approx(3.995)
+    assert y[0] == pytest.approx(2.995) and y[-1] == pytest.approx(-2.995)
+    assert lab_map.axes[0].label == "x, m"
+    assert "800×600" in repr(lab_map) and "lab (3.3)" in repr(lab_map)
+    assert "data:image/png;base64" in lab_map._repr_html_()
+
+
+def test_each_lights_image_is_in_one_array():
+    scene = iso.scenes.two_lights()
+    images = iso.render(scene, channels=["irradiance", "lights"])
+    assert images.lights == tuple(light.name for light in scene.lights)
+    assert images.light_images().shape == (2, *images.shape)
+    np.testing.assert_allclose(images.light_images().sum(axis=0), images["irradiance"], rtol=1e-14)
+
+
+def test_xarray_has_dimensions_coordinates_and_units(lab_map):
+    dataset = lab_map.to_xarray()
+    assert dataset["brightness"].dims == ("y", "x")
+    assert dataset["normal"].dims == ("y", "x", "axis")
+    assert dataset["brightness"].attrs["units"] == "W/m²"
+    assert dataset["x"].attrs["units"] == "m"
+    assert float(dataset["brightness"].where(dataset["visible"]).max()) == lab_map.max()
+    assert iso.Scene.from_toml(dataset.attrs["scene"]) == lab_map.scene
+
+
+def test_isophotes_lie_on_their_levels(lab_map):
+    levels = lab_map.isophotes(6)
+    assert len(levels) > 3
+    x, y = lab_map.coordinates()
+    for isophote in lab_map.isophotes([0.1, 0.2]):
+        assert isophote.lines
+        for line in isophote.lines:
+            columns = np.interp(line[:, 0], x, np.arange(len(x)))
+            rows = np.interp(-line[:, 1], -y, np.arange(len(y)))
+            values = lab_map["brightness"][np.rint(rows).astype(int), np.rint(columns).astype(int)]
+            assert np.abs(values - isophote.level).max() < 0.02
+    with pytest.raises(iso.ArgumentError):
+        lab_map.isophotes([float("nan")])
+
+
+@pytest.mark.parametrize("name", ["map.exr", "map.npz", "map.csv", "map.npy"])
+def test_files_hold_the_values_and_the_scene(lab_map, tmp_path, name):
+    path = tmp_path / name
+    lab_map.save(path)
+    file = iso.read(path)
+    assert file.scene == lab_map.scene
+    assert file.region == lab_map.region
+    assert list(file) == (["brightness"] if name.endswith("npy") else list(lab_map))
+    for channel in file:
+        assert file.units[channel] == lab_map.units[channel]
+        if name.endswith("exr"):
+            np.testing.assert_array_equal(file[channel], lab_map[channel].astype(np.float32))
+        else:
+            np.testing.assert_array_equal(file[channel], lab_map[channel])
+
+
+def test_a_picture_has_a_scene_and_no_values(lab_map, tmp_path):
+    lab_map.save(tmp_path / "map.png", colormap="viridis")
+    file = iso.read(tmp_path / "map.png")
+    assert file.scene == lab_map.scene
+    with pytest.raises(iso.ArgumentError, match="picture"):
+        file["brightness"]
+
+
+@pytest.mark.filterwarnings("ignore::isophote.SceneWarning")
+@pytest.mark.parametrize("suffix", ["npz", "exr", "png"])
+def test_files_are_those_of_the_command_byte_for_byte(tmp_path, suffix):
+    scene = REPOSITORY / "scenes" / "two-lights.toml"
+    by_command, by_package = tmp_path / f"command.{suffix}", tmp_path / f"package.{suffix}"
+    channels = ["brightness", "normal", "shape"]
+    options = [word for channel in channels for word in ("-c", channel)]
+    command = [sys.executable, "-m", "isophote", "render", "--quiet", str(scene), *options, "-o", str(by_command)]
+    subprocess.run(command, check=True, capture_output=True)
+    iso.render(iso.Scene.from_file(scene), channels=channels).save(by_package)
+    assert by_command.read_bytes() == by_package.read_bytes()
+
+
+def test_a_file_is_written_whole_or_not_at_all(lab_map, tmp_path):
+    with pytest.raises(OSError, match="no folder"):
+        lab_map.save(tmp_path / "missing" / "map.exr")
+    for options in ({"range": (1, 0)}, {"gamma": -1}, {"bits": 12}, {"colormap": "jet"}, {"channel": "normal"}):
+        with pytest.raises(iso.ArgumentError):
+            lab_map.save(tmp_path / "map.png", **options)
+    with pytest.raises(iso.ArgumentError, match="cannot tell the format"):
+        lab_map.save(tmp_path / "map.bmp")
+    with pytest.raises(KeyError):
+        lab_map.save(tmp_path / "map.png", channel="nothing")
+    assert list(tmp_path.iterdir()) == []
+    (tmp_path / "other.exr").write_bytes(b"something else")
+    with pytest.raises(OSError, match="no PNG, EXR"):
+        iso.read(tmp_path / "other.exr")
+
+
+def test_figures_are_drawn_with_units(lab_map, lab):
+    axes = lab_map.plot(isophotes=6)
+    assert axes.get_xlabel() == "x, m"
+    assert any("brightness, lab (3.3), W/m²" in one.get_ylabel() for one in axes.figure.axes)
+    axes = iso.section(lab, row=300).plot("brightness", "diffuse")
+    assert axes.get_ylabel().endswith("W/m²")
+    with pytest.raises(iso.ArgumentError):
+        lab_map.plot("normal")
+    import matplotlib.pyplot as plt
+
+    plt.close("all")
+
+
+def test_what_a_map_cannot_do_it_says(lab, lab_map):
+    with pytest.raises(KeyError, match="this map has no channel 'coverage'"):
+        lab_map["coverage"]
+    with pytest.raises(TypeError, match="not pickled"):
+        pickle.dumps(lab_map)
+    for options in (
+        {"channels": []},
+        {"channels": ["brightnes"]},
+        {"channels": ["light.lump"]},
+        {"channels": "color"},
+        {"channels": [1]},
+        {"region": (0, 0, 801, 600)},
+        {"region": (0, 0, 0, 0)},
+        {"region": (-1, 0, 5, 5)},
+        {"region": (0, 0, 5)},
+        {"precision": "half"},
+        {"threads": 0},
+        {"threads": 1.5},
+    ):
+        with pytest.raises(iso.ArgumentError):
+            iso.render(lab, **options)
+    with pytest.raises(iso.ArgumentError, match="too large"):
+        iso.render(lab, size=(10**6, 75 * 10**4))
+    with pytest.raises(iso.SceneError):
+        iso.render(lab, size=(10**7, 75 * 10**5))
+    with pytest.raises(iso.ArgumentError, match="too large"):
+        iso.render(lab, size=(60000, 45000))
+    empty = iso.render(lab, region=(0, 0, 10, 10))
+    assert not empty.mask.any()
+    with pytest.raises(iso.ArgumentError, match="no surface"):
+        empty.max()
+    assert empty.isophotes() == []
+    assert "visible" in empty._repr_html_()

@@ -1,0 +1,38 @@
+"""The package as a whole."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+from conftest import REPOSITORY
+
+import isophote as iso
+
+tomllib = pytest.importorskip("tomllib", reason="Python 3.11 has it")
+
+
+def test_both_project_files_say_the_same():
+    root, inner = (tomllib.loads((REPOSITORY / path).read_text()) for path in ("pyproject.toml", "python/pyproject.toml"))
+    assert root["project"] == inner["project"]
+    assert root["build-system"] == inner["build-system"]
+    assert root["tool"]["maturin"]["module-name"] == inner["tool"]["maturin"]["module-name"]
+
+
+def test_every_public_name_is_there_and_explained():
+    for name in iso.__all__:
+        thing = getattr(iso, name)
+        assert name == "__version__" or (thing.__doc__ and thing.__doc__.strip())
+
+
+def test_it_is_of_the_cores_version():
+    cargo = tomllib.loads((REPOSITORY / "Cargo.toml").read_text())
+    assert iso.__version__ == cargo["workspace"]["package"]["version"]
+
+
+def test_importing_it_imports_nothing_heavy():
+    import subprocess
+
+    heavy = ("matplotlib", "xarray", "dask", "distributed", "zarr", "tqdm")
+    program = f"import sys, isophote; print([name for name in {heavy!r} if name in sys.modules])"
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True).stdout.strip() == "[]"

@@ -1,0 +1,188 @@
+"""Values at points and along lines; surfaces and grids."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from conftest import REPOSITORY
+
+import isophote as iso
+
+
+def test_the_labs_points_have_their_values(lab):
+    reference = {"P1": 0.316677297547093, "P2": 0.137736208646845, "P3": 0.137736208646845, "P4": 0.260714199906064}
+    probes = iso.probe(lab)
+    assert probes.names == tuple(reference)
+    np.testing.assert_allclose(probes.brightness, list(reference.values()), rtol=1e-12)
+    assert probes.units["brightness"] == "W/m²"
+    assert probes.seen.all()
+    assert "P1: (0, 0, 4) m: B = 0.316677297547093 W/m²" in repr(probes)
+
+
+def test_a_probe_explains_itself(lab):
+    text = iso.probe(lab, at=[(0, 0, 4)]).explain()
+    assert "(3.3)" in text and "0.316677297547093" in text
+    probes = iso.probe(lab, pixels=[(400, 300), (418, 281)])
+    assert "pixel 418,281" in probes.explain(1)
+    with pytest.raises(IndexError):
+        probes.explain(2)
+
+
+def on_the_sphere(count):
+    directions = np.random.default_rng(1).normal(size=(count, 3))
+    return directions / np.linalg.norm(directions, axis=1, keepdims=True) + [0, 0, 5]
+
+
+def test_a_million_points_in_one_call(lab):
+    points = on_the_sphere(1_000_000)
+    heard = []
+    probes = iso.probe(lab, at=points, progress=lambda done, total: heard.append((done, total)))
+    assert probes.brightness.shape == (1_000_000,)
+    assert heard[-1] == (1_000_000, 1_000_000)
+    some = slice(None, None, 99_991)
+    np.testing.assert_array_equal(iso.probe(lab, at=points[some]).brightness, probes.brightness[some])
+    assert not probes.brightness.flags.writeable
+
+
+def test_points_of_every_kind_of_array(lab):
+    expected = iso.probe(lab, at=[(0, 0, 4)]).brightness
+    for at in ([0, 0, 4], np.array([[0, 0, 4]]), np.array([[0, 0, 4]], np.float32), np.zeros((1, 6))[:, ::2] + [0, 0, 4]):
+        np.testing.assert_array_equal(iso.probe(lab, at=at).brightness, expected)
+    wide = np.asfortranarray(on_the_sphere(50))
+    np.testing.assert_array_equal(iso.probe(lab, at=wide).brightness, iso.probe(lab, at=wide.copy("C")).brightness)
+    for empty in ([], np.zeros((0, 3))):
+        probes = iso.probe(lab, at=empty)
+        assert probes.brightness.shape == (0,) and probes.position.shape == (0, 3)
+        assert "0 points" in repr(probes)
+    assert iso.probe(lab, pixels=np.zeros((0, 2), int)).count == 0
+
+
+def test_points_elsewhere(lab):
+    points = np.array([(0, 0, 4), (0.1, 0, 4), (0, 0, 0)])
+    with pytest.raises(iso.ProbeError, match="point 1 is on no surface: it is 0.00498756 m outside") as caught:
+        iso.probe(lab, at=points)
+    assert caught.value.indices == (1, 2)
+    gaps = iso.probe(lab, at=np.vstack([points, [np.nan, 0, 0], [1e300, 0, 0]]), elsewhere="nan")
+    assert np.isnan(gaps.brightness).tolist() == [False, True, True, True, True]
+    assert gaps.shape.tolist() == [0, -1, -1, -1, -1]
+    near = iso.probe(lab, at=points, elsewhere="nearest")
+    np.testing.assert_allclose(np.linalg.norm(near.position - [0, 0, 5], axis=1), 1, rtol=1e-15)
+    assert "P  " in near.explain(1)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"at": [(0, 0)]},
+        {"at": [(0, 0, np.nan)]},
+        {"at": [(0, 0, np.inf)]},
+        {"at": "here"},
+        {"at": np.zeros((1, 1, 3))},
+        {"at": [(0, 0, 1j)]},
+        {"at": [[0, 0, 4], [0, 0]]},
+        {"pixels": [(0.5, 1)]},
+        {"pixels": [(-1, 0)]},
+        {"pixels": [(800, 0)]},
+        {"pixels": [(0, 0)]},
+        {"pixels": np.array([(2**40, 0)])},
+    ],
+)
+def test_places_that_are_none_are_refused(lab, options):
+    with pytest.raises(iso.ProbeError):
+        iso.probe(lab, **options)
+
+
+def test_arguments_that_contradict_each_other_are_refused(lab):
+    for options in ({"at": [(0, 0, 4)], "pixels": [(0, 0)]}, {"at": [(0, 0, 4)], "elsewhere": "somewhere"}):
+        with pytest.raises(iso.ArgumentError):
+            iso.probe(lab, **options)
+    with pytest.raises(iso.ArgumentError, match="no probes"):
+        iso.probe(lab.replace(probes=()))
+    for options in ({}, {"row": 1, "column": 1}, {"row": 600}, {"row": -1}, {"between": ((0, 0), (1, np.nan))}):
+        with pytest.raises(iso.ArgumentError):
+            iso.section(lab, **options)
+
+
+def test_a_section_runs_along_its_line(lab, lab_map):
+    row = iso.section(lab, row=300)
+    seen = lab_map.mask[300]
+    np.testing.assert_array_equal(row.shape >= 0, seen)
+    np.testing.assert_allclose(row.brightness[seen], lab_map["brightness"][300][seen], rtol=0, atol=1e-12)
+    assert np.isnan(row.brightness[~seen]).all()
+    np.testing.assert_allclose(row.screen[:, 0], lab_map.coordinates()[0], atol=1e-12)
+    assert row.units["screen"] == "m"
+    line = iso.section(lab, between=((-1, 0), (1, 0)), samples=11)
+    np.testing.assert_allclose(line.distance, np.linspace(0, 2, 11))
+    np.testing.assert_allclose(iso.section(lab, column=10).screen[:, 1], lab_map.coordinates()[1], atol=1e-12)
+
+
+def test_the_flux_on_a_sphere_is_that_of_the_closed_form():
+    """(5.3): 2πI (1 − √(1 − (R/d)²))."""
+    scene = iso.Scene.from_file(REPOSITORY / "scenes" / "closed-form-5.1.toml")
+    sphere, light = scene.shapes[0], scene.lights[0]
+    distance = np.linalg.norm(np.subtract(light.position, sphere.center))
+    flux = 2 * np.pi * light.intensity * (1 - np.sqrt(1 - (sphere.radius / distance) ** 2))
+    errors = []
+    for width in (180, 360):
+        surface = iso.surface(scene, size=(width, width // 2), projection="equal-area")
+        totals = surface.totals["irradiance"]
+        errors.append(abs(totals.integral - flux) / flux)
+        assert surface.area == pytest.approx(4 * np.pi * sphere.radius**2, rel=1e-14)
+        assert totals.mean == pytest.approx(totals.integral / totals.area)
+    assert errors[1] < 1e-4 and errors[1] < errors[0]
+    assert iso.surface(scene, shape=0).axes[0].name == "longitude"
+    assert iso.surface(scene).to_xarray()["irradiance"].dims == ("latitude", "longitude")
+
+
+def test_a_grid_has_the_published_illuminances():
+    """CIE 171:2006, test 5.2: (5.4)."""
+    scene = iso.Scene.from_file(REPOSITORY / "scenes" / "grid.toml")
+    found = iso.grid(scene, name=scene.grids[0].name)
+    published = {(0, 0): 111.11, (0.5, 0): 105.21, (1, 0): 90.02, (1.5, 0): 71.11, (1, 1): 74.36, (1.5, 1.5): 49.39}
+    for (x, z), illuminance in published.items():
+        there = np.isclose(found["position"], [x, 0, z], atol=1e-9).all(axis=-1)
+        assert found["irradiance"][there] == pytest.approx(1000 * 3**2 / (3**2 + x**2 + z**2) ** 2, rel=1e-12)
+        assert found["irradiance"][there] == pytest.approx(illuminance, rel=5e-4)
+    assert found.units["irradiance"] == "lx"
+    assert found.uniformity == pytest.approx(found.min() / found.mean())
+    with pytest.raises(iso.ArgumentError, match="no grid"):
+        iso.grid(scene, name="nothing")
+
+
+def test_surfaces_and_grids_that_are_not_there(lab):
+    for call in (
+        lambda: iso.surface(lab, shape="bell"),
+        lambda: iso.surface(lab, shape=1),
+        lambda: iso.surface(lab, part=1),
+        lambda: iso.surface(lab, projection="mercator"),
+        lambda: iso.surface(lab, size=(0, 5)),
+        lambda: iso.surface(lab, axis=(0, 1)),
+        lambda: iso.surface(lab, channels=["depth"]),
+        lambda: iso.grid(lab),
+    ):
+        with pytest.raises(iso.ArgumentError):
+            call()
+
+
+def test_probes_of_a_scene_with_colours_have_components():
+    scene = iso.Scene.from_file(REPOSITORY / "scenes" / "color.toml")
+    probes = iso.probe(scene)
+    assert probes.color.shape == (probes.count, 3)
+    weights = [0.2126, 0.7152, 0.0722]
+    np.testing.assert_allclose(probes.color @ weights, probes.brightness, rtol=1e-4)
+    found = iso.render(scene, size=(80, 60))
+    assert list(found) == ["brightness", "color"]
+    assert found["color"].shape == (60, 80, 3)
+    assert found.to_xarray()["color"].dims == ("y", "x", "component")
+
+
+def test_the_packages_values_are_the_commands(lab):
+    import subprocess
+    import sys
+
+    command = [sys.executable, "-m", "isophote", "probe", "--json"]
+    answer = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    values = [probe["channels"]["brightness"]["value"] for probe in answer["probes"]]
+    assert values == iso.probe(lab).brightness.tolist()

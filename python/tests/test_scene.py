@@ -1,0 +1,183 @@
+"""Scenes and their parts."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+import pickle
+
+import numpy as np
+import pytest
+from conftest import SCENES
+
+import isophote as iso
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+@pytest.mark.filterwarnings("ignore::isophote.SceneWarning")
+def test_every_scene_of_the_repository_survives_all_its_forms(path):
+    scene = iso.Scene.from_file(path)
+    directory = path.parent
+    forms = [
+        iso.Scene.from_dict(scene.to_dict(), directory=directory),
+        iso.Scene.from_toml(scene.to_toml(), directory=directory),
+        pickle.loads(pickle.dumps(scene)),
+        copy.deepcopy(scene),
+        scene.replace(),
+    ]
+    for form in forms:
+        assert form == scene
+        assert hash(form) == hash(scene) or form.to_toml() != scene.to_toml()
+    size = (40, 30)
+    expected = iso.render(scene, size=size, channels="all")
+    for form in forms:
+        found = iso.render(form, size=size, channels="all")
+        assert list(found) == list(expected)
+        for channel in expected:
+            np.testing.assert_array_equal(found[channel], expected[channel])
+
+
+@pytest.mark.filterwarnings("ignore::isophote.SceneWarning")
+def test_a_scene_of_parts_is_the_scene_of_the_file(lab):
+    built = iso.Scene(
+        title="Lab 4: one sphere, one light",
+        length="m",
+        handedness="left",
+        convention=iso.Convention.LAB,
+        camera=iso.Camera(
+            eye=[0, 0, 0],
+            forward=np.array([0, 0, 1]),
+            screen=iso.Screen(distance=5, x=(-4, 4), y=(-3, 3)),
+        ),
+        materials={"clay": iso.Material(diffuse=0.7, specular=0.3, shininess=20)},
+        shapes=[iso.Sphere(name="ball", center=(0, 0, 5), radius=1, material="clay")],
+        lights=[iso.PointLight(name="lamp", position=(5, 5, -10), intensity=np.float32(100))],
+        probes=lab.probes,
+    )
+    assert built == lab
+    assert built != built.replace(title="another")
+    assert repr(built.shapes[0]) == "Sphere(name='ball', material='clay', center=(0.0, 0.0, 5.0), radius=1.0)"
+
+
+def test_the_scene_shows_its_units(lab):
+    text = repr(lab)
+    assert "lengths in m, brightness by lab (3.3) in W/m²" in text
+    assert "center (0, 0, 5) m, radius 1 m" in text
+    assert "position (5, 5, -10) m, intensity 100 W/sr" in text
+    assert "cd" in repr(iso.scenes.photometric())
+    assert "<pre>" in lab._repr_html_()
+
+
+def test_nothing_in_a_scene_can_be_changed(lab):
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        lab.title = "another"
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        lab.shapes[0].radius = 2.0
+    with pytest.raises(TypeError):
+        lab.materials["clay"] = iso.Material(diffuse=1)
+    before = iso.render(lab, size=(40, 30))["brightness"].copy()
+    lights = [lab.lights[0]]
+    scene = lab.replace(lights=lights)
+    lights.clear()
+    np.testing.assert_array_equal(iso.render(scene, size=(40, 30))["brightness"], before)
+
+
+def test_every_mistake_is_reported_at_once():
+    with pytest.raises(iso.SceneError) as caught:
+        iso.Scene(
+            length="m",
+            camera=iso.Camera(eye=(0, 0, 0), forward=(0, 0, 1), field_of_view=60),
+            materials={"clay": iso.Material(diffuse=2)},
+            shapes=[iso.Sphere(center=(0, 0, 5), radius=-1, material="cley")],
+        )
+    problems = caught.value.problems
+    assert [problem.path for problem in problems] == ["material.clay.diffuse", "sphere[0].radius", "sphere[0].material"]
+    assert problems[0].message == "`material.clay.diffuse` is 2"
+    assert problems[0].help == "allowed: 0 to 1"
+    assert problems[0].line is None
+    assert "did you mean `clay`?" in str(caught.value)
+    assert pickle.loads(pickle.dumps(caught.value)).problems == problems
+
+
+def test_mistakes_in_a_text_have_their_lines():
+    with pytest.raises(iso.SceneError) as caught:
+        iso.Scene.from_toml('version = 1\nlength = "km"\n', name="mine.toml")
+    problem = next(problem for problem in caught.value.problems if problem.path == "length")
+    assert problem.line == 2
+    assert problem.place.text == 'length = "km"'
+    assert "mine.toml:2:10" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: iso.Sphere(center=(0, 0), radius=1),
+        lambda: iso.Sphere(center=(0, 0, float("nan")), radius=1),
+        lambda: iso.Sphere(center=(0, 0, 0), radius="one"),
+        lambda: iso.Sphere(center="abc", radius=1),
+        lambda: iso.Sphere(center=np.zeros((3, 1)), radius=1),
+        lambda: iso.Sphere(center=(0, 0, 0), radius=True),
+        lambda: iso.Sphere(center=(0, 0, 0), radius=1, casts_shadow="no"),
+        lambda: iso.Material(diffuse=(1, 2)),
+        lambda: iso.Material(diffuse=float("inf")),
+        lambda: iso.Camera(eye=(0, 0, 0), forward=(0, 0, 1), field_of_view=60, resolution=(10.5, 3)),
+        lambda: iso.Camera(eye=(0, 0, 0), forward=(0, 0, 1), screen=5),
+        lambda: iso.scenes.lab().replace(lights=iso.PointLight(position=(0, 0, 0), power=1)),
+        lambda: iso.scenes.lab().replace(shapes=[iso.Material(diffuse=1)]),
+        lambda: iso.scenes.lab().replace(materials={"clay": 0.5}),
+        lambda: iso.scenes.lab().replace(convention="phong"),
+        lambda: iso.Scene.from_file("no-such-file.toml"),
+    ],
+)
+def test_a_wrong_value_is_a_scene_error_that_names_it(make):
+    with pytest.raises(iso.SceneError) as caught:
+        make()
+    assert caught.value.problems
+    assert all(problem.message for problem in caught.value.problems)
+
+
+def test_what_is_odd_but_allowed_is_a_warning(lab):
+    with pytest.warns(iso.SceneWarning, match="not square"):
+        lab.with_resolution((800, 500))
+
+
+def test_values_are_set_by_their_paths(lab):
+    changed = lab.set(
+        {
+            "light.lamp.position": (1, 2, -3),
+            "light[0].intensity": 50,
+            "material.clay.shininess": 80,
+            "camera.screen.distance": 4,
+            "convention": "radiance",
+        }
+    )
+    assert changed.lights[0] == lab.lights[0].replace(position=(1, 2, -3), intensity=50)
+    assert changed.materials["clay"].shininess == 80
+    assert changed.camera.screen.distance == 4
+    assert changed.convention == "radiance"
+    smaller = lab.replace(probes=()).set({"sphere.ball.radius": 0.5, "shape.ball.center": (0, 0, 6)})
+    assert smaller.shapes[0].radius == 0.5
+    assert smaller.shapes[0].center == (0, 0, 6)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "light.lump.position",
+        "light[1].position",
+        "light.lamp.colour",
+        "material.clay",
+        "camera",
+        "nothing",
+        "",
+        "camera.eye.x",
+    ],
+)
+def test_a_path_that_leads_nowhere_says_so(lab, path):
+    with pytest.raises(iso.ArgumentError):
+        lab.set({path: 1})
+
+
+def test_conventions_have_their_formulas():
+    assert [convention.number for convention in iso.Convention] == ["3.1", "3.2", "3.3", "3.4", "3.5", "3.6"]
+    assert iso.Convention.LAB.formula == "B = Σ E_j (k_d cosθ_o + k_s (N·H_j)^n)"

@@ -1,0 +1,186 @@
+"""Sweeps and stores, on this machine and on a cluster of two processes."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+from conftest import REPOSITORY
+
+import isophote as iso
+
+needs_zarr = pytest.mark.skipif(importlib.util.find_spec("zarr") is None, reason="zarr 3 is for Python from 3.11")
+
+POSITIONS = [(5, 5, -10), (0, 5, -10), (-5, 5, -10)]
+SHININESS = [5, 20.0, 80]
+PARAMETERS = {"light.lamp.position": POSITIONS, "material.clay.shininess": SHININESS}
+
+
+@pytest.fixture
+def small(lab):
+    return lab.with_resolution((80, 60))
+
+
+@pytest.fixture(scope="module")
+def client():
+    distributed = pytest.importorskip("distributed")
+    cluster = distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, worker_dashboard_address=None
+    )
+    with cluster, distributed.Client(cluster) as client:
+        yield client
+
+
+def check(found, scene, names=("brightness",)):
+    assert dict(found.sizes)["light.lamp.position"] == 3
+    assert found["brightness"].dims == ("light.lamp.position", "material.clay.shininess", "y", "x")
+    assert found["material.clay.shininess"].values.tolist() == SHININESS
+    assert found["light.lamp.position.value"].values.tolist() == [list(position) for position in POSITIONS]
+    assert found["brightness"].attrs["units"] == "W/m²"
+    for i, position in enumerate(POSITIONS):
+        for j, shininess in enumerate(SHININESS):
+            changed = scene.set({"light.lamp.position": position, "material.clay.shininess": shininess})
+            expected = iso.render(changed, channels=names)
+            there = found.isel({"light.lamp.position": i, "material.clay.shininess": j})
+            for name in names:
+                np.testing.assert_array_equal(there[name].values, expected[name])
+            np.testing.assert_array_equal(there["visible"].values, expected.mask)
+
+
+def test_a_sweep_has_a_dimension_for_each_parameter(small):
+    heard = []
+    found = iso.sweep(small, PARAMETERS, progress=lambda done, total: heard.append((done, total)))
+    check(found, small)
+    assert heard == [(number, 9) for number in range(1, 10)]
+
+
+@needs_zarr
+def test_a_sweep_into_a_store_is_the_same(small, tmp_path):
+    store = tmp_path / "sweep.zarr"
+    found = iso.sweep(small, PARAMETERS, channels=["brightness", "normal"], store=store, workers=3)
+    check(found, small, ("brightness", "normal"))
+    again = xarray.open_zarr(store, consolidated=False, chunks=None)
+    np.testing.assert_array_equal(again["brightness"].values, found["brightness"].values)
+    assert again["axis"].attrs["labels"] == ["x", "y", "z"]
+    with pytest.raises(iso.ArgumentError, match="exists already"):
+        iso.sweep(small, PARAMETERS, store=store)
+
+
+def test_a_sweep_over_words_and_colours(small):
+    colours = [(0.1, 0.2, 0.3), 0.5]
+    found = iso.sweep(small, {"convention": ["lab", "radiance"], "material.clay.diffuse": [0.2, 0.4]})
+    assert found["convention"].values.tolist() == ["lab", "radiance"]
+    with_colour = iso.sweep(small, {"material.clay.diffuse": [colours[0], colours[0]]}, channels=["color"])
+    assert with_colour["color"].dims == ("material.clay.diffuse", "y", "x", "component")
+    none = iso.sweep(small, {})
+    np.testing.assert_array_equal(none["brightness"].values, iso.render(small)["brightness"])
+
+
+def test_what_is_wrong_with_a_sweep_is_known_before_it_begins(small, tmp_path):
+    store = tmp_path / "sweep.zarr"
+    for parameters in (
+        {"light.lamp.intensity": []},
+        {"light.lump.intensity": [1]},
+        {"light.lamp.intensity": [1, -1]},
+        {"camera.resolution": [(80, 60), (40, 30)]},
+        # Inside the sphere.
+        {"light.lamp.position": [(0, 0, -10), (0, 0, 5)]},
+    ):
+        with pytest.raises((iso.ArgumentError, iso.SceneError)):
+            iso.sweep(small, parameters, store=store)
+    with pytest.raises(iso.ArgumentError):
+        iso.sweep(small, PARAMETERS, workers=0)
+    assert not store.exists()
+
+
+@needs_zarr
+def test_a_cluster_sweeps_as_well(small, client, tmp_path):
+    check(iso.sweep(small, PARAMETERS, client=client), small)
+    found = iso.sweep(small, PARAMETERS, client=client, store=tmp_path / "sweep.zarr")
+    check(found, small)
+
+
+def files(store: Path) -> dict[str, bytes]:
+    return {str(path.relative_to(store)): path.read_bytes() for path in sorted(store.rglob("*")) if path.is_file()}
+
+
+def by_command(store: Path, scene: Path, *options: str) -> dict[str, bytes]:
+    command = [sys.executable, "-m", "isophote", "render", "--quiet", str(scene), "-o", str(store), *options]
+    subprocess.run(command, check=True, capture_output=True)
+    return files(store)
+
+
+LAB = REPOSITORY / "scenes" / "lab.toml"
+
+
+@needs_zarr
+def test_a_store_is_the_commands_byte_for_byte(tmp_path):
+    scene = iso.Scene.from_file(LAB)
+    expected = by_command(tmp_path / "command.zarr", LAB, "--size", "1000x750", "--shard-side", "256")
+    stored = iso.render_to_zarr(scene, (1000, 750), tmp_path / "package.zarr", shard_side=256, threads=3)
+    assert files(tmp_path / "package.zarr") == expected
+    whole = iso.render(scene, size=(1000, 750))
+    assert stored.pixels == 750_000 and stored.visible == whole.mask.sum()
+    assert stored.channels["brightness"][1][0] == whole.max()
+    np.testing.assert_array_equal(stored.open()["brightness"].values, whole["brightness"])
+    file = iso.read(tmp_path / "package.zarr")
+    np.testing.assert_array_equal(file["brightness"], whole["brightness"])
+    with pytest.raises(iso.StoreError, match="exists already"):
+        iso.render_to_zarr(scene, (1000, 750), tmp_path / "package.zarr", shard_side=256)
+    with pytest.raises(iso.StoreError, match="another map"):
+        other = scene.set({"light.lamp.intensity": 99})
+        iso.render_to_zarr(other, (1000, 750), tmp_path / "package.zarr", shard_side=256, resume=True)
+    assert iso.render_to_zarr(scene, (1000, 750), tmp_path / "package.zarr", shard_side=256, resume=True) == stored
+
+
+def test_an_interrupted_store_is_continued(tmp_path):
+    scene = iso.Scene.from_file(LAB)
+    expected = by_command(tmp_path / "command.zarr", LAB, "--size", "1200x900", "--shard-side", "128")
+
+    def stop(done, total):
+        if done > total // 4:
+            raise InterruptedError
+
+    options = {"shard_side": 128, "threads": 1}
+    with contextlib.suppress(InterruptedError):
+        iso.render_to_zarr(scene, (1200, 900), tmp_path / "package.zarr", progress=stop, **options)
+    iso.render_to_zarr(scene, (1200, 900), tmp_path / "package.zarr", resume=True, **options)
+    assert files(tmp_path / "package.zarr") == expected
+
+
+@pytest.mark.skipif(os.name != "posix", reason="SIGKILL")
+@pytest.mark.filterwarnings("ignore")
+def test_a_cluster_that_loses_a_worker_half_way_makes_the_same_bytes(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    # Lights enough that a shard takes a while.
+    text = LAB.read_text()
+    text += "".join(f"\n[[light]]\nposition = [{0.01 * i}, 5, -9]\nintensity = 0.01\n" for i in range(300))
+    path = tmp_path / "many.toml"
+    path.write_text(text)
+    expected = by_command(tmp_path / "command.zarr", path, "--size", "1600x1200", "--shard-side", "200")
+    scene = iso.Scene.from_file(path)
+    store = tmp_path / "cluster.zarr"
+    cluster = distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, worker_dashboard_address=None
+    )
+    killed = []
+    with cluster, distributed.Client(cluster) as client:
+        pids = list(client.run(os.getpid).values())
+
+        def kill(done, total):
+            if done >= total // 3 and not killed:
+                killed.append((done, total))
+                os.kill(pids[0], signal.SIGKILL)
+
+        stored = iso.render_to_zarr(scene, (1600, 1200), store, shard_side=200, client=client, progress=kill)
+    assert killed and killed[0][0] < killed[0][1]
+    assert stored.pixels == 1600 * 1200
+    assert files(store) == expected
