@@ -10,6 +10,8 @@ PYTHON_ENV := target/python
 PYTHON := $(CURDIR)/$(PYTHON_ENV)/bin/python
 PYTHON_MODULE := python/isophote/_isophote.abi3.so
 GENERATED := target/generated
+DOCS_ENV := target/docs-python
+DOCS_SITE := target/docs-site
 # The scenes of docs/gallery.md that are rendered as they are.
 GALLERY := solids room mesh spheres shadows overcast spot color sun orthographic fisheye panorama
 # gungraun refuses a runner of another version than its own.
@@ -76,9 +78,24 @@ fuzz: ## Feed every reader of files damaged ones, FUZZ_SECONDS=60 each (installs
 			-max_total_time=$(FUZZ_SECONDS) -timeout=10 -malloc_limit_mb=256 -print_final_stats=1 -verbosity=0 || exit 1; \
 	done
 
-docs: generate ## Regenerate what is generated, and build the documentation of the library
+docs: generate docs-site ## Regenerate what is generated; build the site of docs/, and the documentation of the library
 	$(CARGO) doc --workspace --no-deps
-	@echo "guide: README.md and docs/; library: target/doc/isophote/index.html"
+	@echo "guide: $(DOCS_SITE)/index.html; library: target/doc/isophote/index.html"
+
+# Examples and notebooks need the package: notebooks run while the site is built. A warning is an error.
+.PHONY: docs-site
+docs-site: python-module $(DOCS_ENV)/ready
+	$(DOCS_ENV)/bin/python -m sphinx -W --keep-going -n -q -b html -d target/docs-doctrees docs $(DOCS_SITE)
+
+$(DOCS_ENV)/ready: docs/requirements.txt
+	rm -rf $(DOCS_ENV) && mkdir -p target && python3 -m venv $(DOCS_ENV)
+	$(DOCS_ENV)/bin/python -m pip install --quiet --disable-pip-version-check -r docs/requirements.txt
+	touch $@
+
+# The pictures of the tutorial, as its own examples draw them; to be looked at before they are committed.
+.PHONY: docs-figures
+docs-figures: python-module $(DOCS_ENV)/ready ## Draw the tutorial's pictures anew
+	PYTHONPATH=python $(DOCS_ENV)/bin/python python/tests/test_docs.py
 
 generate: ## Make the generated files anew: schema/, docs/images/ (the gallery too)
 	@$(MAKE) --no-print-directory $(GENERATED)

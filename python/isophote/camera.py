@@ -30,12 +30,12 @@ class Window(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Camera(Part):
-    """The observer.
+    """The observer (2.1), (2.3).
 
     Looks along ``forward``, or at the point ``target``. ``projection`` is ``"perspective"`` (with a ``screen`` or a
-    ``field_of_view`` in degrees), ``"orthographic"`` (with a ``window``), ``"fisheye-equidistant"`` or
-    ``"fisheye-equal-area"`` (with a ``field_of_view``), or ``"panorama"`` (with ``longitude`` and ``latitude``).
-    ``resolution`` is the number of columns and of rows.
+    ``field_of_view`` in degrees), ``"orthographic"`` (with a ``window``, 2.7), ``"fisheye-equidistant"`` (2.8) or
+    ``"fisheye-equal-area"`` (2.9; both with a ``field_of_view``), or ``"panorama"`` (with ``longitude`` and
+    ``latitude``, 2.10). ``resolution`` is the number of columns and of rows.
     """
 
     eye: Vector
@@ -53,7 +53,7 @@ class Camera(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Sampling(Part):
-    """How many rays a pixel's value is made of: ``samples`` of them, or as many as a ``tolerance`` takes, which is the
+    """How many rays a pixel's value is made of (2.6): ``samples`` of them, or as many as a ``tolerance`` takes, which is the
     error that is allowed as a part of the largest brightness. ``filter`` is ``"box"``, ``"triangle"``, ``"gaussian"`` or
     ``"mitchell"``."""
 

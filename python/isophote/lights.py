@@ -25,7 +25,7 @@ class Light(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class PointLight(Light):
-    """A point that sends the same in every direction: either ``intensity``, or ``power`` = 4π times it."""
+    """A point that sends the same in every direction (3.1): either ``intensity``, or ``power`` = 4π times it."""
 
     position: Vector
     intensity: Amount | None = None
@@ -34,7 +34,7 @@ class PointLight(Light):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class LambertianLight(Light):
-    """A point that sends I₀ cosγ, γ the angle from its axis: either ``intensity`` I₀, or ``power`` = π I₀.
+    """A point that sends I₀ cosγ (3.1), γ the angle from its axis: either ``intensity`` I₀, or ``power`` = π I₀.
 
     It is aimed by its ``axis``, or by the point ``target``."""
 
@@ -49,7 +49,7 @@ class LambertianLight(Light):
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class SpotLight(Light):
     """A point that sends its full intensity up to ``inner_angle`` from its axis, nothing beyond ``outer_angle``, and a
-    smooth step between; aimed by its ``axis``, or by the point ``target``."""
+    smooth step between (3.7); aimed by its ``axis``, or by the point ``target``."""
 
     _FIXED = MappingProxyType({"emission": "spot"})
     position: Vector
@@ -63,8 +63,8 @@ class SpotLight(Light):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class ParallelLight(Light):
-    """Light from one direction, without loss, like the sun's: ``direction`` is the one in which it travels, ``irradiance``
-    what a plane at right angles to it receives, in W/m² or lx."""
+    """Light from one direction, without loss, like the sun's (3.8): ``direction`` is the one in which it travels,
+    ``irradiance`` what a plane at right angles to it receives, in W/m² or lx."""
 
     _FIXED = MappingProxyType({"emission": "parallel"})
     direction: Vector
@@ -73,8 +73,8 @@ class ParallelLight(Light):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Ambient(Part):
-    """Light from all around, of the same ``radiance`` (W/(m²·sr) or cd/m²) from every direction; with ``obstructed``, each
-    point looks in ``samples`` directions for shapes that are in the way."""
+    """Light from all around (3.9), of the same ``radiance`` (W/(m²·sr) or cd/m²) from every direction; with ``obstructed``,
+    each point looks in ``samples`` directions for shapes that are in the way."""
 
     radiance: Amount
     obstructed: Flag = False

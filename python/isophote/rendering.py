@@ -71,7 +71,7 @@ def render(
     ``"irradiance"``, ``"normal"``, ``"light.lamp"``; ``"lights"`` for each light's own, ``"all"`` for everything.
     ``size``: columns and rows, in place of the scene's resolution.
     ``region``: first column, first row, columns, rows: this part of the image alone.
-    ``precision``: ``"double"``, or ``"single"`` at about twice the speed; docs/precision tells the bounds.
+    ``precision``: ``"double"``, or ``"single"`` at about twice the speed; docs/python/errors.md tells the bounds.
     ``threads``: as many as there are processors by default. They never change a bit of the result.
     ``progress``: a function of two numbers, pixels that are done and all; or ``True`` for a bar.
 

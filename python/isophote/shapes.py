@@ -48,7 +48,7 @@ class Shape(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Sphere(Shape):
-    """A sphere."""
+    """A sphere (2.2)."""
 
     KEY = "sphere"
     center: Vector
@@ -131,7 +131,7 @@ class Disk(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Mesh(Shape):
-    """A mesh of triangles from an OBJ, PLY, STL or binary glTF file, scaled, then turned, then moved."""
+    """A mesh of triangles (2.5) from an OBJ, PLY, STL or binary glTF file, scaled, then turned, then moved."""
 
     KEY = "mesh"
     file: Word
