@@ -46,7 +46,7 @@ from .shapes import (
     Sphere,
     Spheres,
 )
-from .stores import StoredMap, render_to_zarr
+from .stores import ChannelStatistics, StoredMap, render_to_zarr
 from .sweeps import sweep
 
 __all__ = [
@@ -55,6 +55,7 @@ __all__ = [
     "Axis",
     "Box",
     "Camera",
+    "ChannelStatistics",
     "Cone",
     "Convention",
     "Cylinder",

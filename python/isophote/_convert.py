@@ -31,6 +31,8 @@ def number(value: Any) -> float:
         converted = float(value)
     except (TypeError, ValueError):
         raise Invalid(f"is {value!r}", "allowed: a number") from None
+    except OverflowError:
+        raise Invalid("is too large", "allowed: numbers that a double holds") from None
     if not math.isfinite(converted):
         raise Invalid(f"is {converted}", "allowed: finite numbers")
     return converted
@@ -74,7 +76,7 @@ def size(value: Any) -> tuple[int, ...]:
 
 def amount(value: Any) -> float | tuple[float, ...]:
     """A number, or three of them."""
-    if not isinstance(value, (str, bytes)) and np.ndim(value) > 0:
+    if isinstance(value, (list, tuple, np.ndarray)) and not (isinstance(value, np.ndarray) and value.ndim == 0):
         return _several(value, 3, number, "a number, or three of them (red, green, blue)")
     return number(value)
 

@@ -65,7 +65,15 @@ class Part:
     def from_dict(cls: type[PartType], written: Mapping[str, Any]) -> PartType:
         """The part of which a scene file says this."""
         names = {key: name for name, key in cls._KEYS.items()}
-        return cls(**{names.get(key, key): value for key, value in written.items() if key not in cls._FIXED})
+        for key, fixed in cls._FIXED.items():
+            if written.get(key, fixed) != fixed:
+                raise _wrong(cls, Invalid(f"has {key} {written[key]!r}", f"allowed: {fixed!r}"))
+        fields = {names.get(key, key): value for key, value in written.items() if key not in cls._FIXED}
+        known = [field.name for field in dataclasses.fields(cls)]
+        for name in fields:
+            if name not in known:
+                raise _wrong(cls, Invalid(f"has no {name!r}", f"allowed: {', '.join(known)}"))
+        return cls(**fields)
 
     def _values(self) -> tuple[Any, ...]:
         return tuple(getattr(self, field.name) for field in dataclasses.fields(self))
@@ -84,6 +92,11 @@ class Part:
             if field.default is dataclasses.MISSING or getattr(self, field.name) != field.default
         )
         return f"{type(self).__name__}({', '.join(given)})"
+
+
+def _wrong(part: type[Part], invalid: Invalid) -> SceneError:
+    problem = Problem("wrong-type", part.__name__, f"`{part.__name__}` {invalid.message}", invalid.allowed)
+    return SceneError(str(problem), [problem])
 
 
 _KNOWN: dict[type[Part], dict[str, Converter]] = {}

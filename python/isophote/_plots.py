@@ -49,21 +49,31 @@ def plot_map(
     image = ax.imshow(np.ma.masked_where(~mask, of[name]), extent=extent, **options)
     about = f", {of.metadata['convention']}" if name in ("brightness", "diffuse", "specular") else ""
     unit = of.units[name]
-    bar = figure.colorbar(image, ax=ax)  # type: ignore[union-attr]
+    bar = figure.colorbar(image, ax=ax, fraction=0.046 * _height_by_width(of), pad=0.03)  # type: ignore[union-attr]
     bar.set_label(f"{name}{about}" + (f", {unit}" if unit not in ("", "1") else ""))
     if not (isinstance(isophotes, int) and isophotes == 0):
         _draw_isophotes(of, name, isophotes, ax, bar)
     return ax
 
 
+def _height_by_width(of: Map) -> float:
+    """So that the colour bar is as high as the picture."""
+    horizontal, vertical = of.axes
+    return abs((vertical.edges[1] - vertical.edges[0]) / (horizontal.edges[1] - horizontal.edges[0]))
+
+
 def _draw_isophotes(of: Map, name: str, levels: int | Sequence[float], ax: matplotlib.axes.Axes, bar: Any) -> None:
+    from matplotlib.patheffects import withStroke
+
     for isophote in of.isophotes(levels, channel=name):
         for line in isophote.lines:
             ax.plot(line[:, 0], line[:, 1], color="white", linewidth=0.8)
         if isophote.lines:
             longest = max(isophote.lines, key=len)
             x, y = longest[len(longest) // 3]
-            ax.annotate(f"{isophote.level:g}", (x, y), color="white", fontsize="small", ha="center", va="center")
+            text = ax.annotate(f"{isophote.level:g}", (x, y), color="white", fontsize="small", ha="center", va="center")
+            # Legible on every colour.
+            text.set_path_effects([withStroke(linewidth=2, foreground="black")])
             bar.ax.axhline(isophote.level, color="white", linewidth=0.8)
 
 
@@ -87,8 +97,8 @@ def plot_section(
         ax.plot(screen[:, 0] if runs_along_x else screen[:, 1], of[name], label=name, **options)
     ax.set_xlabel(f"{'x' if runs_along_x else 'y'}, {of.units['screen']}")
     unit = units.pop()
-    convention = f" {of.scene.core.describe()['convention']}" if "brightness" in names else ""
-    ax.set_ylabel(f"{' / '.join(names)}{convention}" + (f", {unit}" if unit not in ("", "1") else ""))
+    convention = f", {of.scene.core.describe()['convention']}" if "brightness" in names else ""
+    ax.set_ylabel(f"{names[0] if len(names) == 1 else 'value'}{convention}" + (f", {unit}" if unit not in ("", "1") else ""))
     ax.set_title(of.scene.title)
     if len(names) > 1:
         ax.legend()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +22,7 @@ COMPONENTS: dict[str, tuple[str, list[str]]] = {
 
 def dataset(of: Map) -> xarray.Dataset:
     """See :meth:`isophote.Map.to_xarray`."""
+    needed("xarray")
     import xarray
 
     horizontal, vertical = of.axes
@@ -38,6 +40,14 @@ def dataset(of: Map) -> xarray.Dataset:
             coordinates[extra[0]] = np.array(extra[1])
         variables[name] = (dims if extra is None else (*dims, extra[0]), of[name], {"units": unit})
     return xarray.Dataset(variables, coordinates, attributes(of.metadata))
+
+
+def needed(module: str) -> Any:
+    """A module of another package, or a word about how to get it."""
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        raise ImportError(f"this needs {module}: pip install isophote[all]") from error
 
 
 def attributes(metadata: dict[str, Any]) -> dict[str, str]:

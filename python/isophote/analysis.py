@@ -10,7 +10,7 @@ from ._convert import Invalid, Size, Vector, vector
 from ._convert import size as two_whole
 from .errors import ArgumentError
 from .map import Map
-from .rendering import Channels, channel_names
+from .rendering import Channels, channel_names, counted
 from .scene import Scene
 
 __all__ = ["GridMap", "SurfaceMap", "SurfaceTotals", "grid", "surface"]
@@ -71,12 +71,12 @@ def surface(
     core, area, totals = _isophote.surface(
         scene.core,
         _named(names, shape, "shape"),
-        part,
+        counted(part, "part"),
         channel_names(scene, channels),
         projection,
         side,
         _or_none(vector, axis, "axis"),
-        _or_none(two_whole, size, "size"),
+        None if size is None else [counted(side, "size", 1) for side in _or_none(two_whole, size, "size")],
     )
     return SurfaceMap(core, scene, area, totals)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 import os
@@ -22,8 +23,9 @@ class MapFile(Mapping[str, NDArray[Any]]):
     """A file or store that Isophote wrote: what it says about itself, and its channels as arrays where the format holds
     them (EXR, NPZ, NPY, CSV and Zarr; a PNG holds a picture, of which no values can be taken)."""
 
-    def __init__(self, path: str) -> None:
-        self.path = path
+    def __init__(self, path: str, directory: str | None = None) -> None:
+        self.path = os.path.abspath(path)
+        self._directory = os.path.dirname(self.path) if directory is None else os.path.abspath(directory)
         self.metadata: dict[str, Any] = json.loads(_isophote.read_metadata(path))
         self._channels = {channel["name"]: channel for channel in self.metadata["channels"]}
         self._arrays: dict[str, NDArray[Any]] | None = None
@@ -35,9 +37,8 @@ class MapFile(Mapping[str, NDArray[Any]]):
 
     @property
     def scene(self) -> Scene:
-        """The scene that was rendered; its relative names of files start at the file's own directory."""
-        directory = os.path.dirname(os.path.abspath(self.path))
-        return Scene.from_toml(self.metadata["scene"], directory=directory, name=self.path)
+        """The scene that was rendered."""
+        return Scene.from_toml(self.metadata["scene"], directory=self._directory, name=self.path)
 
     @property
     def units(self) -> dict[str, str]:
@@ -93,14 +94,14 @@ class MapFile(Mapping[str, NDArray[Any]]):
         return parts[0] if len(parts) == 1 else np.stack(parts, axis=-1)
 
     def _table(self) -> dict[str, NDArray[Any]]:
-        with open(self.path, encoding="utf-8") as file:
+        with open(self.path, encoding="utf-8", newline="") as file:
             lines = [line for line in file if not line.startswith("#")]
         _, _, width, height = self.region
         if len(lines) - 1 != width * height:
             raise ArgumentError(f"{self.path} has {len(lines) - 1} rows for {width * height} pixels: it is no whole table")
-        columns = np.genfromtxt(lines, delimiter=",", names=True, deletechars="", replace_space=" ")
-        names = columns.dtype.names or ()
-        arrays = {name: columns[name].reshape(height, width) for name in names}
+        names = next(csv.reader(lines[:1]))
+        values = np.loadtxt(lines[1:], delimiter=",", ndmin=2)
+        arrays = {name: values[:, column].reshape(height, width) for column, name in enumerate(names)}
         return {name: self._joined(arrays, name) for name in self._channels}
 
     def __repr__(self) -> str:
@@ -108,9 +109,12 @@ class MapFile(Mapping[str, NDArray[Any]]):
         return f"<MapFile {self.path}: {width}×{height}, {', '.join(self)}; {self.metadata['convention']}>"
 
 
-def read(path: str | os.PathLike[str]) -> MapFile:
-    """What a file or store of Isophote holds: its scene, and its channels."""
-    return MapFile(os.fspath(path))
+def read(path: str | os.PathLike[str], *, directory: str | os.PathLike[str] | None = None) -> MapFile:
+    """What a file or store of Isophote holds: its scene, and its channels.
+
+    ``directory``: where relative names of files in the scene start; the directory of the file by default.
+    """
+    return MapFile(os.fspath(path), None if directory is None else os.fspath(directory))
 
 
 def _npy(content: bytes) -> NDArray[Any]:

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import warnings
+import json
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _isophote
-from .camera import Camera, Screen
-from .errors import ArgumentError, ProbeError, SceneWarning
+from ._convert import word
+from .errors import ArgumentError, ProbeError
 from .lights import Ambient, Light
 from .materials import Convention, Material
 from .probing import numbers
-from .scene import Scene
 
 __all__ = ["brightness"]
 
@@ -21,7 +21,7 @@ __all__ = ["brightness"]
 def brightness(
     normals: ArrayLike,
     positions: ArrayLike,
-    lights: Light | list[Light] | tuple[Light, ...],
+    lights: Light | Sequence[Light],
     material: Material,
     convention: str | Convention = "radiance",
     *,
@@ -49,31 +49,39 @@ def brightness(
     if wrong.size:
         raise ProbeError(f"normal {wrong[0]} has the length {lengths[wrong[0]]}; allowed: 1", wrong.tolist())
     for array, name in ((placed, "position"), (eyes, "eye")):
-        wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
+        wrong = np.flatnonzero(~(np.abs(array) <= _FARTHEST).all(axis=1))
         if wrong.size:
-            raise ProbeError(f"{name} {wrong[0]} is not finite", wrong.tolist())
-    with warnings.catch_warnings():
-        # That nothing is seen is as it should be.
-        warnings.simplefilter("ignore", SceneWarning)
-        scene = Scene(
-            length="m",
-            convention=convention,
-            quantities=quantities,
-            # The formula needs neither: the eye is given, and nothing is traced.
-            camera=Camera(eye=(0, 0, 0), forward=(0, 0, 1), screen=Screen(distance=1, x=(-1, 1), y=(-1, 1))),
-            materials={"material": material},
-            lights=(lights,) if isinstance(lights, Light) else tuple(lights),
-            ambient=ambient,
-        )
-    if scene.core.has_color:
+            where = array[wrong[0]].tolist()
+            raise ProbeError(f"{name} {wrong[0]} is {where}; allowed: finite numbers up to {_FARTHEST:g} m", wrong.tolist())
+    of_scene = (lights,) if isinstance(lights, Light) else tuple(lights)
+    for light in of_scene:
+        if not isinstance(light, Light):
+            raise ArgumentError(f"lights has {light!r} in it; allowed: lights")
+    # The formula needs neither camera nor shapes: the eye is given, and nothing is traced.
+    written = {
+        "version": 1,
+        "length": "m",
+        "convention": word(convention),
+        "quantities": word(quantities),
+        "camera": {"eye": [0, 0, 0], "forward": [0, 0, 1], "screen": {"distance": 1, "x": [-1, 1], "y": [-1, 1]}},
+        "material": {"material": material.to_dict()},
+        "light": [light.to_dict() for light in of_scene],
+        **({} if ambient is None else {"ambient": ambient.to_dict()}),
+    }
+    core = _isophote.Scene.from_json(json.dumps(written), "")
+    if core.has_color:
         raise ArgumentError("the bare formula takes single numbers; call it once for each component of a colour")
-    values, _ = _isophote.brightness(
-        scene.core, np.ascontiguousarray(placed), np.ascontiguousarray(directions), np.ascontiguousarray(eyes)
+    values = _isophote.brightness(
+        core, np.ascontiguousarray(placed), np.ascontiguousarray(directions), np.ascontiguousarray(eyes)
     )
     wrong = np.flatnonzero(~np.isfinite(values))
     if wrong.size:
         raise ProbeError(f"position {wrong[0]} is where a light or the eye is", wrong.tolist())
     return values.reshape(shape[:-1])
+
+
+_FARTHEST = 1e15
+"""As far as anything of a scene may be."""
 
 
 def _vectors(values: ArrayLike, name: str) -> NDArray[np.float64]:

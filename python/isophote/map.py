@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _html, _isophote
+from ._convert import Invalid, number
 from .errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -191,7 +192,11 @@ class Map(Mapping[str, NDArray[Any]]):
         """Contours of a channel, at these levels or at about so many round ones. They stop at silhouettes."""
         channel = self._main(channel)
         if isinstance(levels, (int, np.integer)):
+            if not 0 <= levels <= _MOST_LEVELS:
+                raise ArgumentError(f"levels is {levels}; allowed: 0 to {_MOST_LEVELS}")
             levels = _isophote.nice_levels(self.min(channel), self.max(channel), int(levels)) if self.mask.any() else []
+        if len(levels) > _MOST_LEVELS:
+            raise ArgumentError(f"there are {len(levels)} levels; allowed: at most {_MOST_LEVELS}")
         found = self._core.isophotes(channel, [float(level) for level in levels])
         return [Isophote(level, tuple(_closed(line, is_closed) for line, is_closed in lines)) for level, lines in found]
 
@@ -207,11 +212,21 @@ class Map(Mapping[str, NDArray[Any]]):
     ) -> None:
         """Writes a file, whole or not at all: ``.exr``, ``.npz`` and ``.csv`` get all channels, ``.npy`` one of them, ``.png``
         a picture of one, from black to white between the values of ``range`` or in the colours of ``colormap``."""
-        if channel is None and "color" in self and os.fspath(path).lower().endswith(".png"):
-            channel = "color"
-        name = self._main(channel) if channel != "color" else "color"
-        bounds = None if range is None else [float(range[0]), float(range[1])]
-        self._core.save(os.fspath(path), name, bounds, gamma, bits, colormap)
+        suffix = os.path.splitext(os.fspath(path))[1].lower()
+        if channel is None:
+            holds_all = suffix in (".exr", ".npz", ".csv")
+            channel = (
+                "color" if suffix == ".png" and "color" in self else next(iter(self)) if holds_all else self._main(None)
+            )
+        self[channel]
+        bounds = None
+        if range is not None:
+            bounds = [_number(bound, "range") for bound in range]
+            if len(bounds) != 2:
+                raise ArgumentError(f"range has {len(bounds)} numbers; allowed: the values of black and white")
+        if bits not in (8, 16):
+            raise ArgumentError(f"bits is {bits!r}; allowed: 8, 16")
+        self._core.save(os.fspath(path), channel, bounds, _number(gamma, "gamma"), bits, colormap)
 
     def to_xarray(self) -> xarray.Dataset:
         """An xarray Dataset: dims ``("y", "x")`` with coordinates in their units, ``units`` in the attributes; vectors have a
@@ -251,6 +266,16 @@ class Map(Mapping[str, NDArray[Any]]):
             thumbnail = _html.image(png, name)
         rows.append(("visible", f"{self._core.visible()} of {self.shape[0] * self.shape[1]} pixels"))
         return f"{thumbnail}{_html.table(rows)}{self.scene._repr_html_()}"
+
+
+_MOST_LEVELS = 1000
+
+
+def _number(value: float, name: str) -> float:
+    try:
+        return number(value)
+    except Invalid as invalid:
+        raise ArgumentError(f"{name} {invalid.message}; {invalid.allowed}") from None
 
 
 def _between(first: float, last: float, part: NDArray[np.float64]) -> NDArray[np.float64]:

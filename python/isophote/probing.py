@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _html, _isophote
 from ._progress import Progress, reporter
 from .errors import ArgumentError, ProbeError
-from .rendering import positive
+from .rendering import counted, positive
 from .scene import Scene
 
 if TYPE_CHECKING:
@@ -39,6 +39,11 @@ class Values(Mapping[str, NDArray[Any]]):
 
     def __eq__(self, other: object) -> bool:
         return self is other
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        for array in self._arrays.values():
+            array.flags.writeable = False
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self._arrays[name]
@@ -156,18 +161,21 @@ class Probes(Values):
         """Every step of the value at a point, with numbers and the formulas' numbers; of all points, if there are not many."""
         if index is None and self.count > _SHOWN:
             raise ArgumentError(f"there are {self.count} points; say which: explain(0)")
-        indices = range(self.count) if index is None else [range(self.count)[index]]
-        return "\n".join(self._explain(number) for number in indices)
+        if index is None:
+            return "\n".join(self._explain(number) for number in range(self.count))
+        return self._explain(range(self.count)[index])
 
     def _explain(self, index: int) -> str:
         places = self._places
         name = self._names[index] if index < len(self._names) else f"point {index}"
+        if self["shape"][index] < 0:
+            return f"{name}: no surface\n"
         if places.pixels is not None:
             column, row = (int(number) for number in places.pixels[index])
-            return _isophote.explain(self._scene.core, f"pixel {column},{row}", None, [column, row], False)
+            return _isophote.explain(self._scene.core, index, f"pixel {column},{row}", None, [column, row], False)
         assert places.points is not None
         point = [float(coordinate) for coordinate in places.points[index]]
-        return _isophote.explain(self._scene.core, name, point, None, places.elsewhere == "nearest")
+        return _isophote.explain(self._scene.core, index, name, point, None, places.elsewhere == "nearest")
 
 
 class _Places:
@@ -319,7 +327,7 @@ def section(
     *,
     row: int | None = None,
     column: int | None = None,
-    between: tuple[Sequence[float], Sequence[float]] | None = None,
+    between: ArrayLike | None = None,
     samples: int = 501,
 ) -> Section:
     """The values along a line of the screen, each traced and summed in double precision: along the centres of the pixels of a
@@ -330,13 +338,13 @@ def section(
     if between is not None:
         ends = _ends(between)
     for name, value in (("row", row), ("column", column)):
-        if value is not None and value != 0:
-            positive(value, name)
+        if value is not None:
+            counted(value, name)
     arrays = _isophote.section(scene.core, row, column, ends, positive(samples, "samples"))
     return Section(scene, arrays, ())
 
 
-def _ends(between: tuple[Sequence[float], Sequence[float]]) -> list[list[float]]:
+def _ends(between: ArrayLike) -> list[list[float]]:
     array = numbers(between, "between")
     if array.shape != (2, 2) or not np.isfinite(array).all():
         raise ArgumentError("between needs two places (x, y), (x, y) of finite numbers")

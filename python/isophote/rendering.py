@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from . import _isophote
 from ._convert import Invalid, Size, whole
@@ -22,6 +22,8 @@ def channel_names(scene: Scene, channels: Channels) -> list[str]:
     color = ["color"] if scene.core.has_color else []
     if channels is None:
         return ["brightness", *color]
+    if not isinstance(channels, (str, Iterable)):
+        raise ArgumentError(f"channels is {channels!r}; allowed: names of channels")
     about = scene.core.describe()
     lights = [f"light.{name}" for name in about["lights"]]
     common = ["brightness", *color, "irradiance", "diffuse", "specular", "depth", "position", "normal", "shape"]
@@ -46,12 +48,17 @@ def threads_of(threads: int | None) -> int | None:
 
 def positive(value: int, name: str) -> int:
     """A whole number from 1."""
+    return counted(value, name, 1)
+
+
+def counted(value: int, name: str, least: int = 0, bound: int = 2**31) -> int:
+    """A whole number that is not too large."""
     try:
         number = whole(value)
     except Invalid as invalid:
         raise ArgumentError(f"{name} {invalid.message}; {invalid.allowed}") from None
-    if not 1 <= number < 2**31:
-        raise ArgumentError(f"{name} is {number}; allowed: whole numbers from 1")
+    if not least <= number < bound:
+        raise ArgumentError(f"{name} is {number}; allowed: whole numbers from {least}")
     return number
 
 
@@ -82,19 +89,13 @@ def render(
     names = channel_names(scene, channels)
     bounds = None
     if region is not None:
-        bounds = [_pixels(value) for value in region]
+        if not isinstance(region, Iterable) or isinstance(region, str):
+            raise ArgumentError(f"region is {region!r}; allowed: first column, first row, columns, rows")
+        bounds = [counted(value, "a number of region") for value in region]
         if len(bounds) != 4:
             raise ArgumentError(f"region has {len(bounds)} numbers; allowed: first column, first row, columns, rows")
+    if not isinstance(precision, str):
+        raise ArgumentError(f"precision is {precision!r}; allowed: double, single")
     with reporter(progress, "pixels") as report:
         core = _isophote.render(scene.core, names, precision, bounds, threads_of(threads), report)
     return Map(core, scene)
-
-
-def _pixels(value: int) -> int:
-    try:
-        number = whole(value)
-    except Invalid as invalid:
-        raise ArgumentError(f"region {invalid.message}; {invalid.allowed}") from None
-    if not 0 <= number < 2**31:
-        raise ArgumentError(f"region has {number} in it; allowed: whole numbers from 0")
-    return number

@@ -5,18 +5,21 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
+import sys
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Annotated, Any
 
+import numpy as np
+
 from . import _isophote
 from ._convert import Flag, Invalid, Number, Size, Vector, Word
 from ._part import Part
 from ._paths import locate
 from .camera import Camera, Sampling
-from .errors import SceneWarning
+from .errors import ArgumentError, SceneWarning
 from .lights import Ambient, Light, light_from_dict
 from .materials import Material
 from .shapes import KINDS, Mesh, Shape, Spheres
@@ -62,6 +65,9 @@ def _several(kind: type[Part]) -> Any:
 
 def _shapes(value: Any) -> tuple[Part, ...]:
     shapes = _several(Shape)(value)
+    for shape in shapes:
+        if type(shape) not in KINDS:
+            raise Invalid(f"has {shape!r} in it", f"allowed: {', '.join(kind.__name__ for kind in KINDS)}")
     return tuple(sorted(shapes, key=lambda shape: KINDS.index(type(shape))))
 
 
@@ -109,9 +115,14 @@ class Scene(Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        core = _isophote.Scene.from_json(json.dumps(self.to_dict()), self.directory)
+        self._check(None)
+
+    def _check(self, earlier: Scene | None) -> None:
+        """Lets the core check the scene, which then stays with it."""
+        written, directory = json.dumps(self.to_dict()), str(self.directory)
+        core = _isophote.Scene.from_json(written, directory, None if earlier is None else earlier.core)
         object.__setattr__(self, "_core", core)
-        self._warn(stacklevel=4)
+        self._warn(earlier)
 
     @property
     def core(self) -> _isophote.Scene:
@@ -119,41 +130,63 @@ class Scene(Part):
         core: _isophote.Scene = self._core  # type: ignore[attr-defined]
         return core
 
-    def _warn(self, stacklevel: int) -> None:
+    def _warn(self, earlier: Scene | None = None) -> None:
+        """Says what deserves a word, unless it was said of an earlier scene."""
+        known = set() if earlier is None else {str(problem) for problem in earlier.core.warnings()}
         for problem in self.core.warnings():
-            warnings.warn(str(problem), SceneWarning, stacklevel=stacklevel)
+            if str(problem) not in known:
+                warnings.warn(str(problem), SceneWarning, stacklevel=_callers_level())
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Scene:
         """Reads a scene file: JSON when the name ends in ``.json``, TOML otherwise."""
+        # What cannot be opened is an OSError of its own kind.
+        with open(path, "rb"):
+            pass
         directory = os.path.dirname(os.path.abspath(os.fspath(path)))
-        return cls._of_core(_isophote.Scene.from_file(os.fspath(path)), directory)
+        return cls.of_core(_isophote.Scene.from_file(os.fspath(path)), directory)
 
     @classmethod
     def from_toml(cls, text: str, *, directory: str | os.PathLike[str] = "", name: str = "the scene") -> Scene:
         """Reads a scene from a TOML text; ``name`` stands for it in messages."""
-        return cls._of_core(_isophote.Scene.from_text(text, False, name, os.fspath(directory)), directory)
+        return cls.of_core(_isophote.Scene.from_text(text, False, name, os.fspath(directory)), directory)
 
     @classmethod
     def from_json(cls, text: str, *, directory: str | os.PathLike[str] = "", name: str = "the scene") -> Scene:
         """Reads a scene from a JSON text; ``name`` stands for it in messages."""
-        return cls._of_core(_isophote.Scene.from_text(text, True, name, os.fspath(directory)), directory)
+        return cls.of_core(_isophote.Scene.from_text(text, True, name, os.fspath(directory)), directory)
 
     @classmethod
     def from_dict(cls, written: Mapping[str, Any], *, directory: str | os.PathLike[str] = "") -> Scene:
         """The scene that a file with these tables and keys describes."""
-        return cls.from_json(json.dumps(written), directory=directory)
+        return cls.from_json(json.dumps(written, default=_plain), directory=directory)
 
     @classmethod
-    def _of_core(cls, core: _isophote.Scene, directory: str | os.PathLike[str]) -> Scene:
-        """A scene that is checked already; its files may be large and are not read again."""
+    def of_core(
+        cls, core: _isophote.Scene, directory: str | os.PathLike[str], *, earlier: Scene | None = None, warns: bool = True
+    ) -> Scene:
+        """A scene that is checked already, private to the package; its files may be large and are not read again."""
         scene = object.__new__(cls)
         for name, value in _fields(json.loads(core.to_json())).items():
             object.__setattr__(scene, name, value)
         object.__setattr__(scene, "directory", _directory(directory) if os.fspath(directory) else "")
         Part.__post_init__(scene)
         object.__setattr__(scene, "_core", core)
-        scene._warn(stacklevel=4)
+        if warns:
+            scene._warn(earlier)
+        return scene
+
+    def replace(self, **changes: Any) -> Scene:
+        """The same with other values. Files that it names are not read again."""
+        fields = [field.name for field in dataclasses.fields(self)]
+        unknown = [name for name in changes if name not in fields]
+        if unknown:
+            raise TypeError(f"a Scene has no {unknown[0]!r}; it has {', '.join(fields)}")
+        scene = object.__new__(type(self))
+        for name in fields:
+            object.__setattr__(scene, name, changes.get(name, getattr(self, name)))
+        Part.__post_init__(scene)
+        scene._check(self)
         return scene
 
     def to_dict(self) -> dict[str, Any]:
@@ -178,9 +211,11 @@ class Scene(Part):
 
     def with_resolution(self, resolution: Size) -> Scene:
         """The same scene with another number of columns and rows."""
-        camera = self.camera.replace(resolution=resolution)
-        width, height = camera.resolution
-        return self._of_core(self.core.with_resolution(int(width), int(height)), self.directory)
+        width, height = self.camera.replace(resolution=resolution).resolution
+        if not (0 <= width < 2**32 and 0 <= height < 2**32):
+            raise ArgumentError(f"resolution is {width}×{height}; allowed: 1 to 1000000 columns and rows")
+        core = self.core.with_resolution(int(width), int(height))
+        return self.of_core(core, self.directory, earlier=self)
 
     def set(self, values: Mapping[str, Any]) -> Scene:
         """The same scene with other values at these paths.
@@ -192,7 +227,8 @@ class Scene(Part):
         written = self.to_dict()
         for path, value in values.items():
             locate(self, path).put(written, value)
-        return self._of_core(_isophote.Scene.from_json(json.dumps(written), str(self.directory)), self.directory)
+        core = _isophote.Scene.from_json(json.dumps(written), str(self.directory), self.core)
+        return self.of_core(core, self.directory, earlier=self)
 
     def unit(self, channel: str) -> str:
         """The unit of a channel of this scene's maps: ``"1"`` for pure numbers, ``""`` for indices."""
@@ -202,7 +238,7 @@ class Scene(Part):
         return _unpickle, (self.core.to_json(), self.directory)
 
     def __hash__(self) -> int:
-        return hash(self.to_toml())
+        return hash(json.dumps(self.to_dict(), sort_keys=True))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Scene):
@@ -223,6 +259,7 @@ class Scene(Part):
         ]
         for name, material in list(self.materials.items())[:_SHOWN]:
             lines.append(f"  material {name!r}: {_body(material)}")
+        lines.extend(_more(len(self.materials), "materials"))
         for name, shape in list(zip(about["shapes"], self.shapes))[:_SHOWN]:
             lines.append(f"  {type(shape).KEY} {name!r}: {_body(shape, length)}")
         lines.extend(_more(len(self.shapes), "shapes"))
@@ -255,10 +292,25 @@ _ANGLES = ("inner_angle", "outer_angle")
 
 
 def _unpickle(text: str, directory: str) -> Scene:
-    with warnings.catch_warnings():
-        # They were given where the scene was made.
-        warnings.simplefilter("ignore", SceneWarning)
-        return Scene.from_json(text, directory=directory)
+    # Its warnings were given where the scene was made.
+    return Scene.of_core(_isophote.Scene.from_text(text, True, "the scene", directory), directory, warns=False)
+
+
+def _callers_level() -> int:
+    """How many frames up the code is that calls the package."""
+    package = os.path.dirname(__file__)
+    # From the caller of this function on; dataclasses make their own.
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and (frame.f_code.co_filename.startswith((package, "<string>"))):
+        level, frame = level + 1, frame.f_back
+    return level
+
+
+def _plain(value: Any) -> Any:
+    """What NumPy has of its own, as JSON knows it."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    raise TypeError(f"a scene holds numbers, texts, lists and dictionaries, and no {type(value).__name__}")
 
 
 def _fields(written: dict[str, Any]) -> dict[str, Any]:

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import warnings
-
 from . import _isophote
-from .errors import SceneWarning
 from .scene import Scene
 
 __all__ = ["course", "lab", "photometric", "two_lights"]
@@ -32,7 +29,6 @@ def photometric() -> Scene:
 
 
 def _starter(name: str) -> Scene:
-    with warnings.catch_warnings():
-        # They are as they are on purpose.
-        warnings.simplefilter("ignore", SceneWarning)
-        return Scene.from_toml(_isophote.starter(name), name=f"scenes/{name}.toml")
+    core = _isophote.Scene.from_text(_isophote.starter(name), False, f"scenes/{name}.toml", "")
+    # They are as they are on purpose.
+    return Scene.of_core(core, "", warns=False)

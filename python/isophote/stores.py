@@ -5,32 +5,44 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from . import _isophote
 from ._convert import Size
 from ._progress import Progress, reporter
-from .rendering import Channels, channel_names, positive, threads_of
+from .errors import ArgumentError
+from .rendering import Channels, channel_names, counted, positive, threads_of
 from .scene import Scene
 
 if TYPE_CHECKING:
     import distributed
     import xarray
 
-__all__ = ["StoredMap", "render_to_zarr"]
+__all__ = ["ChannelStatistics", "StoredMap", "render_to_zarr"]
+
+
+@dataclass(frozen=True)
+class ChannelStatistics:
+    """Extremes and mean of a channel over the pixels that see a surface; ``argmin`` and ``argmax`` are row and column."""
+
+    min: float
+    argmin: tuple[int, int]
+    max: float
+    argmax: tuple[int, int]
+    mean: float
 
 
 @dataclass(frozen=True)
 class StoredMap:
-    """A store that is complete: how many pixels it has, how many see a surface, and how many of those are lit; and each
-    channel's extremes with their columns and rows, and its mean: ``((min, [column, row]), (max, [column, row]), mean)``."""
+    """A store that is complete: how many pixels it has, how many see a surface, how many of those are lit, and each channel's
+    statistics, none where a channel is not one number a pixel, or where no surface is seen."""
 
     path: str
     pixels: int
     visible: int
     lit: int
-    channels: Mapping[str, Any]
+    channels: Mapping[str, ChannelStatistics | None] = field(hash=False)
 
     def open(self) -> xarray.Dataset:
         """The store as an xarray Dataset, which reads what is asked of it."""
@@ -70,19 +82,29 @@ def render_to_zarr(
     """
     if size is not None:
         scene = scene.with_resolution(size)
+    if client is not None and (threads is not None or memory is not None):
+        raise ArgumentError("threads and memory are for this machine alone: the cluster's workers have their own")
+    if client is not None and not hasattr(client, "submit"):
+        raise ArgumentError(f"client is {client!r}; allowed: a Client of Dask")
+    count_of_threads, bytes_of = threads_of(threads), None if memory is None else counted(memory, "memory", 1, 2**63)
     path = os.path.abspath(os.fspath(store))
     names = channel_names(scene, channels)
     side = None if shard_side is None else positive(shard_side, "shard_side")
     plan = _Plan(scene, path, names, precision, side)
-    due, count = _isophote.store_prepare(scene.core, path, names, precision, side, resume)
     with reporter(progress, "pixels" if client is None else "shards") as report:
+        due, count = _isophote.store_prepare(scene.core, path, names, precision, side, resume)
         if client is None:
-            bytes_of = None if memory is None else positive(memory, "memory")
-            _isophote.store_render(scene.core, path, names, precision, side, None, threads_of(threads), bytes_of, report)
+            _isophote.store_render(scene.core, path, names, precision, side, None, count_of_threads, bytes_of, report)
         else:
             _on_cluster(plan, due, count, client, report)
     merged = _isophote.store_merge(path, check)
-    return StoredMap(path, **merged)
+    statistics = {name: None if of is None else _statistics(of) for name, of in merged.pop("channels").items()}
+    return StoredMap(path, channels=statistics, **merged)
+
+
+def _statistics(of: Any) -> ChannelStatistics:
+    (least, [least_column, least_row]), (greatest, [greatest_column, greatest_row]), mean = of
+    return ChannelStatistics(least, (least_row, least_column), greatest, (greatest_row, greatest_column), mean)
 
 
 @dataclass(frozen=True)
@@ -104,8 +126,8 @@ class _Plan:
 def _on_cluster(plan: _Plan, due: list[int], count: int, client: distributed.Client, report: Any) -> None:
     import distributed
 
-    shared = client.scatter(plan, broadcast=True)
-    futures = [client.submit(_work, shared, shard, count, pure=False, retries=3) for shard in due]
+    # The plan is small, and goes with each task: what is scattered dies with the workers that hold it.
+    futures = [client.submit(_work, plan, shard, count, pure=False, retries=3) for shard in due]
     try:
         for done, future in enumerate(distributed.as_completed(futures), start=1):
             future.result()

@@ -35,14 +35,14 @@ pub fn section<'py>(
         (None, None, Some([from, to])) => SectionLine::Between { from: inside(from), to: inside(to), samples },
         _ => return Err(error::value(py, "say where: one of row, column and between")),
     };
-    let prepared = scene.prepared();
-    let found = job::run(py, &Progress::none(), move |_| prepared.section(line))?;
+    let content = scene.content();
+    let found = job::run(py, &Progress::none(), move |_| content.prepared().section(line))?;
     let found = found.map_err(|error| error::value(py, error))?;
     let length = scene.core().length();
     let columns = PyDict::new(py);
     let places = found.iter().flat_map(|sample| sample.screen.map(|coordinate| unit.from_internal(coordinate)));
     columns.set_item("screen", Columns::vectors(py, places.collect(), 2)?)?;
-    let mut values = Columns::new(found.len(), 0, false);
+    let mut values = Columns::new(found.len(), None, false);
     for sample in &found {
         match &sample.seen {
             Some((hit, shading)) => values.push(hit, shading, length),
@@ -76,8 +76,9 @@ pub fn surface<'py>(
         side: choice::<Side>(py, "side", side)?,
         size: size.map(|[width, height]| Resolution { width, height }),
     };
-    let prepared = scene.prepared();
+    let content = scene.content();
     let found = job::run(py, &Progress::none(), move |_| {
+        let prepared = content.prepared();
         let surface = prepared.surface(&request)?;
         let map = surface.map(&quantities)?;
         let scalar = quantities.into_iter().filter(Quantity::is_scalar);
@@ -105,8 +106,8 @@ pub fn grid(py: Python<'_>, scene: &Scene, name: &str, channels: Vec<String>) ->
             if names.is_empty() { "it has none".into() } else { format!("there are: {}", names.join(", ")) };
         error::value(py, format!("the scene has no grid \"{name}\"; {there_are}"))
     })?;
-    let prepared = scene.prepared();
-    let map = job::run(py, &Progress::none(), move |_| prepared.grid(&grid, &quantities))?;
+    let content = scene.content();
+    let map = job::run(py, &Progress::none(), move |_| content.prepared().grid(&grid, &quantities))?;
     Ok(Map::new(map.map_err(|error| error::value(py, error))?))
 }
 

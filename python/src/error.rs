@@ -1,5 +1,9 @@
 //! Errors of the core as exceptions of the package, which defines them in `isophote.errors`.
 
+use std::io;
+use std::path::Path;
+
+use isophote::export::{ExportError, ReadError};
 use isophote::render::RenderError;
 use isophote::scene::{Problem, ProblemKind, SceneError};
 use isophote_zarr::StoreError;
@@ -36,9 +40,32 @@ pub fn internal(py: Python<'_>, message: impl ToString) -> PyErr {
     exception(py, "InternalError", (message.to_string(),))
 }
 
-/// A file that could not be read or written.
+/// A file that could not be read or written, for no reason of the system's.
 pub fn file(message: impl ToString) -> PyErr {
     PyOSError::new_err(message.to_string())
+}
+
+/// The same, with the system's reason: Python has an exception of its own for many of these.
+fn system(path: &Path, reason: &io::Error, message: impl ToString) -> PyErr {
+    match reason.raw_os_error() {
+        Some(code) => PyOSError::new_err((code, reason.to_string(), path.to_path_buf())),
+        None => file(message),
+    }
+}
+
+pub fn of_export(py: Python<'_>, error: &ExportError) -> PyErr {
+    match error {
+        ExportError::File { path, reason } => system(path, reason, error),
+        ExportError::Write(_) | ExportError::NoFolder { .. } | ExportError::Taken { .. } => file(error),
+        error => value(py, error),
+    }
+}
+
+pub fn of_reading(error: &ReadError) -> PyErr {
+    match error {
+        ReadError::File { path, reason } => system(path, reason, error),
+        error => file(error),
+    }
 }
 
 pub fn of_render(py: Python<'_>, error: &RenderError) -> PyErr {
@@ -53,7 +80,7 @@ pub fn of_render(py: Python<'_>, error: &RenderError) -> PyErr {
 
 pub fn of_store(py: Python<'_>, error: &StoreError) -> PyErr {
     match error {
-        StoreError::Write { .. } | StoreError::Read { .. } => file(error),
+        StoreError::Write { path, reason } | StoreError::Read { path, reason } => system(path, reason, error),
         StoreError::Render(error) => of_render(py, error),
         _ => exception(py, "StoreError", (error.to_string(),)),
     }

@@ -13,10 +13,7 @@ use crate::error;
 use crate::job::{self, Progress};
 use crate::scene::Scene;
 
-/// Brightness and irradiance of each point.
-type Values<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
-
-/// The brightness (3.1) to (3.6) and the irradiance of points with given normals (n × 3 each, lengths in metres, normals of
+/// The brightness (3.1) to (3.6) of points with given normals (n × 3 each, lengths in metres, normals of
 /// length 1), by the lights, the convention and the first material of a scene, without shadows. `eyes` has one row, or one
 /// for each point.
 #[pyfunction]
@@ -26,7 +23,7 @@ pub fn brightness<'py>(
     positions: PyReadonlyArray2<'py, f64>,
     normals: PyReadonlyArray2<'py, f64>,
     eyes: PyReadonlyArray2<'py, f64>,
-) -> PyResult<Values<'py>> {
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let core = scene.core();
     let Some(material) = core.materials().first() else {
         return Err(error::value(py, "the formula needs a material"));
@@ -36,13 +33,13 @@ pub fn brightness<'py>(
         array.as_array().rows().into_iter().map(|row| Vector::from([row[0], row[1], row[2]])).collect()
     };
     let (positions, normals, eyes) = (rows(&positions), rows(&normals), rows(&eyes));
-    let prepared = scene.prepared();
-    let values: Vec<[f64; 2]> = job::run(py, &Progress::none(), move |watch| {
-        let lights = prepared.scene().lights();
-        let ambient = prepared.scene().ambient().map_or(0.0, isophote::light::Ambient::unobstructed_irradiance);
+    let content = scene.content();
+    let values: Vec<f64> = job::run(py, &Progress::none(), move |watch| {
+        let lights = content.scene().lights();
+        let ambient = content.scene().ambient().map_or(0.0, isophote::light::Ambient::unobstructed_irradiance);
         let value = |index: usize| {
             if watch.is_stopped() {
-                return [f64::NAN; 2];
+                return f64::NAN;
             }
             let (position, normal) = (positions[index], normals[index]);
             let eye = eyes[if eyes.len() == 1 { 0 } else { index }];
@@ -54,16 +51,14 @@ pub fn brightness<'py>(
                 view,
                 cos_theta_o: normal.dot(view),
             };
-            let shading = shade(&point, lights, &formula, ambient, |_| 1.0, |_, _| {});
-            [shading.brightness(), shading.irradiance]
+            shade(&point, lights, &formula, ambient, |_| 1.0, |_, _| {}).brightness()
         };
         (0..positions.len()).into_par_iter().map(value).collect()
     })?;
-    let column = |index: usize| values.iter().map(|value| value[index]).collect::<Vec<f64>>().into_pyarray(py);
-    Ok((column(0), column(1)))
+    Ok(values.into_pyarray(py))
 }
 
-/// Name, number, formula, and unit of the brightness (radiometric and photometric) of each convention.
+/// Name, number and formula of each convention.
 #[pyfunction]
 pub fn conventions() -> Vec<(&'static str, &'static str, &'static str)> {
     Convention::ALL.iter().map(|one| (one.name(), one.formula_number(), one.formula())).collect()

@@ -62,8 +62,9 @@ impl Progress {
 /// Runs a job that is done in a moment, on this thread, without the interpreter's lock.
 pub fn run_here<T: Send>(py: Python<'_>, progress: &Progress, job: impl FnOnce() -> T + Send) -> PyResult<T> {
     let result = py.detach(|| catch_unwind(AssertUnwindSafe(job)));
+    let result = result.map_err(|panic| error::internal(py, message(&*panic)))?;
     progress.say(py, progress.total)?;
-    result.map_err(|panic| error::internal(py, message(&*panic)))
+    Ok(result)
 }
 
 /// Runs a job on a thread of its own. This thread waits without the interpreter's lock, and takes it now and then for the

@@ -1,6 +1,6 @@
 //! Maps as arrays.
 
-use std::io::Write;
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::error;
-use crate::job::{self, Progress};
+use crate::job::{self, Progress, Watch};
 
 /// A map of the core; its arrays are views of its memory.
 #[pyclass(frozen, module = "isophote._isophote")]
@@ -154,22 +154,19 @@ impl Map {
             colormap: colormap_named(py, colormap)?,
         };
         let map = Arc::clone(&self.map);
-        let saved = job::run_to_its_end(py, &Progress::none(), move |_| {
-            write_atomically(&path, |file| match format {
-                Format::Png => style.write(&map, file),
-                Format::Exr => export::exr::write(&map, file),
-                Format::Npy => export::npy::write(&map, &style.quantity, file),
-                Format::Npz => export::npz::write(&map, file),
-                Format::Csv => export::csv::write(&map, Rows::All, file).map(|_| ()),
+        let saved = job::run_to_its_end(py, &Progress::none(), move |watch| {
+            write_atomically(&path, |file| {
+                let mut file = Stoppable { file, watch };
+                match format {
+                    Format::Png => style.write(&map, &mut file),
+                    Format::Exr => export::exr::write(&map, &mut file),
+                    Format::Npy => export::npy::write(&map, &style.quantity, &mut file),
+                    Format::Npz => export::npz::write(&map, &mut file),
+                    Format::Csv => export::csv::write(&map, Rows::All, &mut file).map(|_| ()),
+                }
             })
         })?;
-        saved.map_err(|error| match error {
-            ExportError::Write(_)
-            | ExportError::File { .. }
-            | ExportError::NoFolder { .. }
-            | ExportError::Taken { .. } => error::file(error),
-            error => error::value(py, error),
-        })
+        saved.map_err(|error| error::of_export(py, &error))
     }
 
     /// Copies a channel, or whether a surface is seen, into a contiguous array of its shape and type that is 0 everywhere.
@@ -201,6 +198,31 @@ impl Map {
         let mut bytes = Vec::new();
         style.write(&self.map, &mut bytes).map_err(|error| error::value(py, error))?;
         Ok(PyBytes::new(py, &bytes))
+    }
+}
+
+/// A file that nobody waits for any more is not written to its end.
+struct Stoppable<'w, W> {
+    file: W,
+    watch: &'w Watch,
+}
+
+impl<W: Write> Write for Stoppable<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.watch.is_stopped() {
+            return Err(io::Error::other("interrupted"));
+        }
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl<W: Seek> Seek for Stoppable<'_, W> {
+    fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
+        self.file.seek(position)
     }
 }
 

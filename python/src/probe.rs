@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use isophote::analysis::probe::{Place, ProbeError, ProbeReading};
 use isophote::map::Pixel;
-use isophote::prepare::{Hit, PreparedScene};
+use isophote::prepare::Hit;
 use isophote::render::{Observer, PointKernel, PointValues};
 use isophote::scene::{Scene as CoreScene, limits};
 use isophote::shade::Shading;
@@ -65,7 +65,9 @@ pub fn probe_values<'py>(
     snaps: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Option<Many<'py>>> {
-    let prepared = scene.prepared();
+    let content = scene.content();
+    // A scene that has a kernel is small.
+    let Some(prepared) = content.prepared_at_once() else { return Ok(None) };
     let Some(kernel) = PointKernel::new(&prepared) else { return Ok(None) };
     let (points, rest) = points.as_slice().map_err(|error| error::internal(py, error))?.as_chunks::<3>();
     debug_assert!(rest.is_empty());
@@ -115,12 +117,13 @@ fn probe_places<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let core = scene.core();
     let length = core.length();
-    let lights = if per_light { core.lights().len() } else { 0 };
+    let lights = per_light.then(|| core.lights().len());
     let has_color = core.color().is_some();
-    let prepared = scene.prepared();
+    let content = scene.content();
     let count = places.len();
     let progress = Progress { function: progress, total: count as u64 };
     let chunks = job::run(py, &progress, move |watch| {
+        let prepared = content.prepared();
         let chunk = |places: &[Option<Place>]| {
             let mut columns = Columns::new(places.len(), lights, has_color);
             let mut refusals = Vec::new();
@@ -178,10 +181,11 @@ fn refused(py: Python<'_>, scene: &CoreScene, refusals: &[(usize, ProbeError)], 
 
 /// Every step of the value at a point, or at what a pixel sees.
 #[pyfunction]
-#[pyo3(signature = (scene, name, point, pixel, snaps))]
+#[pyo3(signature = (scene, index, name, point, pixel, snaps))]
 pub fn explain(
     py: Python<'_>,
     scene: &Scene,
+    index: usize,
     name: &str,
     point: Option<[f64; 3]>,
     pixel: Option<[u32; 2]>,
@@ -196,9 +200,13 @@ pub fn explain(
         (None, Some([column, row])) => Place::Pixel(Pixel { column, row }),
         _ => return Err(error::value(py, "say where: one of point and pixel")),
     };
-    let prepared = scene.prepared();
-    let explained = |scene: &PreparedScene| scene.probe(&place).map(|reading| reading.explain(scene, name));
-    explained(&prepared).map_err(|error| refused(py, scene.core(), &[(0, error)], 1))
+    let content = scene.content();
+    let name = name.to_owned();
+    let explained = job::run(py, &Progress::none(), move |_| {
+        let prepared = content.prepared();
+        prepared.probe(&place).map(|reading| reading.explain(&prepared, &name))
+    })?;
+    explained.map_err(|error| refused(py, scene.core(), &[(index, error)], 1))
 }
 
 /// What is found at points, one after another: NaN and −1 where nothing is.
@@ -212,12 +220,13 @@ pub struct Columns {
     /// Brightness, irradiance, ambient, diffuse, specular.
     values: [Vec<f64>; 5],
     lights: Vec<f64>,
-    light_count: usize,
+    /// None where they are not asked for.
+    light_count: Option<usize>,
     color: Option<Vec<f64>>,
 }
 
 impl Columns {
-    pub fn new(count: usize, light_count: usize, has_color: bool) -> Self {
+    pub fn new(count: usize, light_count: Option<usize>, has_color: bool) -> Self {
         let numbers = |per_point: usize| Vec::with_capacity(count * per_point);
         Self {
             position: numbers(3),
@@ -227,7 +236,7 @@ impl Columns {
             is_seen: Vec::with_capacity(count),
             cos_theta_o: numbers(1),
             values: std::array::from_fn(|_| numbers(1)),
-            lights: numbers(light_count),
+            lights: numbers(light_count.unwrap_or(0)),
             light_count,
             color: has_color.then(|| numbers(3)),
         }
@@ -238,7 +247,8 @@ impl Columns {
         if let Some(is_seen) = self.is_seen.last_mut() {
             *is_seen = reading.is_seen();
         }
-        self.lights.extend(reading.terms.iter().take(self.light_count).map(|term| term.irradiance));
+        let terms = reading.terms.iter().take(self.light_count.unwrap_or(0));
+        self.lights.extend(terms.map(|term| term.irradiance));
         if let (Some(color), Some(components)) = (&mut self.color, &reading.components) {
             color.extend(components.map(|component| component.shading.brightness()).into_array());
         }
@@ -264,7 +274,7 @@ impl Columns {
         self.is_seen.push(false);
         self.cos_theta_o.push(f64::NAN);
         self.values.iter_mut().for_each(|column| column.push(f64::NAN));
-        self.lights.extend(std::iter::repeat_n(f64::NAN, self.light_count));
+        self.lights.extend(std::iter::repeat_n(f64::NAN, self.light_count.unwrap_or(0)));
         if let Some(color) = &mut self.color {
             color.extend([f64::NAN; 3]);
         }
@@ -286,6 +296,7 @@ impl Columns {
 
     /// The columns as arrays, by their names.
     pub fn into_dict(self, py: Python<'_>, columns: &Bound<'_, PyDict>) -> PyResult<()> {
+        let count = self.shape.len();
         columns.set_item("position", Self::vectors(py, self.position, 3)?)?;
         columns.set_item("normal", Self::vectors(py, self.normal, 3)?)?;
         columns.set_item("shape", self.shape.into_pyarray(py))?;
@@ -297,8 +308,8 @@ impl Columns {
             let column: Bound<'_, PyArray1<f64>> = column.into_pyarray(py);
             columns.set_item(name, column)?;
         }
-        if self.light_count > 0 {
-            columns.set_item("lights", Self::vectors(py, self.lights, self.light_count)?)?;
+        if let Some(light_count) = self.light_count {
+            columns.set_item("lights", self.lights.into_pyarray(py).reshape([count, light_count])?)?;
         }
         if let Some(color) = self.color {
             columns.set_item("color", Self::vectors(py, color, 3)?)?;

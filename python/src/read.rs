@@ -15,14 +15,12 @@ type Channel<'py> = (String, Bound<'py, PyArray2<f32>>);
 /// What a file or a store says about itself, in JSON.
 #[pyfunction]
 pub fn read_metadata(py: Python<'_>, path: PathBuf) -> PyResult<String> {
-    let metadata = py.detach(|| {
-        if path.is_dir() {
-            isophote_zarr::read_metadata(&path).map_err(|error| error.to_string())
-        } else {
-            export::read_metadata(&path).map_err(|error| error.to_string())
-        }
-    });
-    Ok(metadata.map_err(error::file)?.to_json())
+    let metadata = if path.is_dir() {
+        py.detach(|| isophote_zarr::read_metadata(&path)).map_err(|error| error::of_store(py, &error))?
+    } else {
+        py.detach(|| export::read_metadata(&path)).map_err(|error| error::of_reading(&error))?
+    };
+    Ok(metadata.to_json())
 }
 
 /// The channels of an EXR file by the names that they have there.
@@ -37,7 +35,9 @@ pub fn read_exr(py: Python<'_>, path: PathBuf) -> PyResult<Vec<Channel<'_>>> {
             FlatSamples::F32(values) => values,
             other => other.values_as_f32().collect(),
         };
-        channels.push((channel.name.to_string(), values.into_pyarray(py).reshape(size)?));
+        // The bytes are those of UTF-8.
+        let name = String::from_utf8_lossy(channel.name.as_slice()).into_owned();
+        channels.push((name, values.into_pyarray(py).reshape(size)?));
     }
     Ok(channels)
 }

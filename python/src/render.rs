@@ -1,8 +1,7 @@
 //! Rendering.
 
-use std::collections::HashMap;
 use std::num::NonZeroUsize;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use isophote::lanes::Precision;
 use isophote::map::{Pixel, Quantity, Region, Resolution};
@@ -28,18 +27,20 @@ pub fn render(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Map> {
     let quantities = quantities(py, &channels)?;
-    let renderer = renderer(self::precision(py, precision)?, threads);
+    let renderer = renderer(py, self::precision(py, precision)?, threads)?;
     let region = region.map_or_else(|| Region::all(scene.core().camera().resolution), region_of);
-    let prepared = scene.prepared();
+    let content = scene.content();
     let total = region.size.pixels() as u64;
     // Waiting for another thread would take longer than many a small map.
     let progress = Progress { function: progress, total };
-    let map = if renderer.is_quick(&prepared, region) {
+    let quick = content.prepared_at_once().filter(|prepared| renderer.is_quick(prepared, region));
+    let map = if let Some(prepared) = quick {
         let settings = RenderSettings { region: Some(region), quantities, observer: None };
         job::run_here(py, &progress, || renderer.render(&prepared, &settings))?
     } else {
         job::run(py, &progress, move |watch| {
-            renderer.render(&prepared, &RenderSettings { region: Some(region), quantities, observer: Some(watch) })
+            let settings = RenderSettings { region: Some(region), quantities, observer: Some(watch) };
+            renderer.render(&content.prepared(), &settings)
         })?
     };
     Ok(Map::new(map.map_err(|error| error::of_render(py, &error))?))
@@ -66,14 +67,31 @@ pub fn quantities(py: Python<'_>, names: &[String]) -> PyResult<Vec<Quantity>> {
     names.iter().map(quantity).collect()
 }
 
-/// Renderers keep their threads, which take longer to start than a small map to render: one for each number of threads,
-/// and process, for a forked one has none of its parent's threads.
+/// Renderers keep their threads, which take longer to start than a small map to render. Kept are those of the number of threads
+/// that the machine has, and of the last other number; for each process, for a forked one has none of its parent's threads.
 ///
 /// The lock is only ever held by who holds the interpreter's, so that it is free in a forked process.
-fn renderer(precision: Precision, threads: Option<NonZeroUsize>) -> Arc<Lanes> {
-    type Renderers = HashMap<(u32, Precision, Option<NonZeroUsize>), Arc<Lanes>>;
-    static RENDERERS: OnceLock<Mutex<Renderers>> = OnceLock::new();
-    let mut renderers = RENDERERS.get_or_init(Mutex::default).lock().unwrap_or_else(PoisonError::into_inner);
-    let key = (std::process::id(), precision, threads);
-    Arc::clone(renderers.entry(key).or_insert_with(|| Arc::new(Lanes::new(precision, threads))))
+fn renderer(py: Python<'_>, precision: Precision, threads: Option<NonZeroUsize>) -> PyResult<Arc<Lanes>> {
+    type Key = (u32, Precision, Option<NonZeroUsize>);
+    static RENDERERS: Mutex<Vec<(Key, Arc<Lanes>)>> = Mutex::new(Vec::new());
+    if let Some(threads) = threads.filter(|threads| threads.get() > MOST_THREADS) {
+        return Err(error::value(py, format!("threads is {threads}; allowed: 1 to {MOST_THREADS}")));
+    }
+    let process = std::process::id();
+    let key = (process, precision, threads);
+    let mut renderers = RENDERERS.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, renderer)) = renderers.iter().find(|(known, _)| *known == key) {
+        return Ok(Arc::clone(renderer));
+    }
+    if threads.is_some() {
+        // (Those of a parent stay: here nobody could end their threads.)
+        renderers
+            .retain(|((of, _, threads), _)| *of != process || threads.is_none() || *threads == Some(NonZeroUsize::MIN));
+    }
+    let renderer = Arc::new(Lanes::new(precision, threads));
+    renderers.push((key, Arc::clone(&renderer)));
+    Ok(renderer)
 }
+
+/// More would only wait for each other.
+const MOST_THREADS: usize = 1024;

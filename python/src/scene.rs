@@ -12,34 +12,88 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error;
+use crate::job::{self, Progress};
 use crate::render::quantities;
 
 /// A scene that is valid.
 #[pyclass(frozen, module = "isophote._isophote")]
 pub struct Scene {
-    scene: CoreScene,
-    prepared: OnceLock<Arc<PreparedScene>>,
+    content: Arc<Content>,
 }
 
+/// What a scene and its jobs share.
+pub struct Content {
+    scene: CoreScene,
+    prepared: OnceLock<Arc<PreparedScene>>,
+    /// The one that it is made of, whose files were not read again, and whose tree may be its own.
+    origin: Option<Arc<Content>>,
+}
+
+impl Content {
+    /// The core's scene.
+    pub fn scene(&self) -> &CoreScene {
+        &self.scene
+    }
+
+    /// The scene ready for rendering. The first time may take long: it belongs into a job.
+    pub fn prepared(&self) -> Arc<PreparedScene> {
+        let prepare = || {
+            Arc::new(match &self.origin {
+                Some(origin) if self.is_large() => PreparedScene::after(&origin.prepared(), &self.scene),
+                _ => PreparedScene::new(&self.scene),
+            })
+        };
+        Arc::clone(self.prepared.get_or_init(prepare))
+    }
+
+    /// The same, if it is there already or takes no time.
+    pub fn prepared_at_once(&self) -> Option<Arc<PreparedScene>> {
+        (self.prepared.get().is_some() || !self.is_large()).then(|| self.prepared())
+    }
+
+    fn is_large(&self) -> bool {
+        let shapes = self.scene.shapes();
+        shapes.len() > FEW || shapes.iter().any(|shape| shape.geometry.parts() > 1)
+    }
+}
+
+/// With more shapes than this there is a tree to be built.
+const FEW: usize = 8;
+
 impl Scene {
-    fn new(py: Python<'_>, scene: Result<CoreScene, SceneError>) -> PyResult<Self> {
+    fn new(py: Python<'_>, scene: Result<CoreScene, SceneError>, origin: Option<&Arc<Content>>) -> PyResult<Self> {
         let scene = scene.map_err(|error| error::of_scene(py, &error))?;
-        Ok(Self { scene, prepared: OnceLock::new() })
+        // The first of a line of scenes is enough: it has the files.
+        let origin = origin.map(|origin| Arc::clone(origin.origin.as_ref().unwrap_or(origin)));
+        Ok(Self { content: Arc::new(Content { scene, prepared: OnceLock::new(), origin }) })
+    }
+
+    /// Reads a scene: where files are named, as long work.
+    fn read(
+        py: Python<'_>,
+        names_files: bool,
+        read: impl FnOnce() -> Result<CoreScene, SceneError> + Send + 'static,
+    ) -> PyResult<Result<CoreScene, SceneError>> {
+        if names_files {
+            job::run(py, &Progress::none(), move |_| read())
+        } else {
+            job::run_here(py, &Progress::none(), read)
+        }
     }
 
     /// The core's scene.
     pub fn core(&self) -> &CoreScene {
-        &self.scene
+        &self.content.scene
     }
 
-    /// The same, ready for rendering.
-    pub fn prepared(&self) -> Arc<PreparedScene> {
-        Arc::clone(self.prepared.get_or_init(|| Arc::new(PreparedScene::new(&self.scene))))
+    /// What jobs take with them.
+    pub fn content(&self) -> Arc<Content> {
+        Arc::clone(&self.content)
     }
 
     /// The index of the shape with this name.
     pub fn shape_named(&self, py: Python<'_>, name: &str) -> PyResult<usize> {
-        let shapes = self.scene.shapes();
+        let shapes = self.core().shapes();
         shapes.iter().position(|shape| shape.name == name).ok_or_else(|| {
             let names: Vec<&str> = shapes.iter().take(20).map(|shape| shape.name.as_str()).collect();
             error::value(py, format!("the scene has no shape \"{name}\"; there are: {}", names.join(", ")))
@@ -49,70 +103,79 @@ impl Scene {
 
 #[pymethods]
 impl Scene {
-    /// From a text that stands for the scene itself: its problems have no lines.
+    /// From a text that stands for the scene itself: its problems have no lines. Files that an earlier scene has read are not
+    /// read again.
     #[staticmethod]
-    fn from_json(py: Python<'_>, text: &str, directory: PathBuf) -> PyResult<Self> {
-        let scene = CoreScene::from_text_in(&directory, "the scene", text, Syntax::Json);
-        let without_place = |mut error: SceneError| {
+    #[pyo3(signature = (text, directory, earlier=None))]
+    fn from_json(py: Python<'_>, text: String, directory: PathBuf, earlier: Option<Bound<'_, Self>>) -> PyResult<Self> {
+        let origin = earlier.map(|earlier| earlier.get().content());
+        let names_files = text.contains("\"file\"");
+        let before = origin.clone();
+        let scene = Self::read(py, names_files, move || {
+            let earlier = before.as_ref().map(|before| &before.scene);
+            CoreScene::from_text_after(earlier, &directory, "the scene", &text, Syntax::Json)
+        })?;
+        let scene = scene.map_err(|mut error| {
             for problem in &mut error.problems {
                 problem.place = None;
             }
             error
-        };
-        Self::new(py, py.detach(|| scene.map_err(without_place)))
+        });
+        Self::new(py, scene, origin.as_ref())
     }
 
     #[staticmethod]
-    fn from_text(py: Python<'_>, text: &str, is_json: bool, name: &str, directory: PathBuf) -> PyResult<Self> {
+    fn from_text(py: Python<'_>, text: String, is_json: bool, name: String, directory: PathBuf) -> PyResult<Self> {
         let syntax = if is_json { Syntax::Json } else { Syntax::Toml };
-        Self::new(py, py.detach(|| CoreScene::from_text_in(&directory, name, text, syntax)))
+        let names_files = text.contains("file");
+        let scene = Self::read(py, names_files, move || CoreScene::from_text_in(&directory, &name, &text, syntax))?;
+        Self::new(py, scene, None)
     }
 
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Self::new(py, py.detach(|| CoreScene::from_file(&path)))
+        Self::new(py, Self::read(py, true, move || CoreScene::from_file(&path))?, None)
     }
 
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
-        serde_json::to_string(self.scene.source()).map_err(|error| error::internal(py, error))
+        serde_json::to_string(self.core().source()).map_err(|error| error::internal(py, error))
     }
 
     /// For other processes: the scene is read again there.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, PathBuf))> {
         let scene = slf.get();
         let again = slf.get_type().getattr("from_json")?;
-        Ok((again, (scene.to_json(slf.py())?, scene.scene.source().directory.clone())))
+        Ok((again, (scene.to_json(slf.py())?, scene.core().source().directory.clone())))
     }
 
     fn to_toml(&self) -> String {
-        self.scene.source().to_toml()
+        self.core().source().to_toml()
     }
 
     fn with_resolution(&self, py: Python<'_>, width: u32, height: u32) -> PyResult<Self> {
-        let scene = self.scene.clone();
-        Self::new(py, py.detach(|| scene.with_resolution(Resolution { width, height })))
+        Self::new(py, self.core().with_resolution(Resolution { width, height }), Some(&self.content))
     }
 
     /// Whether the scene has colours.
     #[getter]
     fn has_color(&self) -> bool {
-        self.scene.color().is_some()
+        self.core().color().is_some()
     }
 
     /// The unit of a channel.
     fn unit(&self, py: Python<'_>, channel: String) -> PyResult<&'static str> {
-        let Self { scene, .. } = self;
+        let scene = self.core();
         let quantity = &quantities(py, &[channel])?[0];
         Ok(quantity.unit(scene.convention(), scene.quantities(), scene.length()))
     }
 
     fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        error::problems(py, self.scene.warnings())
+        error::problems(py, self.core().warnings())
     }
 
     /// What the scene is made of, by the names that maps and probes use.
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Self { scene, .. } = self;
+        let scene = self.core();
         let (convention, quantities) = (scene.convention(), scene.quantities());
         let description = PyDict::new(py);
         description.set_item("convention", convention.label())?;

@@ -50,9 +50,10 @@ pub fn store_prepare(
     resume: bool,
 ) -> PyResult<(Vec<u32>, u64)> {
     let plan = plan(py, path, &channels, precision, shard_side)?;
-    let prepared = scene.prepared();
+    let content = scene.content();
     let opening = if resume { Opening::Continue } else { Opening::New };
     let found = job::run_to_its_end(py, &Progress::none(), move |_| {
+        let prepared = content.prepared();
         let store = plan.open(&prepared, None, opening)?;
         let count = store.plan().count();
         let is_due = |number: &u32| {
@@ -83,10 +84,11 @@ pub fn store_render<'py>(
     let plan = plan(py, path, &channels, precision, shard_side)?;
     let part = shard.and_then(|[number, count]| Part::new(number + 1, count));
     let threads = threads.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN);
-    let prepared = scene.prepared();
+    let content = scene.content();
     let resolution = scene.core().camera().resolution;
     let total = u64::from(resolution.width) * u64::from(resolution.height);
     let outcome = job::run_to_its_end(py, &Progress { function: progress, total }, move |watch| {
+        let prepared = content.prepared();
         let store = plan.open(&prepared, part, Opening::Continue)?;
         store.render(&prepared, &plan.renderer(), Workers { threads, memory }, part, Some(watch))
     })?;

@@ -102,8 +102,9 @@ def test_isophotes_lie_on_their_levels(lab_map):
             rows = np.interp(-line[:, 1], -y, np.arange(len(y)))
             values = lab_map["brightness"][np.rint(rows).astype(int), np.rint(columns).astype(int)]
             assert np.abs(values - isophote.level).max() < 0.02
-    with pytest.raises(iso.ArgumentError):
-        lab_map.isophotes([float("nan")])
+    for levels in ([float("nan")], -1, 10**5, [0.1] * 2000):
+        with pytest.raises(iso.ArgumentError):
+            lab_map.isophotes(levels)
 
 
 @pytest.mark.parametrize("name", ["map.exr", "map.npz", "map.csv", "map.npy"])
@@ -146,7 +147,16 @@ def test_files_are_those_of_the_command_byte_for_byte(tmp_path, suffix):
 def test_a_file_is_written_whole_or_not_at_all(lab_map, tmp_path):
     with pytest.raises(OSError, match="no folder"):
         lab_map.save(tmp_path / "missing" / "map.exr")
-    for options in ({"range": (1, 0)}, {"gamma": -1}, {"bits": 12}, {"colormap": "jet"}, {"channel": "normal"}):
+    for options in (
+        {"range": (None, 1)},
+        {"range": (0,)},
+        {"bits": 256},
+        {"range": (1, 0)},
+        {"gamma": -1},
+        {"bits": 12},
+        {"colormap": "jet"},
+        {"channel": "normal"},
+    ):
         with pytest.raises(iso.ArgumentError):
             lab_map.save(tmp_path / "map.png", **options)
     with pytest.raises(iso.ArgumentError, match="cannot tell the format"):
@@ -183,6 +193,12 @@ def test_what_a_map_cannot_do_it_says(lab, lab_map):
         {"channels": ["light.lump"]},
         {"channels": "color"},
         {"channels": [1]},
+        {"channels": 5},
+        {"region": 5},
+        {"precision": 5},
+        {"size": (2**40, 3)},
+        {"size": (-5, 3)},
+        {"threads": 100_000},
         {"region": (0, 0, 801, 600)},
         {"region": (0, 0, 0, 0)},
         {"region": (-1, 0, 5, 5)},
@@ -205,3 +221,12 @@ def test_what_a_map_cannot_do_it_says(lab, lab_map):
         empty.max()
     assert empty.isophotes() == []
     assert "visible" in empty._repr_html_()
+
+
+def test_maps_of_vectors_alone_are_saved_too(lab, tmp_path):
+    found = iso.render(lab, channels=["normal", "position"])
+    for suffix in ("npz", "exr", "csv"):
+        found.save(tmp_path / f"map.{suffix}")
+        np.testing.assert_allclose(iso.read(tmp_path / f"map.{suffix}")["normal"], found["normal"], atol=1e-7)
+    with pytest.raises(iso.ArgumentError):
+        found.save(tmp_path / "map.png")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 
 import numpy as np
 import pytest
@@ -42,7 +43,7 @@ def test_a_million_points_in_one_call(lab):
     assert probes.brightness.shape == (1_000_000,)
     assert heard[-1] == (1_000_000, 1_000_000)
     some = slice(None, None, 99_991)
-    np.testing.assert_array_equal(iso.probe(lab, at=points[some]).brightness, probes.brightness[some])
+    np.testing.assert_allclose(iso.probe(lab, at=points[some]).brightness, probes.brightness[some], rtol=1e-12)
     assert not probes.brightness.flags.writeable
 
 
@@ -186,3 +187,39 @@ def test_the_packages_values_are_the_commands(lab):
     answer = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
     values = [probe["channels"]["brightness"]["value"] for probe in answer["probes"]]
     assert values == iso.probe(lab).brightness.tolist()
+
+
+def test_explanations_leave_gaps(lab):
+    probes = iso.probe(lab, at=[(0, 0, 4), (9, 9, 9), (np.nan, 0, 0)], elsewhere="nan")
+    assert probes.explain(1) == "point 1: no surface\n"
+    assert "point 2: no surface" in probes.explain()
+    assert "0.316677297547093" in probes.explain()
+
+
+def test_no_lights_have_an_array_too(lab):
+    dark = lab.replace(lights=[], ambient=iso.Ambient(radiance=2), probes=())
+    probes = iso.probe(dark, at=[(0, 0, 4)], per_light=True)
+    assert probes.lights.shape == (1, 0)
+    assert float(probes.irradiance[0]) == pytest.approx(2 * np.pi)
+
+
+def test_many_points_are_those_of_single_ones_and_complete(lab):
+    points = on_the_sphere(3000)
+    many = iso.probe(lab, at=points)
+    few = iso.probe(lab, at=points[:1000])
+    assert list(many) == ["brightness", "irradiance", "shape", *(name for name in few if name not in many._arrays)]
+    assert sorted(many) == sorted(few)
+    for name in few:
+        np.testing.assert_allclose(many[name][:1000], few[name], rtol=1e-12, atol=1e-15)
+        assert not many[name].flags.writeable
+    points[:] = 0
+    np.testing.assert_allclose(np.linalg.norm(many.position - [0, 0, 5], axis=1), 1, rtol=1e-14)
+    with pytest.raises(iso.ProbeError, match="3000"):
+        iso.probe(lab, at=points)
+    near = iso.probe(lab, at=on_the_sphere(2000) * 1.01, elsewhere="nearest")
+    np.testing.assert_allclose(np.linalg.norm(near.position - [0, 0, 5], axis=1), 1, rtol=1e-14)
+    gaps = iso.probe(lab, at=np.vstack([on_the_sphere(2000), np.full((3, 3), np.nan)]), elsewhere="nan")
+    assert np.isnan(gaps.brightness).sum() == 3
+    unpickled = pickle.loads(pickle.dumps(gaps))
+    np.testing.assert_array_equal(unpickled.brightness, gaps.brightness)
+    assert not unpickled.brightness.flags.writeable

@@ -7,10 +7,12 @@ import os
 import signal
 import threading
 import time
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from conftest import REPOSITORY
 
 import isophote as iso
 
@@ -105,17 +107,27 @@ def test_threads_never_change_a_bit(threads):
         assert found[channel].tobytes() == expected[channel].tobytes()
 
 
-def _in_child(connection):
+def _everything():
     scene = iso.scenes.lab()
-    values = [iso.render(scene).max(), iso.surface(scene, size=(36, 18)).max(), float(iso.probe(scene).brightness[0])]
-    connection.send(values)
+    # A tree over so many is built by several threads.
+    cloud = iso.Scene.from_file(REPOSITORY / "scenes" / "spheres.toml")
+    return [
+        iso.render(scene).max(),
+        iso.render(cloud, size=(80, 60)).max(),
+        iso.surface(scene, size=(36, 18)).max(),
+        float(iso.probe(scene).brightness[0]),
+    ]
+
+
+def _in_child(connection):
+    connection.send(_everything())
     connection.close()
 
 
 @posix
-@pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
+@pytest.mark.filterwarnings("ignore:This process:DeprecationWarning", "ignore::isophote.SceneWarning")
 def test_a_forked_process_has_threads_of_its_own(lab):
-    expected = [iso.render(lab).max(), iso.surface(lab, size=(36, 18)).max(), float(iso.probe(lab).brightness[0])]
+    expected = _everything()
     context = multiprocessing.get_context("fork")
     mine, theirs = context.Pipe()
     child = context.Process(target=_in_child, args=(theirs,))
@@ -134,3 +146,13 @@ def test_a_panic_is_an_exception_with_its_message(capfd):
     assert issubclass(iso.InternalError, iso.RenderError)
     assert "so many" in capfd.readouterr().err
     assert iso.render(iso.scenes.lab()).max() > 0
+
+
+def test_the_bare_formula_leaves_the_programs_warnings_alone(lab):
+    before = list(warnings.filters)
+    with ThreadPoolExecutor(8) as pool:
+        for _ in pool.map(
+            lambda _: iso.brightness([0, 0, -1], [0, 0, 4], lab.lights, lab.materials["clay"], "lab"), range(200)
+        ):
+            pass
+    assert list(warnings.filters) == before

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -70,7 +71,7 @@ def test_a_sweep_into_a_store_is_the_same(small, tmp_path):
     again = xarray.open_zarr(store, consolidated=False, chunks=None)
     np.testing.assert_array_equal(again["brightness"].values, found["brightness"].values)
     assert again["axis"].attrs["labels"] == ["x", "y", "z"]
-    with pytest.raises(iso.ArgumentError, match="exists already"):
+    with pytest.raises(iso.StoreError, match="exists already"):
         iso.sweep(small, PARAMETERS, store=store)
 
 
@@ -79,6 +80,8 @@ def test_a_sweep_over_words_and_colours(small):
     found = iso.sweep(small, {"convention": ["lab", "radiance"], "material.clay.diffuse": [0.2, 0.4]})
     assert found["convention"].values.tolist() == ["lab", "radiance"]
     with_colour = iso.sweep(small, {"material.clay.diffuse": [colours[0], colours[0]]}, channels=["color"])
+    assert with_colour["component"].values.tolist() == ["red", "green", "blue"]
+    assert with_colour["material.clay.diffuse.value"].dims == ("material.clay.diffuse", "component")
     assert with_colour["color"].dims == ("material.clay.diffuse", "y", "x", "component")
     none = iso.sweep(small, {})
     np.testing.assert_array_equal(none["brightness"].values, iso.render(small)["brightness"])
@@ -96,9 +99,62 @@ def test_what_is_wrong_with_a_sweep_is_known_before_it_begins(small, tmp_path):
     ):
         with pytest.raises((iso.ArgumentError, iso.SceneError)):
             iso.sweep(small, parameters, store=store)
-    with pytest.raises(iso.ArgumentError):
-        iso.sweep(small, PARAMETERS, workers=0)
+    for options in ({"workers": 0}, {"progress": 3}, {"client": "tcp://x"}, {"channels": "colour"}):
+        with pytest.raises((iso.ArgumentError, TypeError)):
+            iso.sweep(small, PARAMETERS, store=store, **options)
+        with pytest.raises((iso.ArgumentError, TypeError)):
+            options = {"threads" if name == "workers" else name: value for name, value in options.items()}
+            iso.render_to_zarr(small, None, store, **options)
+    with pytest.raises(iso.ArgumentError, match="are the same"):
+        iso.sweep(small, {"light.lamp.intensity": [1], "light[0].intensity": [2]})
+    with pytest.raises(iso.ArgumentError, match="resume"):
+        iso.sweep(small, PARAMETERS, resume=True)
     assert not store.exists()
+
+
+def test_units_and_places_that_differ_are_told(small):
+    found = iso.sweep(small, {"convention": list(iso.Convention)[2:], "material.clay.diffuse": [0.2, 0.4]})
+    assert "units" not in found["brightness"].attrs and "convention" not in found.attrs
+    assert found["convention"].values.tolist() == ["lab", "course", "course-pi", "radiance"]
+    units = found["brightness.units"]
+    assert units.dims == ("convention", "material.clay.diffuse")
+    assert units.values[:, 0].tolist() == ["W/m²", *["W/(m²·sr)"] * 3]
+    zoomed = iso.sweep(small, {"camera.screen.x": [(-4, 4), (-2, 2)], "camera.screen.y": [(-3, 3), (-1.5, 1.5)]})
+    assert zoomed["x"].values.tolist() == list(range(80)) and zoomed["x"].attrs["long_name"] == "column, from 0"
+    same = iso.sweep(small, {"camera.eye": [(0, 0, 0), (0, 0, -1)]})
+    assert same["x"].attrs["units"] == "m"
+
+
+@needs_zarr
+def test_an_interrupted_sweep_goes_on(small, tmp_path):
+    store = tmp_path / "sweep.zarr"
+
+    def stop(done, _total):
+        if done == 4:
+            raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        iso.sweep(small, PARAMETERS, store=store, workers=1, progress=stop)
+    unfinished = xarray.open_zarr(store, consolidated=False, chunks=None)
+    assert 4 <= int(unfinished["rendered"].sum()) < 9
+    with pytest.raises(iso.StoreError, match="another sweep"):
+        iso.sweep(small, {**PARAMETERS, "material.clay.shininess": [1, 2, 3]}, store=store, resume=True)
+    heard = []
+    found = iso.sweep(small, PARAMETERS, store=store, resume=True, progress=lambda done, total: heard.append(done))
+    check(found, small)
+    assert heard[0] >= 4 and heard[-1] == 9
+    assert bool(xarray.open_zarr(store, consolidated=False, chunks=None)["rendered"].all())
+
+
+@pytest.mark.filterwarnings("ignore::isophote.SceneWarning")
+def test_a_mesh_is_read_once_for_all_maps(monkeypatch, tmp_path):
+    scene = iso.Scene.from_file(REPOSITORY / "scenes" / "mesh.toml").with_resolution((16, 12))
+    shutil.copytree(REPOSITORY / "scenes" / "meshes", tmp_path / "meshes")
+    copy = iso.Scene.from_toml(scene.to_toml(), directory=tmp_path)
+    shutil.rmtree(tmp_path / "meshes")
+    path = f"light.{copy.core.describe()['lights'][0]}.casts_shadows"
+    found = iso.sweep(copy, {path: [True, False]})
+    np.testing.assert_array_equal(found["brightness"][0], iso.render(scene)["brightness"])
 
 
 @needs_zarr
@@ -129,7 +185,10 @@ def test_a_store_is_the_commands_byte_for_byte(tmp_path):
     assert files(tmp_path / "package.zarr") == expected
     whole = iso.render(scene, size=(1000, 750))
     assert stored.pixels == 750_000 and stored.visible == whole.mask.sum()
-    assert stored.channels["brightness"][1][0] == whole.max()
+    statistics = stored.channels["brightness"]
+    assert (statistics.max, statistics.argmax) == (whole.max(), whole.argmax())
+    assert (statistics.min, statistics.argmin) == (whole.min(), whole.argmin())
+    assert hash(stored) == hash(stored)
     np.testing.assert_array_equal(stored.open()["brightness"].values, whole["brightness"])
     file = iso.read(tmp_path / "package.zarr")
     np.testing.assert_array_equal(file["brightness"], whole["brightness"])
@@ -184,3 +243,27 @@ def test_a_cluster_that_loses_a_worker_half_way_makes_the_same_bytes(tmp_path):
     assert killed and killed[0][0] < killed[0][1]
     assert stored.pixels == 1600 * 1200
     assert files(store) == expected
+
+
+@needs_zarr
+@pytest.mark.skipif(os.name != "posix", reason="SIGKILL")
+@pytest.mark.filterwarnings("ignore")
+def test_the_only_worker_may_die_too(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    scene = iso.Scene.from_file(LAB)
+    cluster = distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None, worker_dashboard_address=None
+    )
+    killed = []
+    with cluster, distributed.Client(cluster) as client:
+        pid = next(iter(client.run(os.getpid).values()))
+
+        def kill(done, _total):
+            if done >= 3 and not killed:
+                killed.append(done)
+                os.kill(pid, signal.SIGKILL)
+
+        options = {"shard_side": 100, "client": client, "progress": kill}
+        stored = iso.render_to_zarr(scene, (800, 600), tmp_path / "map.zarr", **options)
+    assert killed
+    np.testing.assert_array_equal(stored.open()["brightness"].values, iso.render(scene)["brightness"])

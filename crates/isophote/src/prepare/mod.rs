@@ -86,6 +86,20 @@ impl PreparedScene {
     /// Lays a scene out.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
+        Self::with_accelerator(scene, Arc::default())
+    }
+
+    /// Lays out a scene after an earlier one, whose tree is its own too if their shapes are the same.
+    #[must_use]
+    pub fn after(earlier: &Self, scene: &Scene) -> Self {
+        let (before, now) = (&earlier.scene.shapes, &scene.shapes);
+        let is_same =
+            |(before, now): (&crate::scene::Shape, &crate::scene::Shape)| before.geometry.is_same(&now.geometry);
+        let are_same = before.len() == now.len() && before.iter().zip(now).all(is_same);
+        Self::with_accelerator(scene, if are_same { Arc::clone(&earlier.accelerator) } else { Arc::default() })
+    }
+
+    fn with_accelerator(scene: &Scene, accelerator: Arc<OnceLock<Accelerator>>) -> Self {
         let shapes = scene.shapes.iter().map(|shape| PreparedShape {
             geometry: shape.geometry.clone(),
             formula: shape.material.unwrap_or(scene.materials.len()),
@@ -101,7 +115,7 @@ impl PreparedScene {
         let mut prepared = Self {
             first_primitives,
             tried_one_by_one: HANDFUL,
-            accelerator: Arc::default(),
+            accelerator,
             frame: CameraFrame::new(&scene.camera),
             precise_frame: CameraFrame::new(&scene.camera),
             shapes,

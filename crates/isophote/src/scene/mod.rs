@@ -138,6 +138,20 @@ impl Scene {
     /// # Errors
     /// As [`from_text`](Self::from_text).
     pub fn from_text_in(directory: &FilePath, name: &str, text: &str, syntax: Syntax) -> Result<Self, SceneError> {
+        Self::from_text_after(None, directory, name, text, syntax)
+    }
+
+    /// The same after an earlier scene: files that both name are not read again.
+    ///
+    /// # Errors
+    /// As [`from_text`](Self::from_text).
+    pub fn from_text_after(
+        earlier: Option<&Self>,
+        directory: &FilePath,
+        name: &str,
+        text: &str,
+        syntax: Syntax,
+    ) -> Result<Self, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
             let help = "`isophote new lab` writes a scene to start from";
@@ -161,7 +175,7 @@ impl Scene {
             problem.locate(&lines, &document);
             problem
         };
-        match validate::validate(source, problems) {
+        match validate::validate(source, problems, earlier) {
             Ok(mut scene) => {
                 scene.warnings = scene.warnings.into_iter().map(locate).collect();
                 Ok(scene)
@@ -207,31 +221,40 @@ impl Scene {
     ///
     /// # Errors
     /// A resolution out of the [`limits`].
-    pub fn with_resolution(mut self, resolution: Resolution) -> Result<Self, SceneError> {
-        self.source.camera.get_or_insert_default().resolution =
-            Some([u64::from(resolution.width), u64::from(resolution.height)]);
-        Self::try_from(self.source)
+    pub fn with_resolution(&self, resolution: Resolution) -> Result<Self, SceneError> {
+        self.changed(|source| {
+            source.camera.get_or_insert_default().resolution =
+                Some([u64::from(resolution.width), u64::from(resolution.height)]);
+        })
     }
 
     /// The scene with what is given here in place of its own sampling.
     ///
     /// # Errors
     /// Numbers out of the [`limits`].
-    pub fn with_sampling(mut self, given: &SamplingSource) -> Result<Self, SceneError> {
-        let sampling = self.source.sampling.get_or_insert_default();
-        sampling.samples = given.samples.or(sampling.samples);
-        sampling.tolerance = given.tolerance.or(sampling.tolerance);
-        sampling.filter = given.filter.or(sampling.filter);
-        Self::try_from(self.source)
+    pub fn with_sampling(&self, given: &SamplingSource) -> Result<Self, SceneError> {
+        self.changed(|source| {
+            let sampling = source.sampling.get_or_insert_default();
+            sampling.samples = given.samples.or(sampling.samples);
+            sampling.tolerance = given.tolerance.or(sampling.tolerance);
+            sampling.filter = given.filter.or(sampling.filter);
+        })
     }
 
     /// The scene with this grid in place of its own.
     ///
     /// # Errors
     /// Whatever is wrong with the grid.
-    pub fn with_grid(mut self, grid: GridSource) -> Result<Self, SceneError> {
-        self.source.grid = vec![grid];
-        Self::try_from(self.source)
+    pub fn with_grid(&self, grid: GridSource) -> Result<Self, SceneError> {
+        self.changed(|source| source.grid = vec![grid])
+    }
+
+    /// The scene with something else written in it. Its files are not read again.
+    fn changed(&self, change: impl FnOnce(&mut SceneSource)) -> Result<Self, SceneError> {
+        let mut source = self.source.clone();
+        change(&mut source);
+        let name = "the scene".into();
+        validate::validate(source, Problems::default(), Some(self)).map_err(|problems| SceneError { name, problems })
     }
 
     /// A line that says what the scene is; may be empty.
@@ -376,7 +399,7 @@ impl TryFrom<SceneSource> for Scene {
 
     /// Checks a scene and converts it to metres.
     fn try_from(source: SceneSource) -> Result<Self, SceneError> {
-        validate::validate(source, Problems::default())
+        validate::validate(source, Problems::default(), None)
             .map_err(|problems| SceneError { name: "the scene".into(), problems })
     }
 }

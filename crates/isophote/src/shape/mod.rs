@@ -295,6 +295,17 @@ impl Geometry {
         }
     }
 
+    /// Whether it is the same form in the same place. Of meshes and clouds, which are large, whether they were read once for
+    /// both.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Mesh(mesh), Self::Mesh(other)) => Arc::ptr_eq(mesh, other),
+            (Self::Spheres(cloud), Self::Spheres(other)) => Arc::ptr_eq(cloud, other),
+            _ => self == other,
+        }
+    }
+
     /// How far away a point is from the shape, in sizes of the shape.
     #[must_use]
     pub fn remoteness(&self, point: Vector) -> f64 {

@@ -48,6 +48,7 @@ impl Validator {
 
     fn lighting(&self, source: &SceneSource, component: Component) -> Lighting {
         let mut validator = Self {
+            kept: super::files::Kept::default(),
             length: self.length,
             convention: self.convention,
             shadows: self.shadows,

@@ -1,13 +1,16 @@
 //! Shapes that are read from files of their own.
 
+use std::path::Path as FilePath;
 use std::sync::Arc;
 
 use super::shapes::{Written, written_head};
 use super::{Validator, limits};
 use crate::import::{self, ImportError, MaterialSlots, TriangleMesh};
+use crate::reflectance::Convention;
+use crate::scene::Scene;
 use crate::scene::document::Path;
 use crate::scene::read::short;
-use crate::scene::source::{MeshSource, ShadowSource, SpheresSource};
+use crate::scene::source::{MeshSource, RotationSource, SceneSource, ShadowSource, SpheresSource};
 use crate::shape::{Geometry, Mesh, MeshData, MeshPlacing, Sphere, Spheres};
 use crate::vector::Vector;
 
@@ -19,6 +22,9 @@ impl Written for MeshSource {
     }
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        if let Some((_, geometry)) = validator.kept.meshes.iter().find(|(form, _)| *form == MeshForm::of(self)) {
+            return Some(geometry.clone());
+        }
         let placing = validator.mesh_placing(path, self);
         let mesh = validator.imported(path, self.file.as_deref(), import::read_mesh)?;
         let TriangleMesh { vertices, triangles, normals, materials, degenerate } = mesh;
@@ -54,6 +60,9 @@ impl Written for SpheresSource {
     }
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+        if let Some((_, geometry)) = validator.kept.clouds.iter().find(|(form, _)| *form == CloudForm::of(self)) {
+            return Some(geometry.clone());
+        }
         let list = validator.imported(path, self.file.as_deref(), import::read_spheres)?;
         let length = validator.length;
         let mut spheres = Vec::with_capacity(list.radii.len());
@@ -76,6 +85,79 @@ impl Written for SpheresSource {
         let materials = slots.into_iter().filter_map(|slot| materials[usize::from(slot)]).collect();
         Some(Geometry::Spheres(Arc::new(Spheres::new(spheres, materials))))
     }
+}
+
+/// Shapes that an earlier scene has read from files, with what was written of them.
+#[derive(Default)]
+pub(super) struct Kept {
+    meshes: Vec<(MeshForm, Geometry)>,
+    clouds: Vec<(CloudForm, Geometry)>,
+}
+
+/// What of a mesh, as it is written, makes its geometry.
+#[derive(PartialEq)]
+struct MeshForm {
+    file: Option<String>,
+    scale: [f64; 3],
+    rotation: Option<RotationSource>,
+    position: [f64; 3],
+    is_smooth: bool,
+    has_one_material: bool,
+}
+
+impl MeshForm {
+    fn of(source: &MeshSource) -> Self {
+        Self {
+            file: source.file.clone(),
+            scale: source.scale.unwrap_or([1.0; 3]),
+            rotation: source.rotation,
+            position: source.position.unwrap_or_default(),
+            is_smooth: source.smooth.unwrap_or(true),
+            has_one_material: source.material.is_some(),
+        }
+    }
+}
+
+/// The same of a cloud.
+#[derive(PartialEq)]
+struct CloudForm {
+    file: Option<String>,
+    has_one_material: bool,
+}
+
+impl CloudForm {
+    fn of(source: &SpheresSource) -> Self {
+        Self { file: source.file.clone(), has_one_material: source.material.is_some() }
+    }
+}
+
+impl Kept {
+    /// Those that would be read alike in another scene.
+    pub(super) fn of(earlier: &Scene, source: &SceneSource) -> Self {
+        let before = &earlier.source;
+        let uses_material = source.convention.unwrap_or(Convention::Radiance).uses_material();
+        let is_alike = is_same_place(&before.directory, &source.directory)
+            && before.length == source.length
+            && before.material.keys().eq(source.material.keys())
+            && earlier.convention.uses_material() == uses_material;
+        if !is_alike {
+            return Self::default();
+        }
+        let geometries = || earlier.shapes.iter().map(|shape| shape.geometry.clone());
+        let meshes = geometries().filter(|geometry| matches!(geometry, Geometry::Mesh(_)));
+        let clouds = geometries().filter(|geometry| matches!(geometry, Geometry::Spheres(_)));
+        // Shapes of a kind are in the order of the file.
+        Self {
+            meshes: before.mesh.iter().map(MeshForm::of).zip(meshes).collect(),
+            clouds: before.spheres.iter().map(CloudForm::of).zip(clouds).collect(),
+        }
+    }
+}
+
+fn is_same_place(one: &FilePath, other: &FilePath) -> bool {
+    let absolute =
+        |path: &FilePath| std::path::absolute(if path.as_os_str().is_empty() { FilePath::new(".") } else { path });
+    one == other || matches!((absolute(one), absolute(other)), (Ok(one), Ok(other)) if one == other)
 }
 
 impl Validator {

@@ -55,9 +55,14 @@ pub mod limits {
     pub const SHININESS: f64 = 1e5;
 }
 
-/// Checks a scene, given what is already known to be wrong with it.
-pub(super) fn validate(source: SceneSource, problems: Problems) -> Result<Scene, Vec<Problem>> {
+/// Checks a scene, given what is already known to be wrong with it. Files that an earlier one has read alike are not read again.
+pub(super) fn validate(
+    source: SceneSource,
+    problems: Problems,
+    earlier: Option<&Scene>,
+) -> Result<Scene, Vec<Problem>> {
     let mut validator = Validator {
+        kept: earlier.map(|earlier| files::Kept::of(earlier, &source)).unwrap_or_default(),
         length: source.length.unwrap_or(LengthUnit::Metre),
         convention: source.convention.unwrap_or(Convention::Radiance),
         shadows: source.shadows.unwrap_or(false),
@@ -118,6 +123,8 @@ struct Validator {
     directory: PathBuf,
     /// The names of the materials, in their order.
     materials: Vec<String>,
+    /// What need not be read again.
+    kept: files::Kept,
     problems: Problems,
     warnings: Problems,
 }
