@@ -108,6 +108,80 @@ fn an_adaptive_map_is_within_its_tolerance_of_many_samples_and_refines_little() 
     }
 }
 
+/// Within the outline a tolerance integrates: the area that a pixel shows is far better known than from as many points.
+#[test]
+fn the_outline_of_a_sphere_is_integrated() {
+    let map = render(&disc("tolerance = 0.01"), None);
+    let (coverage, samples) = (values(&map, &Quantity::Coverage), values(&map, &Quantity::Samples));
+    let mut cut = 0;
+    for (index, found) in coverage.iter().enumerate().filter(|(index, _)| samples[*index] > 1.0) {
+        let error = (found - covered(map.pixel(index))).abs();
+        assert!(
+            samples[index] <= 80.0 && error < 4e-3,
+            "{:?}: {error} by {} samples",
+            map.pixel(index),
+            samples[index]
+        );
+        cut += u32::from(*found < 1.0);
+    }
+    assert!(cut > 100, "{cut}");
+}
+
+/// Highlights and the terminators of three lights, in front of and beside each other; the channels are means of the same places.
+#[test]
+fn integrated_pixels_are_within_the_tolerance_of_many_samples() {
+    for (convention, shininess) in [("lab", 5), ("radiance", 40), ("lambert", 1), ("radiance", 100)] {
+        let scene = |sampling: &str| {
+            let text = format!(
+                "version = 1\nlength = \"m\"\nconvention = \"{convention}\"
+                [camera]\neye = [0, 0, 0]\nforward = [0, 0, 1]\nresolution = [80, 60]
+                screen = {{ distance = 3, x = [-0.8, 0.8], y = [-0.6, 0.6] }}
+                [sampling]\n{sampling}
+                [material.gloss]\ndiffuse = 0.6\nspecular = 0.4\nshininess = {shininess}
+                [[sphere]]\ncenter = [0.3, 0.1, 5]\nradius = 0.8\nmaterial = \"gloss\"
+                [[sphere]]\ncenter = [-0.5, 0, 4]\nradius = 0.35\nmaterial = \"gloss\"
+                [[sphere]]\ncenter = [-0.9, 0.62, 5]\nradius = 0.03\nmaterial = \"gloss\"
+                [[light]]\nposition = [3, 2, -3]\nintensity = 10
+                [[light]]\nname = \"side\"\nposition = [-4, 0.5, 4.5]\nintensity = 8
+                [[light]]\nposition = [0, -5, 6]\nintensity = 12"
+            );
+            PreparedScene::new(&Scene::from_text("test", &text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}")))
+        };
+        let side = Quantity::Light("side".into());
+        let quantities = [Quantity::Brightness, Quantity::Diffuse, Quantity::Specular, side, Quantity::Samples];
+        let settings = RenderSettings { quantities: quantities.to_vec(), ..RenderSettings::default() };
+        let render = |sampling: &str| {
+            Lanes::new(Precision::Double, None).render(&scene(sampling), &settings).expect("it renders")
+        };
+        let (exact, map) = (render("samples = 4096"), render("tolerance = 0.01\nsamples = 1024"));
+        let samples = values(&map, &Quantity::Samples);
+        for quantity in &quantities[..4] {
+            let (exact, found) = (values(&exact, quantity), values(&map, quantity));
+            let peak = exact.iter().fold(0.0, |peak: f64, value| peak.max(*value));
+            let is_brightness = *quantity == Quantity::Brightness;
+            for (index, (found, exact)) in found.iter().zip(exact).enumerate() {
+                // The tolerance is one of the brightness; rays, 16 or a higher power of two, promise no more.
+                if !is_brightness && ![8.0, 24.0, 40.0].contains(&samples[index]) {
+                    continue;
+                }
+                let error = (found - exact).abs();
+                assert!(
+                    error <= 0.01 * peak,
+                    "{convention}, n = {shininess}, {quantity:?} at {:?}, {} samples: {found} {exact}, peak {peak}",
+                    map.pixel(index),
+                    samples[index]
+                );
+            }
+        }
+        let [brightness, diffuse, specular] = [0, 1, 2].map(|index| values(&map, &quantities[index]));
+        for ((whole, diffuse), specular) in brightness.iter().zip(diffuse).zip(specular) {
+            assert!((whole - diffuse - specular).abs() <= 1e-13 * (1.0 + whole.abs()));
+        }
+        let integrated = samples.iter().filter(|samples| [8.0, 24.0, 40.0].contains(*samples)).count();
+        assert!(integrated > 100, "{integrated}");
+    }
+}
+
 #[test]
 fn one_sample_in_a_box_is_the_plain_map() {
     let [plain, one] = ["", "samples = 1"].map(|sampling| render(&disc(sampling), None));

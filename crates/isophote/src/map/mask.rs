@@ -52,8 +52,8 @@ impl Mask {
         let mut runs: Vec<Run> = Vec::with_capacity(self.runs.len() + more.len());
         let mut more = more.iter().copied().peekable();
         let mut push = |run: Run| match runs.last_mut() {
-            Some(last) if last.end == run.start && last.shape == run.shape && run.start % width != 0 => {
-                last.end = run.end
+            Some(last) if last.end == run.start && last.shape == run.shape && !run.start.is_multiple_of(width) => {
+                last.end = run.end;
             }
             _ => runs.push(run),
         };

@@ -71,7 +71,7 @@ impl Sampling {
 const FIRST_SAMPLES: u32 = 16;
 
 /// Where pixels are integrated, fewer than these are done before another thread has woken up.
-const WORTH_THREADS: usize = 100_000;
+const WORTH_THREADS: usize = 20_000;
 
 /// So many rows are looked through and refined by one thread at a time.
 const ROWS: usize = 16;

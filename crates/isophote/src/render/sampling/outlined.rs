@@ -34,6 +34,8 @@ struct OutlinedSphere<'s> {
     center: Vector,
     formula: &'s BrightnessFormula,
     lights: ShapeLights<f64>,
+    /// Whether its highlights are as wide as a pixel: else places in a few rows may miss them.
+    is_smooth: bool,
 }
 
 /// A pixel of which an outline covers less is left to rays.
@@ -64,6 +66,7 @@ impl<'s> Outlined<'s> {
                     center: sphere.center,
                     formula: scene.formula(primitive),
                     lights,
+                    is_smooth: is_smooth(candidate.ellipse, scene.formula(primitive)),
                 }),
                 ShapeShading::Single(_) => None,
             }
@@ -89,6 +92,9 @@ impl<'s> Outlined<'s> {
     pub fn mean(&self, nodes: &mut Nodes, pixel: Pixel, uncertain: &Uncertain) -> Option<Refinement> {
         let mut touching = self.spheres.iter().filter(|sphere| sphere.may_touch(pixel));
         let (Some(sphere), None) = (touching.next(), touching.next()) else { return None };
+        if !sphere.is_smooth {
+            return None;
+        }
         let center = sphere.center_of(pixel);
         let channels = self.averages.channels();
         let mut means = vec![0.0; channels.len()];
@@ -124,6 +130,12 @@ impl<'s> Outlined<'s> {
         }
         None
     }
+}
+
+/// The lobe (N·H)ⁿ falls to 1/√e where N has turned by 1/√n: on a sphere of R pixels that is R/√n pixels away.
+fn is_smooth(outline: &Ellipse, formula: &BrightnessFormula) -> bool {
+    let radius = 0.5 * (outline.rows[1] - outline.rows[0]);
+    formula.sharpness().is_none_or(|shininess| shininess <= radius * radius)
 }
 
 impl OutlinedSphere<'_> {
