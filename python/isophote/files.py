@@ -24,8 +24,10 @@ class MapFile(Mapping[str, NDArray[Any]]):
     them (EXR, NPZ, NPY, CSV and Zarr; a PNG holds a picture, of which no values can be taken)."""
 
     def __init__(self, path: str, directory: str | None = None) -> None:
-        self.path = os.path.abspath(path)
-        self._directory = os.path.dirname(self.path) if directory is None else os.path.abspath(directory)
+        self.path = path
+        # The working directory may be another one when the values are read.
+        self._place = os.path.abspath(path)
+        self._directory = os.path.dirname(self._place) if directory is None else os.path.abspath(directory)
         self.metadata: dict[str, Any] = json.loads(_isophote.read_metadata(path))
         self._channels = {channel["name"]: channel for channel in self.metadata["channels"]}
         self._arrays: dict[str, NDArray[Any]] | None = None
@@ -65,22 +67,22 @@ class MapFile(Mapping[str, NDArray[Any]]):
         return self._arrays[channel]
 
     def _read(self) -> dict[str, NDArray[Any]]:
-        if os.path.isdir(self.path):
-            return {name: _zarr_array(self.path, self._stored(name)) for name in self._channels}
-        with open(self.path, "rb") as file:
+        if os.path.isdir(self._place):
+            return {name: _zarr_array(self._place, self._stored(name)) for name in self._channels}
+        with open(self._place, "rb") as file:
             start = file.read(8)
         if start.startswith(b"\x76\x2f\x31\x01"):
-            stored = dict(_isophote.read_exr(self.path))
+            stored = dict(_isophote.read_exr(self._place))
             return {name: self._joined(stored, name) for name in self._channels}
         if start.startswith(b"PK\x03\x04"):
             # Modules that take long to load are loaded where they are needed.
             import zipfile
 
-            with zipfile.ZipFile(self.path) as archive:
+            with zipfile.ZipFile(self._place) as archive:
                 stored = {entry[:-4]: _npy(archive.read(entry)) for entry in archive.namelist() if entry.endswith(".npy")}
             return {name: stored[self._stored(name)[0]] for name in self._channels}
         if start.startswith(b"\x93NUMPY"):
-            with open(self.path, "rb") as file:
+            with open(self._place, "rb") as file:
                 return {next(iter(self._channels)): _npy(file.read())}
         if start.startswith(b"# isopho"):
             return self._table()
@@ -94,7 +96,7 @@ class MapFile(Mapping[str, NDArray[Any]]):
         return parts[0] if len(parts) == 1 else np.stack(parts, axis=-1)
 
     def _table(self) -> dict[str, NDArray[Any]]:
-        with open(self.path, encoding="utf-8", newline="") as file:
+        with open(self._place, encoding="utf-8", newline="") as file:
             lines = [line for line in file if not line.startswith("#")]
         _, _, width, height = self.region
         if len(lines) - 1 != width * height:

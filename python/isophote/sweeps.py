@@ -229,8 +229,10 @@ def _moves_pixels(pointer: Pointer) -> bool:
 def _coordinate(path: str, several: Sequence[Any], pointer: Pointer) -> dict[str, Any]:
     """What stands along a dimension: the values themselves, or numbers and the values beside them."""
     plain = [pointer.convert(value) if value is not None else None for value in several]
-    if all(isinstance(value, (int, float, str)) for value in plain):
+    if all(isinstance(value, str) for value in plain):
         return {path: np.array(plain)}
+    if all(isinstance(value, (int, float, np.number)) for value in several):
+        return {path: np.array(several)}
     numbers: dict[str, Any] = {path: np.arange(len(plain))}
     if all(isinstance(value, tuple) and len(value) == 3 for value in plain):
         extra, labels = COMPONENTS["color" if pointer.convert is amount else "position"]
