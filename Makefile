@@ -21,7 +21,7 @@ FUZZ_TARGETS := $(notdir $(basename $(wildcard fuzz/fuzz_targets/*.rs)))
 FUZZ_SECONDS := 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-python check check-python bench bench-instructions compare growth audit fuzz docs generate generated-is-current
+.PHONY: help demo test test-python check check-python bench bench-python bench-instructions compare growth audit fuzz docs generate generated-is-current
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-18s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -50,7 +50,13 @@ check-python: python-env python-module ## The same of the Python package: format
 
 bench: ## Time every stage, the whole program from start to picture, and all that beside other programs
 	$(CARGO) bench --workspace
+	@$(MAKE) --no-print-directory bench-python
 	@$(MAKE) --no-print-directory compare
+
+bench-python: ## Time the Python package as pip installs it: calls, loading, points, sweeps beside Numba
+	rm -rf target/bench-python && python3 -m venv target/bench-python
+	target/bench-python/bin/python -m pip install --quiet --disable-pip-version-check ".[xarray]" numba
+	target/bench-python/bin/python validation/python/speed.py
 
 compare: ## Measure beside NumPy, Numba, Dr.Jit, Mitsuba, Radiance and POV-Ray, and write docs/speed.md (20 minutes)
 	python3 validation/speed/compare.py

@@ -1,0 +1,205 @@
+"""What becomes of the maps of a sweep: a Dataset in memory, or a Zarr store."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _isophote
+from ._convert import amount
+from ._paths import Pointer
+from ._xarray import COMPONENTS, attributes, needed
+from .errors import StoreError
+from .map import Map
+
+if TYPE_CHECKING:
+    import xarray
+
+    from .sweeps import Sweep
+
+
+@dataclass(frozen=True)
+class Template:
+    """The Dataset without its values."""
+
+    parameters: int
+    """How many of the dimensions, the first ones, are parameters."""
+    sizes: dict[str, int]
+    coordinates: dict[str, Any]
+    variables: dict[str, tuple[tuple[str, ...], np.dtype[Any], dict[str, str]]]
+    attributes: dict[str, str]
+
+    def shape(self, name: str) -> tuple[int, ...]:
+        return tuple(self.sizes[dim] for dim in self.variables[name][0])
+
+    def dataset(self, arrays: Mapping[str, NDArray[Any]]) -> xarray.Dataset:
+        import xarray
+
+        variables = {name: (self.variables[name][0], array, self.variables[name][2]) for name, array in arrays.items()}
+        return xarray.Dataset(variables, self.coordinates, self.attributes)
+
+    def identity(self) -> str:
+        """What makes it this sweep and no other."""
+        coordinates = {name: coordinate.values.tolist() for name, coordinate in self.dataset({}).coords.items()}
+        variables = {name: (dims, str(dtype)) for name, (dims, dtype, _) in self.variables.items()}
+        return json.dumps([str(self.attributes.get("scene")), coordinates, variables], sort_keys=True, default=str)
+
+    def numbered(self) -> xarray.Dataset:
+        """The same with numbers for words, which Zarr has no settled form for; the words are in the attribute ``labels``."""
+        dataset = self.dataset({})
+        for name, coordinate in dataset.coords.items():
+            if coordinate.dtype.kind == "U":
+                numbers = np.arange(coordinate.size)
+                dataset = dataset.assign_coords({name: (coordinate.dims, numbers, {"labels": coordinate.values.tolist()})})
+        return dataset
+
+
+def template(sweep: Sweep, values: Mapping[str, Sequence[Any]], first: Map) -> Template:
+    image = first.to_xarray()
+    sizes = {path: len(several) for path, several in values.items()}
+    coordinates: dict[str, Any] = {}
+    for (path, several), pointer in zip(values.items(), sweep.pointers):
+        coordinates.update(_coordinate(path, several, pointer))
+    is_same_window = not any(_moves_pixels(pointer) for pointer in sweep.pointers)
+    for axis, counted in zip(first.axes, ("column", "row")):
+        # Where the maps do not lie in the same place, their pixels are counted.
+        numbers = (axis.name, np.arange(image.sizes[axis.name]), {"units": "1", "long_name": f"{counted}, from 0"})
+        coordinates[axis.name] = image[axis.name] if is_same_window else numbers
+    for key, coordinate in image.coords.items():
+        if key != "visible" and key not in coordinates:
+            coordinates[str(key)] = coordinate
+    sizes.update({str(dim): size for dim, size in image.sizes.items()})
+    variables = {}
+    for key, variable in {**image.data_vars, "visible": image["visible"]}.items():
+        name = str(key)
+        dims = (*values, *(str(dim) for dim in variable.dims))
+        attrs = dict(variable.attrs)
+        if name != "visible":
+            units = [core.unit(name) for core in sweep.cores]
+            if len(set(units)) > 1:
+                # A unit of each map, beside the values that make it so.
+                del attrs["units"]
+                coordinates[f"{name}.units"] = (tuple(values), np.array(units).reshape(sweep.sizes))
+        variables[name] = (dims, variable.dtype, attrs)
+    about = attributes(first.metadata)
+    if any(pointer.keys[0] in ("convention", "quantities") for pointer in sweep.pointers):
+        del about["convention"]
+    # The scene is that of the first map; what the others have instead is in the coordinates.
+    return Template(len(values), sizes, coordinates, variables, about)
+
+
+def _moves_pixels(pointer: Pointer) -> bool:
+    """Whether the places of pixels on the screen, or their unit, depend on a value."""
+    within = ("screen", "field_of_view", "window", "longitude", "latitude", "projection")
+    return pointer.keys[0] == "length" or (pointer.keys[0] == "camera" and pointer.keys[1] in within)
+
+
+def _coordinate(path: str, several: Sequence[Any], pointer: Pointer) -> dict[str, Any]:
+    """What stands along a dimension: the values themselves, or numbers and the values beside them."""
+    plain = [pointer.convert(value) if value is not None else None for value in several]
+    if all(isinstance(value, str) for value in plain):
+        return {path: np.array(plain)}
+    if all(isinstance(value, (int, float, np.number)) for value in several):
+        return {path: np.array(several)}
+    numbers: dict[str, Any] = {path: np.arange(len(plain))}
+    if all(isinstance(value, tuple) and len(value) == 3 for value in plain):
+        extra, labels = COMPONENTS["color" if pointer.convert is amount else "position"]
+        return numbers | {extra: np.array(labels), f"{path}.value": ((path, extra), np.array(plain))}
+    return numbers | {f"{path}.value": (path, np.array([repr(value) for value in plain]))}
+
+
+class Memory:
+    """Arrays for all maps."""
+
+    done: frozenset[int] = frozenset()
+
+    def __init__(self, form: Template) -> None:
+        # What no map sees is never written: memory that nobody touches costs nothing.
+        self.arrays = {name: np.zeros(form.shape(name), of[1]) for name, of in form.variables.items()}
+
+    def put(self, index: tuple[int, ...], of: _isophote.Map) -> None:
+        for name, array in self.arrays.items():
+            of.copy_into(None if name == "visible" else name, array[index])
+
+    def dataset(self, form: Template) -> xarray.Dataset:
+        return form.dataset(self.arrays)
+
+
+RENDERED = "rendered"
+"""The array of a store that says of each map whether it is there; written after the map itself."""
+
+
+@dataclass(frozen=True)
+class Store:
+    """A Zarr store with a chunk for each map and channel: who writes a chunk writes all of it, and nobody else does."""
+
+    path: str
+    done: frozenset[int]
+
+    @classmethod
+    def prepare(cls, path: str, form: Template, resume: bool) -> Store:
+        needed("zarr")
+        if os.path.lexists(path):
+            if not resume:
+                raise StoreError(f"{path} exists already; resume=True goes on with it; or choose another name")
+            return cls._found(path, form)
+        return cls._made(path, form)
+
+    @classmethod
+    def _made(cls, path: str, form: Template) -> Store:
+        import zarr
+
+        form.numbered().to_zarr(path, mode="w-", zarr_format=3, consolidated=False)
+        group = zarr.open_group(path, mode="r+")
+        for name, (dims, dtype, attrs) in form.variables.items():
+            shape = form.shape(name)
+            chunks = (1,) * form.parameters + shape[form.parameters :]
+            group.create_array(
+                name, shape=shape, chunks=chunks, dtype=dtype, attributes=dict(attrs), dimension_names=list(dims)
+            )
+        parameters = form.variables["visible"][0][: form.parameters]
+        sizes = tuple(form.sizes[dim] for dim in parameters)
+        group.create_array(
+            RENDERED,
+            shape=sizes,
+            chunks=(1,) * len(sizes),
+            dtype=bool,
+            attributes={"long_name": "whether the map is there", "sweep": form.identity()},
+            dimension_names=list(parameters),
+        )
+        return cls(path, frozenset())
+
+    @classmethod
+    def _found(cls, path: str, form: Template) -> Store:
+        import zarr
+
+        try:
+            rendered = zarr.open_array(path, path=RENDERED, mode="r")
+        except (OSError, ValueError, KeyError) as error:
+            raise StoreError(f"{path} is no store of a sweep: {error}") from None
+        if rendered.attrs.get("sweep") != form.identity():
+            raise StoreError(f"{path} holds another sweep; choose another name")
+        return cls(path, frozenset(int(number) for number in np.flatnonzero(np.asarray(rendered))))
+
+    def put(self, index: tuple[int, ...], of: _isophote.Map) -> None:
+        import zarr
+
+        for name, array in {**arrays_of(of), RENDERED: np.array(True)}.items():
+            stored = zarr.open_array(self.path, path=name, mode="r+")
+            stored[index] = array
+
+    def dataset(self, form: Template) -> xarray.Dataset:
+        import xarray
+
+        dataset: xarray.Dataset = xarray.open_zarr(self.path, chunks=None, consolidated=False)
+        return dataset.drop_vars(RENDERED).assign_coords(form.dataset({}).coords)
+
+
+def arrays_of(of: _isophote.Map) -> dict[str, NDArray[Any]]:
+    return {**{name: of.channel(name) for name, _ in of.units()}, "visible": of.shapes() >= 0}
