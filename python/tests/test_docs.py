@@ -27,7 +27,7 @@ DOCS = ROOT / "docs"
 PAGES = [
     ROOT / "README.md",
     ROOT / "README.ru.md",
-    *(DOCS / name for name in ("tutorial.md", "tutorial.ru.md", "conventions.md", "conventions.ru.md")),
+    *(DOCS / name for name in ("tutorial.md", "tutorial.ru.md", "conventions.md", "conventions.ru.md", "validation.md")),
     *sorted((DOCS / "python").glob("*.md")),
 ]
 MODULES = [path for path in sorted((ROOT / "python/isophote").glob("*.py")) if ">>>" in path.read_text(encoding="utf-8")]
