@@ -9,45 +9,49 @@
 
 from __future__ import annotations
 
-from . import errors, scenes
+from typing import TYPE_CHECKING, Any
+
 from ._isophote import __version__
-from .analysis import GridMap, SurfaceMap, SurfaceTotals, grid, surface
-from .camera import Camera, Sampling, Screen, Window
-from .errors import (
-    ArgumentError,
-    Error,
-    InternalError,
-    ProbeError,
-    Problem,
-    RenderError,
-    SceneError,
-    SceneWarning,
-    StoreError,
-)
-from .files import MapFile, read
-from .formula import brightness
-from .lights import Ambient, LambertianLight, Light, ParallelLight, PointLight, SpotLight
-from .map import Axis, Isophote, Map
-from .materials import Convention, Material
-from .probing import Probes, Section, Values, probe, section
-from .rendering import render
-from .scene import Grid, Probe, Scene
-from .shapes import (
-    Box,
-    Cone,
-    Cylinder,
-    Disk,
-    Ellipsoid,
-    Mesh,
-    Plane,
-    Rectangle,
-    Rotation,
-    Shape,
-    Sphere,
-    Spheres,
-)
-from .stores import ChannelStatistics, StoredMap, render_to_zarr
-from .sweeps import sweep
+
+if TYPE_CHECKING:
+    from . import errors, scenes
+    from .analysis import GridMap, SurfaceMap, SurfaceTotals, grid, surface
+    from .camera import Camera, Sampling, Screen, Window
+    from .errors import (
+        ArgumentError,
+        Error,
+        InternalError,
+        ProbeError,
+        Problem,
+        RenderError,
+        SceneError,
+        SceneWarning,
+        StoreError,
+    )
+    from .files import MapFile, read
+    from .formula import brightness
+    from .lights import Ambient, LambertianLight, Light, ParallelLight, PointLight, SpotLight
+    from .map import Axis, Isophote, Map
+    from .materials import Convention, Material
+    from .probing import Probes, Section, Values, probe, section
+    from .rendering import render
+    from .scene import Grid, Probe, Scene
+    from .shapes import (
+        Box,
+        Cone,
+        Cylinder,
+        Disk,
+        Ellipsoid,
+        Mesh,
+        Plane,
+        Rectangle,
+        Rotation,
+        Shape,
+        Sphere,
+        Spheres,
+    )
+    from .stores import ChannelStatistics, StoredMap, render_to_zarr
+    from .sweeps import sweep
 
 __all__ = [
     "Ambient",
@@ -111,3 +115,61 @@ __all__ = [
     "surface",
     "sweep",
 ]
+
+# Nothing is loaded before it is used: NumPy alone takes longer than the command does for most of its work.
+_NAMES = {
+    "analysis": ("GridMap", "SurfaceMap", "SurfaceTotals", "grid", "surface"),
+    "camera": ("Camera", "Sampling", "Screen", "Window"),
+    "errors": (
+        "ArgumentError",
+        "Error",
+        "InternalError",
+        "ProbeError",
+        "Problem",
+        "RenderError",
+        "SceneError",
+        "SceneWarning",
+        "StoreError",
+    ),
+    "files": ("MapFile", "read"),
+    "formula": ("brightness",),
+    "lights": ("Ambient", "LambertianLight", "Light", "ParallelLight", "PointLight", "SpotLight"),
+    "map": ("Axis", "Isophote", "Map"),
+    "materials": ("Convention", "Material"),
+    "probing": ("Probes", "Section", "Values", "probe", "section"),
+    "rendering": ("render",),
+    "scene": ("Grid", "Probe", "Scene"),
+    "shapes": (
+        "Box",
+        "Cone",
+        "Cylinder",
+        "Disk",
+        "Ellipsoid",
+        "Mesh",
+        "Plane",
+        "Rectangle",
+        "Rotation",
+        "Shape",
+        "Sphere",
+        "Spheres",
+    ),
+    "stores": ("ChannelStatistics", "StoredMap", "render_to_zarr"),
+    "sweeps": ("sweep",),
+}
+_MODULES = {name: module for module, names in _NAMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    from importlib import import_module
+
+    if name in ("errors", "scenes"):
+        return import_module(f".{name}", __name__)
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f".{_MODULES[name]}", __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

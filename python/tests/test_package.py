@@ -34,5 +34,16 @@ def test_importing_it_imports_nothing_heavy():
     import subprocess
 
     heavy = ("matplotlib", "xarray", "dask", "distributed", "zarr", "tqdm")
-    program = f"import sys, isophote; print([name for name in {heavy!r} if name in sys.modules])"
-    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True).stdout.strip() == "[]"
+    for program, allowed in (
+        ("import isophote", []),
+        ("import isophote; isophote.render(isophote.scenes.lab())", ["numpy"]),
+    ):
+        loaded = f"{program}; import sys; print([name for name in {('numpy', *heavy)!r} if name in sys.modules])"
+        done = subprocess.run([sys.executable, "-c", loaded], capture_output=True, text=True, check=True)
+        assert done.stdout.strip() == str(allowed)
+
+
+def test_what_is_not_there_says_so():
+    with pytest.raises(AttributeError, match="no attribute 'rendr'"):
+        _ = iso.rendr
+    assert set(iso.__all__) <= set(dir(iso))
