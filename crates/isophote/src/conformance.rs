@@ -357,7 +357,7 @@ impl Compared<'_> {
         }
         if expected > 1e-3 * peak {
             deviation.at_edges = deviation.at_edges.max(relative);
-            let allowed = tolerance.at_edges * tolerance.growth(self.peak.least_cosine);
+            let allowed = tolerance.at_edge(least_cosine, self.peak.least_cosine);
             if !(relative <= allowed) {
                 return Err(self.off(expected, relative, "relative", allowed));
             }

@@ -21,8 +21,12 @@ pub struct Tolerance {
     pub flank: f64,
     /// Where a channel's peak is less, its numbers have lost digits already by being so small.
     pub least_peak: f64,
-    /// Relative, whatever the cosines, for values above a thousandth of the peak; it grows as `of_peak` does.
+    /// Relative, for values above a thousandth of the peak; it grows as `of_peak` does, and as 1/cosine below
+    /// [`edge_cosine`](Self::edge_cosine).
     pub at_edges: f64,
+    /// Of a smaller cosine the rounding of the directions leaves no more digits: next to a light that is brighter than anything
+    /// else would be, even such a cosine makes a value above a thousandth of the peak.
+    pub edge_cosine: f64,
 }
 
 /// Maps in double precision, against exact arithmetic on the scene in metres as it is stored.
@@ -38,6 +42,8 @@ pub const DOUBLE: Tolerance = Tolerance {
     flank: f64::INFINITY,
     least_peak: 1e-290,
     at_edges: 1e-9,
+    // Near an edge everything is computed in 32 digits.
+    edge_cosine: 0.0,
 };
 
 /// Brightness and its parts in single precision; geometry is double all the same. Its conditions are those of
@@ -55,6 +61,8 @@ pub const SINGLE: Tolerance = Tolerance {
     flank: 20.0,
     least_peak: 1e-30,
     at_edges: 1e-4,
+    // Five roundings of 6e-8 make 3e-7 of a cosine, which is 1e-4 of this one.
+    edge_cosine: 3e-3,
 };
 
 /// Values at a given point: nothing is lost in finding the point, so the cosines may be smaller.
@@ -71,5 +79,11 @@ impl Tolerance {
     #[must_use]
     pub fn growth(&self, least_cosine: f64) -> f64 {
         (self.peak_cosine / least_cosine).max(1.0)
+    }
+
+    /// [`at_edges`](Self::at_edges) for a value with this cosine, in a picture whose brightest pixel has that one.
+    #[must_use]
+    pub fn at_edge(&self, cosine: f64, least_cosine_of_peak: f64) -> f64 {
+        self.at_edges * self.growth(least_cosine_of_peak) * (self.edge_cosine / cosine).max(1.0)
     }
 }
