@@ -99,13 +99,13 @@ class Map(Mapping[str, NDArray[Any]]):
     @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns."""
-        (_, _, width, height), _ = self._core.region()
+        _, _, width, height = self._core.region()
         return height, width
 
     @property
     def region(self) -> tuple[int, int, int, int]:
         """The part of the image that the map holds: first column, first row, columns, rows."""
-        column, row, width, height = self._core.region()[0]
+        column, row, width, height = self._core.region()
         return column, row, width, height
 
     @property

@@ -4,7 +4,6 @@ use isophote::analysis::section::SectionLine;
 use isophote::analysis::surface::{Projection, SurfaceRequest};
 use isophote::map::{Quantity, Resolution};
 use isophote::shape::{Primitive, Side};
-use isophote::units::Choice;
 use isophote::vector::Vector;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -13,7 +12,7 @@ use crate::error;
 use crate::job::{self, Progress};
 use crate::map::Map;
 use crate::probe::Columns;
-use crate::render::quantities;
+use crate::render::{choice, quantities};
 use crate::scene::Scene;
 
 /// The values along a row, a column, or between two places on the screen (in the scene's unit or degrees).
@@ -109,9 +108,4 @@ pub fn grid(py: Python<'_>, scene: &Scene, name: &str, channels: Vec<String>) ->
     let content = scene.content();
     let map = job::run(py, &Progress::none(), move |_| content.prepared().grid(&grid, &quantities))?;
     Ok(Map::new(map.map_err(|error| error::value(py, error))?))
-}
-
-fn choice<C: Choice>(py: Python<'_>, what: &str, name: &str) -> PyResult<C> {
-    let allowed = || C::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ");
-    C::from_name(name).ok_or_else(|| error::value(py, format!("there is no {what} \"{name}\"; allowed: {}", allowed())))
 }

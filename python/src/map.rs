@@ -10,7 +10,7 @@ use isophote::export::colormap::Colormap;
 use isophote::export::csv::Rows;
 use isophote::export::png::{Depth, PictureColor, PictureOptions};
 use isophote::export::{self, ExportError, FileMetadata, Format, write_atomically};
-use isophote::map::{Map as CoreMap, Quantity, Resolution, Run, Values};
+use isophote::map::{Channel, Map as CoreMap, Quantity, Region, Resolution, Run, Values};
 use isophote::units::Choice;
 use numpy::ndarray::{ArrayView, Dimension, ShapeBuilder};
 use numpy::{Element, IntoPyArray, PyArray, PyArray2, PyArrayMethods, PyReadwriteArrayDyn, PyUntypedArrayMethods};
@@ -20,6 +20,7 @@ use pyo3::types::PyBytes;
 
 use crate::error;
 use crate::job::{self, Progress, Watch};
+use crate::render::choice;
 
 /// A map of the core; its arrays are views of its memory.
 #[pyclass(frozen, module = "isophote._isophote")]
@@ -38,9 +39,13 @@ impl Map {
         Self { map: Arc::new(map) }
     }
 
+    fn named(&self, name: &str) -> PyResult<&Channel> {
+        let mut held = self.map.channels().iter();
+        held.find(|channel| channel.quantity.name() == name).ok_or_else(|| PyKeyError::new_err(name.to_owned()))
+    }
+
     fn quantity(&self, name: &str) -> PyResult<&Quantity> {
-        let mut held = self.map.channels().iter().map(|channel| &channel.quantity);
-        held.find(|quantity| quantity.name() == name).ok_or_else(|| PyKeyError::new_err(name.to_owned()))
+        Ok(&self.named(name)?.quantity)
     }
 }
 
@@ -54,10 +59,9 @@ impl Map {
     /// A channel as a read-only array of height × width or height × width × 3.
     fn channel<'py>(this: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let map = this.get();
-        let channel = map.map.channel(map.quantity(name)?).ok_or_else(|| PyKeyError::new_err(name.to_owned()))?;
         let Resolution { width, height } = map.map.region.size;
         let [height, width] = [height as usize, width as usize];
-        match &channel.values {
+        match &map.named(name)?.values {
             Values::Scalar(values) => view(this, values, [height, width]),
             Values::Single(values) => view(this, values, [height, width]),
             Values::Index(values) => view(this, values, [height, width]),
@@ -88,10 +92,10 @@ impl Map {
         Ok(statistics(&self.map, quantity).map(|of| (place(of.min), place(of.max), of.mean)))
     }
 
-    /// Column, row, width and height of the part of the image, and width and height of the whole.
-    fn region(&self) -> ([u32; 4], [u32; 2]) {
-        let (region, full) = (self.map.region, self.map.full);
-        ([region.corner.column, region.corner.row, region.size.width, region.size.height], [full.width, full.height])
+    /// Column, row, width and height of the part of the image that the map holds.
+    fn region(&self) -> [u32; 4] {
+        let Region { corner, size } = self.map.region;
+        [corner.column, corner.row, size.width, size.height]
     }
 
     /// For each of the two directions: name, title, unit, first and last edge.
@@ -176,9 +180,7 @@ impl Map {
         let Some(name) = name else {
             return copy(py, out, |seen: &mut [bool]| runs.iter().for_each(|run| seen[run.start..run.end].fill(true)));
         };
-        let quantity = self.quantity(name)?;
-        let Some(channel) = self.map.channel(quantity) else { return Err(PyKeyError::new_err(name.to_owned())) };
-        match &channel.values {
+        match &self.named(name)?.values {
             Values::Scalar(values) => copy(py, out, |out| copy_runs(runs, values, out, 1)),
             Values::Single(values) => copy(py, out, |out| copy_runs(runs, values, out, 1)),
             Values::Vector(values) => copy(py, out, |out| copy_runs(runs, values.as_flattened(), out, 3)),
@@ -282,10 +284,7 @@ fn depth(py: Python<'_>, bits: u8) -> PyResult<Depth> {
 }
 
 fn colormap_named(py: Python<'_>, name: Option<&str>) -> PyResult<Option<Colormap>> {
-    let Some(name) = name else { return Ok(None) };
-    let allowed = || Colormap::ALL.iter().map(|colormap| colormap.name()).collect::<Vec<_>>().join(", ");
-    let unknown = || error::value(py, format!("there is no colour map \"{name}\"; allowed: {}", allowed()));
-    Colormap::from_name(name).map(Some).ok_or_else(unknown)
+    name.map(|name| choice(py, "colour map", name)).transpose()
 }
 
 /// An array of a channel's own memory, which the array keeps alive and nobody can write.

@@ -47,11 +47,7 @@ pub fn probe_points<'py>(
         return Err(error::probe(py, message, vec![index]));
     }
     let snaps = elsewhere == "nearest";
-    let place = |point: [f64; 3]| {
-        let metres = Vector::from(point.map(|coordinate| length.to_metres(coordinate)));
-        if snaps { Place::NearestTo(metres) } else { Place::Point(metres) }
-    };
-    let places = points.into_iter().map(|point| is_possible(&point).then(|| place(point))).collect();
+    let places = points.into_iter().map(|point| is_possible(&point).then(|| place_of(point, length, snaps))).collect();
     probe_places(py, scene, places, elsewhere == "nan", per_light, progress)
 }
 
@@ -159,6 +155,12 @@ fn probe_places<'py>(
     Ok(columns)
 }
 
+/// A point in the scene's unit, or that of the nearest surface.
+fn place_of(point: [f64; 3], length: LengthUnit, snaps: bool) -> Place {
+    let metres = Vector::from(point.map(|coordinate| length.to_metres(coordinate)));
+    if snaps { Place::NearestTo(metres) } else { Place::Point(metres) }
+}
+
 fn advance(watch: &Watch, count: usize) {
     // Who is stopped finds out before its next point.
     let (ControlFlow::Continue(()) | ControlFlow::Break(())) = watch.advance(count as u64);
@@ -193,10 +195,7 @@ pub fn explain(
 ) -> PyResult<String> {
     let length = scene.core().length();
     let place = match (point, pixel) {
-        (Some(point), None) => {
-            let metres = Vector::from(point.map(|coordinate| length.to_metres(coordinate)));
-            if snaps { Place::NearestTo(metres) } else { Place::Point(metres) }
-        }
+        (Some(point), None) => place_of(point, length, snaps),
         (None, Some([column, row])) => Place::Pixel(Pixel { column, row }),
         _ => return Err(error::value(py, "say where: one of point and pixel")),
     };

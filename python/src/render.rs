@@ -27,7 +27,7 @@ pub fn render(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Map> {
     let quantities = quantities(py, &channels)?;
-    let renderer = renderer(py, self::precision(py, precision)?, threads)?;
+    let renderer = renderer(py, choice(py, "precision", precision)?, threads)?;
     let region = region.map_or_else(|| Region::all(scene.core().camera().resolution), region_of);
     let content = scene.content();
     let total = region.size.pixels() as u64;
@@ -50,9 +50,10 @@ fn region_of([column, row, width, height]: [u32; 4]) -> Region {
     Region { corner: Pixel { column, row }, size: Resolution { width, height } }
 }
 
-pub fn precision(py: Python<'_>, name: &str) -> PyResult<Precision> {
-    let unknown = || error::value(py, format!("there is no precision \"{name}\"; allowed: double, single"));
-    Precision::from_name(name).ok_or_else(unknown)
+/// A member of a closed set by its name.
+pub fn choice<C: Choice>(py: Python<'_>, what: &str, name: &str) -> PyResult<C> {
+    let allowed = || C::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ");
+    C::from_name(name).ok_or_else(|| error::value(py, format!("there is no {what} \"{name}\"; allowed: {}", allowed())))
 }
 
 /// Channels by their names. Whether the scene has the lights in them is checked by the work itself.

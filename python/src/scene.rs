@@ -13,7 +13,7 @@ use pyo3::types::PyDict;
 
 use crate::error;
 use crate::job::{self, Progress};
-use crate::render::quantities;
+use crate::render::{choice, quantities};
 
 /// A scene that is valid.
 #[pyclass(frozen, module = "isophote._isophote")]
@@ -39,7 +39,9 @@ impl Content {
     pub fn prepared(&self) -> Arc<PreparedScene> {
         let prepare = || {
             Arc::new(match &self.origin {
-                Some(origin) if self.is_large() => PreparedScene::after(&origin.prepared(), &self.scene),
+                Some(origin) if PreparedScene::builds_tree(&self.scene) => {
+                    PreparedScene::after(&origin.prepared(), &self.scene)
+                }
                 _ => PreparedScene::new(&self.scene),
             })
         };
@@ -48,17 +50,9 @@ impl Content {
 
     /// The same, if it is there already or takes no time.
     pub fn prepared_at_once(&self) -> Option<Arc<PreparedScene>> {
-        (self.prepared.get().is_some() || !self.is_large()).then(|| self.prepared())
-    }
-
-    fn is_large(&self) -> bool {
-        let shapes = self.scene.shapes();
-        shapes.len() > FEW || shapes.iter().any(|shape| shape.geometry.parts() > 1)
+        (self.prepared.get().is_some() || !PreparedScene::builds_tree(&self.scene)).then(|| self.prepared())
     }
 }
-
-/// With more shapes than this there is a tree to be built.
-const FEW: usize = 8;
 
 impl Scene {
     fn new(py: Python<'_>, scene: Result<CoreScene, SceneError>, origin: Option<&Arc<Content>>) -> PyResult<Self> {
@@ -179,7 +173,6 @@ impl Scene {
         let (convention, quantities) = (scene.convention(), scene.quantities());
         let description = PyDict::new(py);
         description.set_item("convention", convention.label())?;
-        description.set_item("formula", convention.formula())?;
         description.set_item("brightness_unit", convention.unit(quantities))?;
         description.set_item("irradiance_unit", quantities.irradiance_unit())?;
         description.set_item("radiance_unit", quantities.radiance_unit())?;
@@ -187,8 +180,6 @@ impl Scene {
         description.set_item("power_unit", quantities.power_unit())?;
         description.set_item("screen_unit", scene.screen_unit().name())?;
         description.set_item("shapes", scene.shapes().iter().map(|shape| shape.name.as_str()).collect::<Vec<_>>())?;
-        let kinds = scene.shapes().iter().map(|shape| shape.geometry.kind());
-        description.set_item("kinds", kinds.collect::<Vec<_>>())?;
         let lights = scene.lights().iter().map(|light| light.name.as_str());
         description.set_item("lights", lights.collect::<Vec<_>>())?;
         description.set_item("grids", scene.grids().iter().map(|grid| grid.name.as_str()).collect::<Vec<_>>())?;
@@ -204,5 +195,5 @@ impl Scene {
 /// The text of a scene to start from.
 #[pyfunction]
 pub fn starter(py: Python<'_>, name: &str) -> PyResult<&'static str> {
-    Ok(Starter::from_name(name).ok_or_else(|| error::value(py, format!("there is no scene \"{name}\"")))?.text())
+    Ok(choice::<Starter>(py, "scene", name)?.text())
 }

@@ -8,18 +8,19 @@ use isophote::lanes::Precision;
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::render::Lanes;
-use isophote_zarr::{Check, MapStatistics, Opening, Outcome, Part, Request, Store, StoreError, Workers};
+use isophote_zarr::{Check, MapStatistics, Opening, Part, Request, Store, StoreError, Workers};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error;
 use crate::job::{self, Progress};
-use crate::render::{precision, quantities};
+use crate::render::{choice, quantities};
 use crate::scene::Scene;
 
 /// What is put into a store, and how.
 struct Plan {
     path: PathBuf,
+    /// Without duplicates, as the package names them.
     quantities: Vec<Quantity>,
     precision: Precision,
     shard_side: Option<NonZeroU32>,
@@ -48,29 +49,23 @@ pub fn store_prepare(
     precision: &str,
     shard_side: Option<NonZeroU32>,
     resume: bool,
-) -> PyResult<(Vec<u32>, u64)> {
+) -> PyResult<(Vec<u64>, u64)> {
     let plan = plan(py, path, &channels, precision, shard_side)?;
     let content = scene.content();
     let opening = if resume { Opening::Continue } else { Opening::New };
     let found = job::run_to_its_end(py, &Progress::none(), move |_| {
         let prepared = content.prepared();
         let store = plan.open(&prepared, None, opening)?;
-        let count = store.plan().count();
-        let is_due = |number: &u32| {
-            let part = u32::try_from(count).ok().and_then(|count| Part::new(number + 1, count));
-            let [done, all] = store.pixels(part);
-            done < all
-        };
-        Ok(((0..u32::try_from(count).unwrap_or(u32::MAX)).filter(is_due).collect(), count))
+        Ok((store.due(None).map(|(number, _)| number).collect(), store.plan().count()))
     })?;
     found.map_err(|error| error::of_store(py, &error))
 }
 
-/// Renders one shard of a store, or all that are left; for all, gives the statistics of the whole.
+/// Renders one shard of a store, or all that are left.
 #[pyfunction]
 #[pyo3(signature = (scene, path, channels, precision, shard_side, shard, threads, memory, progress))]
-pub fn store_render<'py>(
-    py: Python<'py>,
+pub fn store_render(
+    py: Python<'_>,
     scene: &Scene,
     path: PathBuf,
     channels: Vec<String>,
@@ -80,7 +75,7 @@ pub fn store_render<'py>(
     threads: Option<NonZeroUsize>,
     memory: Option<u64>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Option<Bound<'py, PyDict>>> {
+) -> PyResult<()> {
     let plan = plan(py, path, &channels, precision, shard_side)?;
     let part = shard.and_then(|[number, count]| Part::new(number + 1, count));
     let threads = threads.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN);
@@ -92,10 +87,7 @@ pub fn store_render<'py>(
         let store = plan.open(&prepared, part, Opening::Continue)?;
         store.render(&prepared, &plan.renderer(), Workers { threads, memory }, part, Some(watch))
     })?;
-    match outcome.map_err(|error| error::of_store(py, &error))? {
-        Outcome::Complete(statistics) => Ok(Some(described(py, &statistics)?)),
-        Outcome::Part { .. } => Ok(None),
-    }
+    outcome.map(|_| ()).map_err(|error| error::of_store(py, &error))
 }
 
 /// Puts the parts of a store together; with `check` every byte is read.
@@ -117,13 +109,8 @@ fn plan(
     precision: &str,
     shard_side: Option<NonZeroU32>,
 ) -> PyResult<Plan> {
-    let mut distinct: Vec<Quantity> = Vec::new();
-    for quantity in quantities(py, channels)? {
-        if !distinct.contains(&quantity) {
-            distinct.push(quantity);
-        }
-    }
-    Ok(Plan { path, quantities: distinct, precision: self::precision(py, precision)?, shard_side })
+    let (quantities, precision) = (quantities(py, channels)?, choice(py, "precision", precision)?);
+    Ok(Plan { path, quantities, precision, shard_side })
 }
 
 fn described<'py>(py: Python<'py>, statistics: &MapStatistics) -> PyResult<Bound<'py, PyDict>> {

@@ -57,6 +57,13 @@ impl Store {
         pixels
     }
 
+    /// The shards of the part that were not done when the store was opened, with their numbers in the plan.
+    pub fn due(&self, part: Option<Part>) -> impl Iterator<Item = (u64, Shard)> {
+        let shards = (0..).zip(self.plan().shards()).zip(&self.was_done);
+        let is_due = move |index, is_done: bool| !is_done && part.is_none_or(|part| part.has(index));
+        shards.filter(move |((index, _), is_done)| is_due(*index, **is_done)).map(|(shard, _)| shard)
+    }
+
     /// Computes what is not done yet, and puts the results together unless only a part was asked for. The renderer
     /// works in each thread by itself: it should use no threads of its own.
     ///
@@ -70,10 +77,7 @@ impl Store {
         part: Option<Part>,
         observer: Option<&dyn Observer>,
     ) -> Result<Outcome, StoreError> {
-        let shards = self.plan().shards().zip(&self.was_done).zip(0..);
-        let is_due = |index, is_done: bool| !is_done && part.is_none_or(|part| part.has(index));
-        let due: Vec<Shard> =
-            shards.filter(|((_, is_done), index)| is_due(*index, **is_done)).map(|((shard, _), _)| shard).collect();
+        let due: Vec<Shard> = self.due(part).map(|(_, shard)| shard).collect();
         let count = self.workers(workers, need(scene, renderer, &self.quantities())?, &lights(scene))?.min(due.len());
         let work = Work {
             store: self,

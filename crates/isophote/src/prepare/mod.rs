@@ -99,6 +99,12 @@ impl PreparedScene {
         Self::with_accelerator(scene, if are_same { Arc::clone(&earlier.accelerator) } else { Arc::default() })
     }
 
+    /// Whether laying a scene out builds a tree, which may take a while.
+    #[must_use]
+    pub fn builds_tree(scene: &Scene) -> bool {
+        scene.shapes.iter().map(|shape| shape.geometry.parts()).sum::<u32>() > HANDFUL
+    }
+
     fn with_accelerator(scene: &Scene, accelerator: Arc<OnceLock<Accelerator>>) -> Self {
         let shapes = scene.shapes.iter().map(|shape| PreparedShape {
             geometry: shape.geometry.clone(),
@@ -125,7 +131,7 @@ impl PreparedScene {
             components: None,
             scene: Arc::new(scene.clone()),
         };
-        if prepared.primitive_count() > HANDFUL {
+        if Self::builds_tree(scene) {
             prepared.accelerator();
         }
         prepared.components = prepared.split_into_components();

@@ -187,14 +187,9 @@ impl PointKernel<'_> {
             let above = length - V::splat(kind, sphere.sphere.radius);
             let gap = above.max(-above);
             let is_nearer = gap.is_less(nearest);
-            let is_on = if snaps {
-                V::splat(kind, 0.0)
-            } else {
-                // (1 − δ) times the tolerance would do as well: no point is that near to the bound on purpose.
-                gap - V::splat(kind, sphere.tolerance)
-            };
+            let tolerance = V::splat(kind, if snaps { f64::INFINITY } else { sphere.tolerance });
             let index = V::splat(kind, sphere.index);
-            let there = V::select(V::splat(kind, 0.0).is_less(is_on), V::splat(kind, -1.0), index);
+            let there = V::select(tolerance.is_less(gap), V::splat(kind, -1.0), index);
             nearest = V::select(is_nearer, gap, nearest);
             shape = V::select(is_nearer, there, shape);
             distance = V::select(is_nearer, length, distance);
