@@ -1,7 +1,7 @@
 //! Sections, maps of surfaces, grids.
 
 use isophote::analysis::section::SectionLine;
-use isophote::analysis::surface::{Projection, SurfaceRequest};
+use isophote::analysis::surface::{SurfaceProjection, SurfaceRequest};
 use isophote::map::{Quantity, Resolution};
 use isophote::shape::{Primitive, Side};
 use isophote::vector::Vector;
@@ -12,7 +12,7 @@ use crate::error;
 use crate::job::{self, Progress};
 use crate::map::Map;
 use crate::probe::Columns;
-use crate::render::{choice, quantities};
+use crate::render::{keyword, quantities};
 use crate::scene::Scene;
 
 /// The values along a row, a column, or between two places on the screen (in the scene's unit or degrees).
@@ -70,9 +70,9 @@ pub fn surface<'py>(
     let quantities = quantities(py, &channels)?;
     let request = SurfaceRequest {
         primitive: Primitive { shape: scene.shape_named(py, shape)?, part },
-        projection: choice::<Projection>(py, "projection", projection)?,
+        projection: keyword::<SurfaceProjection>(py, "projection", projection)?,
         axis: axis.map(Vector::from),
-        side: choice::<Side>(py, "side", side)?,
+        side: keyword::<Side>(py, "side", side)?,
         size: size.map(|[width, height]| Resolution { width, height }),
     };
     let content = scene.content();

@@ -3,7 +3,7 @@
 use isophote::reflectance::{BrightnessFormula, Convention};
 use isophote::shade::shade;
 use isophote::shape::SurfacePoint;
-use isophote::units::Choice;
+use isophote::units::Keyword;
 use isophote::vector::Vector;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;

@@ -11,7 +11,7 @@ use isophote::export::csv::Rows;
 use isophote::export::png::{Depth, PictureColor, PictureOptions};
 use isophote::export::{self, ExportError, FileMetadata, Format, write_atomically};
 use isophote::map::{Channel, Map as CoreMap, Quantity, Region, Resolution, Run, Values};
-use isophote::units::Choice;
+use isophote::units::Keyword;
 use numpy::ndarray::{ArrayView, Dimension, ShapeBuilder};
 use numpy::{Element, IntoPyArray, PyArray, PyArray2, PyArrayMethods, PyReadwriteArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyKeyError;
@@ -20,7 +20,7 @@ use pyo3::types::PyBytes;
 
 use crate::error;
 use crate::job::{self, Progress, Watch};
-use crate::render::choice;
+use crate::render::keyword;
 
 /// A map of the core; its arrays are views of its memory.
 #[pyclass(frozen, module = "isophote._isophote")]
@@ -284,7 +284,7 @@ fn depth(py: Python<'_>, bits: u8) -> PyResult<Depth> {
 }
 
 fn colormap_named(py: Python<'_>, name: Option<&str>) -> PyResult<Option<Colormap>> {
-    name.map(|name| choice(py, "colour map", name)).transpose()
+    name.map(|name| keyword(py, "colour map", name)).transpose()
 }
 
 /// An array of a channel's own memory, which the array keeps alive and nobody can write.

@@ -2,13 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use isophote::analysis::probe::{Place, ProbeError, ProbeReading};
+use isophote::analysis::probe::{ProbeError, ProbePosition, ProbeReading};
 use isophote::map::Pixel;
 use isophote::prepare::Hit;
 use isophote::render::{Observer, PointKernel, PointValues};
 use isophote::scene::{Scene as CoreScene, limits};
 use isophote::shade::Shading;
-use isophote::units::{Choice, LengthUnit};
+use isophote::units::{Keyword, LengthUnit};
 use isophote::vector::Vector;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -99,14 +99,14 @@ pub fn probe_pixels<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let pixels = pixels.as_array();
-    let places = pixels.rows().into_iter().map(|row| Some(Place::Pixel(Pixel { column: row[0], row: row[1] })));
+    let places = pixels.rows().into_iter().map(|row| Some(ProbePosition::Pixel(Pixel { column: row[0], row: row[1] })));
     probe_places(py, scene, places.collect(), elsewhere == "nan", per_light, progress)
 }
 
 fn probe_places<'py>(
     py: Python<'py>,
     scene: &Scene,
-    places: Vec<Option<Place>>,
+    places: Vec<Option<ProbePosition>>,
     leaves_gaps: bool,
     per_light: bool,
     progress: Option<Py<PyAny>>,
@@ -120,7 +120,7 @@ fn probe_places<'py>(
     let progress = Progress { function: progress, total: count as u64 };
     let chunks = job::run(py, &progress, move |watch| {
         let prepared = content.prepared();
-        let chunk = |places: &[Option<Place>]| {
+        let chunk = |places: &[Option<ProbePosition>]| {
             let mut columns = Columns::new(places.len(), lights, has_color);
             let mut refusals = Vec::new();
             for (index, place) in places.iter().enumerate() {
@@ -156,9 +156,9 @@ fn probe_places<'py>(
 }
 
 /// A point in the scene's unit, or that of the nearest surface.
-fn place_of(point: [f64; 3], length: LengthUnit, snaps: bool) -> Place {
+fn place_of(point: [f64; 3], length: LengthUnit, snaps: bool) -> ProbePosition {
     let metres = Vector::from(point.map(|coordinate| length.to_metres(coordinate)));
-    if snaps { Place::NearestTo(metres) } else { Place::Point(metres) }
+    if snaps { ProbePosition::NearestTo(metres) } else { ProbePosition::Point(metres) }
 }
 
 fn advance(watch: &Watch, count: usize) {
@@ -196,7 +196,7 @@ pub fn explain(
     let length = scene.core().length();
     let place = match (point, pixel) {
         (Some(point), None) => place_of(point, length, snaps),
-        (None, Some([column, row])) => Place::Pixel(Pixel { column, row }),
+        (None, Some([column, row])) => ProbePosition::Pixel(Pixel { column, row }),
         _ => return Err(error::value(py, "say where: one of point and pixel")),
     };
     let content = scene.content();

@@ -5,8 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use isophote::lanes::Precision;
 use isophote::map::{Pixel, Quantity, Region, Resolution};
-use isophote::render::{Lanes, RenderSettings, Renderer};
-use isophote::units::Choice;
+use isophote::render::{RenderSettings, Renderer, SimdRenderer};
+use isophote::units::Keyword;
 use pyo3::prelude::*;
 
 use crate::error;
@@ -27,7 +27,7 @@ pub fn render(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Map> {
     let quantities = quantities(py, &channels)?;
-    let renderer = renderer(py, choice(py, "precision", precision)?, threads)?;
+    let renderer = renderer(py, keyword(py, "precision", precision)?, threads)?;
     let region = region.map_or_else(|| Region::all(scene.core().camera().resolution), region_of);
     let content = scene.content();
     let total = region.size.pixels() as u64;
@@ -51,7 +51,7 @@ fn region_of([column, row, width, height]: [u32; 4]) -> Region {
 }
 
 /// A member of a closed set by its name.
-pub fn choice<C: Choice>(py: Python<'_>, what: &str, name: &str) -> PyResult<C> {
+pub fn keyword<C: Keyword>(py: Python<'_>, what: &str, name: &str) -> PyResult<C> {
     let allowed = || C::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ");
     C::from_name(name).ok_or_else(|| error::value(py, format!("there is no {what} \"{name}\"; allowed: {}", allowed())))
 }
@@ -68,13 +68,13 @@ pub fn quantities(py: Python<'_>, names: &[String]) -> PyResult<Vec<Quantity>> {
     names.iter().map(quantity).collect()
 }
 
-/// Renderers keep their threads, which take longer to start than a small map to render. Kept are those of the number of threads
+/// Renderers keep their threads, which take longer to start than a small map to render. GeometryCache are those of the number of threads
 /// that the machine has, and of the last other number; for each process, for a forked one has none of its parent's threads.
 ///
 /// The lock is only ever held by who holds the interpreter's, so that it is free in a forked process.
-fn renderer(py: Python<'_>, precision: Precision, threads: Option<NonZeroUsize>) -> PyResult<Arc<Lanes>> {
+fn renderer(py: Python<'_>, precision: Precision, threads: Option<NonZeroUsize>) -> PyResult<Arc<SimdRenderer>> {
     type Key = (u32, Precision, Option<NonZeroUsize>);
-    static RENDERERS: Mutex<Vec<(Key, Arc<Lanes>)>> = Mutex::new(Vec::new());
+    static RENDERERS: Mutex<Vec<(Key, Arc<SimdRenderer>)>> = Mutex::new(Vec::new());
     if let Some(threads) = threads.filter(|threads| threads.get() > MOST_THREADS) {
         return Err(error::value(py, format!("threads is {threads}; allowed: 1 to {MOST_THREADS}")));
     }
@@ -89,7 +89,7 @@ fn renderer(py: Python<'_>, precision: Precision, threads: Option<NonZeroUsize>)
         renderers
             .retain(|((of, _, threads), _)| *of != process || threads.is_none() || *threads == Some(NonZeroUsize::MIN));
     }
-    let renderer = Arc::new(Lanes::new(precision, threads));
+    let renderer = Arc::new(SimdRenderer::new(precision, threads));
     renderers.push((key, Arc::clone(&renderer)));
     Ok(renderer)
 }

@@ -7,13 +7,12 @@ use isophote::map::Resolution;
 use isophote::prepare::PreparedScene;
 use isophote::scene::library::Starter;
 use isophote::scene::{Scene as CoreScene, SceneError, Syntax};
-use isophote::units::Choice;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error;
 use crate::job::{self, Progress};
-use crate::render::{choice, quantities};
+use crate::render::{keyword, quantities};
 
 /// A scene that is valid.
 #[pyclass(frozen, module = "isophote._isophote")]
@@ -40,7 +39,7 @@ impl Content {
         let prepare = || {
             Arc::new(match &self.origin {
                 Some(origin) if PreparedScene::builds_tree(&self.scene) => {
-                    PreparedScene::after(&origin.prepared(), &self.scene)
+                    PreparedScene::reusing(&origin.prepared(), &self.scene)
                 }
                 _ => PreparedScene::new(&self.scene),
             })
@@ -107,7 +106,7 @@ impl Scene {
         let before = origin.clone();
         let scene = Self::read(py, names_files, move || {
             let earlier = before.as_ref().map(|before| &before.scene);
-            CoreScene::from_text_after(earlier, &directory, "the scene", &text, Syntax::Json)
+            CoreScene::from_text_reusing(earlier, &directory, "the scene", &text, Syntax::Json)
         })?;
         let scene = scene.map_err(|mut error| {
             for problem in &mut error.problems {
@@ -160,7 +159,7 @@ impl Scene {
     fn unit(&self, py: Python<'_>, channel: String) -> PyResult<&'static str> {
         let scene = self.core();
         let quantity = &quantities(py, &[channel])?[0];
-        Ok(quantity.unit(scene.convention(), scene.quantities(), scene.length()))
+        Ok(quantity.unit(scene.convention(), scene.unit_system(), scene.length()))
     }
 
     fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
@@ -170,14 +169,14 @@ impl Scene {
     /// What the scene is made of, by the names that maps and probes use.
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let scene = self.core();
-        let (convention, quantities) = (scene.convention(), scene.quantities());
+        let (convention, units) = (scene.convention(), scene.unit_system());
         let description = PyDict::new(py);
         description.set_item("convention", convention.label())?;
-        description.set_item("brightness_unit", convention.unit(quantities))?;
-        description.set_item("irradiance_unit", quantities.irradiance_unit())?;
-        description.set_item("radiance_unit", quantities.radiance_unit())?;
-        description.set_item("intensity_unit", quantities.intensity_unit())?;
-        description.set_item("power_unit", quantities.power_unit())?;
+        description.set_item("brightness_unit", convention.unit(units))?;
+        description.set_item("irradiance_unit", units.irradiance_unit())?;
+        description.set_item("radiance_unit", units.radiance_unit())?;
+        description.set_item("intensity_unit", units.intensity_unit())?;
+        description.set_item("power_unit", units.power_unit())?;
         description.set_item("screen_unit", scene.screen_unit().name())?;
         description.set_item("shapes", scene.shapes().iter().map(|shape| shape.name.as_str()).collect::<Vec<_>>())?;
         let lights = scene.lights().iter().map(|light| light.name.as_str());
@@ -185,7 +184,7 @@ impl Scene {
         description.set_item("grids", scene.grids().iter().map(|grid| grid.name.as_str()).collect::<Vec<_>>())?;
         let probes: Vec<_> = scene.probes().iter().map(|probe| probe.name.as_str()).collect();
         description.set_item("probes", probes)?;
-        description.set_item("is_sampled", scene.sampling().is_more_than_centres())?;
+        description.set_item("is_sampled", scene.sampling().is_multisampled())?;
         let resolution = scene.camera().resolution;
         description.set_item("resolution", (resolution.width, resolution.height))?;
         Ok(description)
@@ -195,5 +194,5 @@ impl Scene {
 /// The text of a scene to start from.
 #[pyfunction]
 pub fn starter(py: Python<'_>, name: &str) -> PyResult<&'static str> {
-    Ok(choice::<Starter>(py, "scene", name)?.text())
+    Ok(keyword::<Starter>(py, "scene", name)?.text())
 }

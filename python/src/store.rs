@@ -7,14 +7,14 @@ use isophote::analysis::statistics::Extreme;
 use isophote::lanes::Precision;
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
-use isophote::render::Lanes;
+use isophote::render::SimdRenderer;
 use isophote_zarr::{Check, MapStatistics, Opening, Part, Request, Store, StoreError, Workers};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error;
 use crate::job::{self, Progress};
-use crate::render::{choice, quantities};
+use crate::render::{keyword, quantities};
 use crate::scene::Scene;
 
 /// What is put into a store, and how.
@@ -28,8 +28,8 @@ struct Plan {
 
 impl Plan {
     /// One worker renders by itself, as the store wants it.
-    fn renderer(&self) -> Lanes {
-        Lanes::new(self.precision, Some(NonZeroUsize::MIN))
+    fn renderer(&self) -> SimdRenderer {
+        SimdRenderer::new(self.precision, Some(NonZeroUsize::MIN))
     }
 
     fn open(&self, scene: &PreparedScene, part: Option<Part>, opening: Opening) -> Result<Store, StoreError> {
@@ -109,7 +109,7 @@ fn plan(
     precision: &str,
     shard_side: Option<NonZeroU32>,
 ) -> PyResult<Plan> {
-    let (quantities, precision) = (quantities(py, channels)?, choice(py, "precision", precision)?);
+    let (quantities, precision) = (quantities(py, channels)?, keyword(py, "precision", precision)?);
     Ok(Plan { path, quantities, precision, shard_side })
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
-use isophote::analysis::surface::Projection;
+use isophote::analysis::surface::SurfaceProjection;
 use isophote::export::colormap::Colormap;
 use isophote::lanes::Precision;
 use isophote::map::{Pixel, Region, Resolution};
@@ -13,7 +13,7 @@ use isophote::render::Filter;
 use isophote::scene::library::Starter;
 use isophote::scene::source::SamplingSource;
 use isophote::shape::Side;
-use isophote::units::Choice;
+use isophote::units::Keyword;
 use isophote_zarr::Part;
 
 use crate::numbers;
@@ -85,7 +85,7 @@ pub struct SamplingArguments {
     pub tolerance: Option<f64>,
 
     /// What a pixel is a mean over: its own area (box), or more (triangle, gaussian, mitchell)
-    #[arg(long, value_name = "NAME", value_parser = choice::<Filter>())]
+    #[arg(long, value_name = "NAME", value_parser = keyword::<Filter>())]
     pub filter: Option<Filter>,
 }
 
@@ -134,7 +134,7 @@ pub struct RenderArguments {
     pub region: Option<Region>,
 
     /// Colours of pictures and figures (pictures are grey by default, figures viridis)
-    #[arg(long, value_name = "NAME", value_parser = choice::<Colormap>())]
+    #[arg(long, value_name = "NAME", value_parser = keyword::<Colormap>())]
     pub colormap: Option<Colormap>,
 
     /// The values that become the first and the last colour (by default 0 and the maximum; in figures the minimum and
@@ -159,7 +159,7 @@ pub struct RenderArguments {
     pub visible_only: bool,
 
     /// How brightness is computed: in 64 bits (double), or in 32 (single), faster and exact to 3e-6 of the maximum
-    #[arg(long, value_name = "PRECISION", default_value = "double", value_parser = choice::<Precision>())]
+    #[arg(long, value_name = "PRECISION", default_value = "double", value_parser = keyword::<Precision>())]
     pub precision: Precision,
 
     /// How many threads compute; as many as there are processors by default
@@ -303,8 +303,8 @@ pub struct SurfaceArguments {
     pub size: Option<Resolution>,
 
     /// Even steps of latitude or radius, or rows of equal area
-    #[arg(long, value_name = "NAME", default_value = "equirectangular", value_parser = choice::<Projection>())]
-    pub projection: Projection,
+    #[arg(long, value_name = "NAME", default_value = "equirectangular", value_parser = keyword::<SurfaceProjection>())]
+    pub projection: SurfaceProjection,
 
     /// The direction in which the latitude of a sphere is 90° (by default 0,1,0)
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_direction)]
@@ -315,7 +315,7 @@ pub struct SurfaceArguments {
     pub towards: Option<String>,
 
     /// Which side: the outside of a closed shape and the side of a flat one's normal, or the other
-    #[arg(long, value_name = "SIDE", default_value = "front", value_parser = choice::<Side>())]
+    #[arg(long, value_name = "SIDE", default_value = "front", value_parser = keyword::<Side>())]
     pub side: Side,
 
     /// Channel: irradiance, light.NAME, position, normal, or brightness, color, diffuse or specular as the eye sees them;
@@ -347,7 +347,7 @@ pub struct SurfaceArguments {
 #[derive(Args)]
 pub struct CellStyleArguments {
     /// Colours of pictures and figures (pictures are grey by default, figures viridis)
-    #[arg(long, value_name = "NAME", value_parser = choice::<Colormap>())]
+    #[arg(long, value_name = "NAME", value_parser = keyword::<Colormap>())]
     pub colormap: Option<Colormap>,
 
     /// The values that become the first and the last colour (by default 0 and the maximum; in figures the minimum and
@@ -421,7 +421,7 @@ pub struct PlacedGridArguments {
     pub points: Option<Resolution>,
 
     /// The side that is lit: the one to which u × v leads (front), or the other
-    #[arg(long, value_name = "SIDE", value_parser = choice::<Side>())]
+    #[arg(long, value_name = "SIDE", value_parser = keyword::<Side>())]
     pub side: Option<Side>,
 }
 
@@ -442,7 +442,7 @@ pub struct CheckArguments {
 #[derive(Args)]
 pub struct NewArguments {
     /// Which scene
-    #[arg(value_name = "NAME", value_parser = choice::<Starter>())]
+    #[arg(value_name = "NAME", value_parser = keyword::<Starter>())]
     pub name: Starter,
 
     /// Write to FILE (by default NAME.toml), or - for standard output
@@ -483,7 +483,7 @@ pub struct ShowArguments {
 }
 
 /// One of a closed set of words.
-fn choice<C: Choice + Send + Sync>() -> impl TypedValueParser<Value = C> {
+fn keyword<C: Keyword + Send + Sync>() -> impl TypedValueParser<Value = C> {
     let names = C::ALL.iter().map(|choice| choice.name());
     PossibleValuesParser::new(names).try_map(|name| C::from_name(&name).ok_or("no such word"))
 }

@@ -18,7 +18,7 @@ const LEVEL: i32 = 1;
 
 /// What an array holds at each pixel, by the values of the map's channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Element {
+pub struct NumberFormat {
     kind: Kind,
     /// Numbers a pixel.
     numbers: u32,
@@ -31,7 +31,7 @@ enum Kind {
     Index,
 }
 
-impl Element {
+impl NumberFormat {
     /// The only place that knows which values become which numbers.
     pub fn of(values: &Values) -> Self {
         match values {
@@ -97,13 +97,19 @@ impl Element {
 pub struct ChannelArray {
     pub quantity: Quantity,
     array: Array<MemoryStore>,
-    element: Element,
+    element: NumberFormat,
     plan: Plan,
 }
 
 impl ChannelArray {
     /// The array called `name`.
-    pub fn new(quantity: Quantity, name: &str, unit: &str, element: Element, plan: Plan) -> Result<Self, StoreError> {
+    pub fn new(
+        quantity: Quantity,
+        name: &str,
+        unit: &str,
+        element: NumberFormat,
+        plan: Plan,
+    ) -> Result<Self, StoreError> {
         let [shard, inner] = [plan.shard_side, plan.inner_side].map(|side| u64::from(side.get()));
         let mut builder = ArrayBuilder::new(
             shape(element, [plan.full.height.into(), plan.full.width.into()]),
@@ -213,7 +219,7 @@ pub fn coordinate(name: &str, unit: &str, centres: &[f64]) -> Result<(Value, Vec
     Ok((serde_json::to_value(array.metadata()).map_err(|error| error.to_string())?, encoded))
 }
 
-fn shape(element: Element, [rows, columns]: [u64; 2]) -> Vec<u64> {
+fn shape(element: NumberFormat, [rows, columns]: [u64; 2]) -> Vec<u64> {
     if element.numbers == 1 { vec![rows, columns] } else { vec![rows, columns, element.numbers.into()] }
 }
 

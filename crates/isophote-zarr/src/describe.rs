@@ -9,7 +9,7 @@ use isophote::prepare::PreparedScene;
 use isophote::render::{RenderSettings, Renderer};
 use serde_json::Value;
 
-use crate::array::{ChannelArray, Element, coordinate};
+use crate::array::{ChannelArray, NumberFormat, coordinate};
 use crate::error::StoreError;
 use crate::identity::{Identity, ZARR_JSON};
 use crate::plan::Plan;
@@ -30,7 +30,7 @@ pub fn rendered(quantities: &[Quantity]) -> Vec<Quantity> {
 /// Bytes that a pixel of a shard takes while the shard is made: all channels of the map, and of the largest one the
 /// copy at the edge of the image, the encoded chunks and the encoded shard.
 pub fn need_per_pixel(sample: &Map) -> u64 {
-    let sizes = || sample.channels().iter().map(|channel| Element::of(&channel.values).size() as u64);
+    let sizes = || sample.channels().iter().map(|channel| NumberFormat::of(&channel.values).size() as u64);
     sizes().sum::<u64>() + 3 * sizes().max().unwrap_or(0)
 }
 
@@ -64,8 +64,8 @@ pub fn sample_arrays(
     for description in &metadata.channels {
         let channel = sample.channels().iter().find(|channel| channel.quantity.name() == description.name);
         let (Some(channel), Some(name)) = (channel, description.stored_as.first()) else { continue };
-        let element = Element::of(&channel.values);
-        let array = ChannelArray::new(channel.quantity.clone(), name, &channel.unit, element, plan)?;
+        let format = NumberFormat::of(&channel.values);
+        let array = ChannelArray::new(channel.quantity.clone(), name, &channel.unit, format, plan)?;
         arrays.push((name.clone(), array));
     }
     Ok(arrays)
@@ -81,9 +81,9 @@ pub fn stored_arrays(identity: &Identity, path: &Path) -> Result<Vec<ChannelArra
     for channel in &identity.metadata.channels {
         let name = channel.stored_as.first().ok_or_else(|| damaged(&channel.name))?;
         let described = identity.arrays.get(name).ok_or_else(|| damaged(name))?;
-        let element = Element::from_metadata(described).ok_or_else(|| damaged(name))?;
+        let format = NumberFormat::from_metadata(described).ok_or_else(|| damaged(name))?;
         let quantity = Quantity::from_name(&channel.name).ok_or_else(|| damaged(name))?;
-        let array = ChannelArray::new(quantity, name, &channel.unit, element, identity.plan)?;
+        let array = ChannelArray::new(quantity, name, &channel.unit, format, identity.plan)?;
         if array.metadata()? != *described {
             return Err(damaged(name));
         }

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use isophote::lanes::Precision;
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
-use isophote::render::{Lanes, RenderSettings, Renderer};
+use isophote::render::{RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::Scene;
 
 /// One case: what is rendered, and how.
@@ -81,7 +81,7 @@ fn run(case: &Case) -> Result<(), Box<dyn Error>> {
     let (read, scene) = timed(|| Scene::from_file(&path));
     let scene = scene?;
     let (build, prepared) = timed(|| PreparedScene::new(&scene));
-    let renderer = Lanes::new(case.precision, NonZeroUsize::new(case.threads));
+    let renderer = SimdRenderer::new(case.precision, NonZeroUsize::new(case.threads));
     let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
     let start = Instant::now();
     let mut render = Duration::MAX;

@@ -12,7 +12,7 @@ use isophote::export::png::PictureOptions;
 use isophote::export::{exr, png};
 use isophote::map::{Map, Quantity, Resolution};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Reference, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer};
 use isophote::scene::library::Starter;
 use isophote::scene::source::LightSource;
 use isophote::scene::{Scene, Syntax};
@@ -43,7 +43,7 @@ fn many_lights(count: u32) -> PreparedScene {
 
 fn brightness(scene: &PreparedScene) -> Map {
     let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
-    Reference.render(scene, &settings).expect("the scene renders")
+    ReferenceRenderer.render(scene, &settings).expect("the scene renders")
 }
 
 fn lab_map() -> Map {

@@ -10,10 +10,10 @@ use isophote::export::{exr, figure, npz, png};
 use isophote::lanes::Precision;
 use isophote::map::{Map, Quantity, Resolution};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::library::Starter;
 use isophote::scene::{Scene, Syntax};
-use isophote::units::Choice;
+use isophote::units::Keyword;
 
 fn lab() -> Scene {
     Scene::from_text("lab", Starter::Lab.text(), Syntax::Toml).expect("the lab's scene is valid")
@@ -37,10 +37,10 @@ fn kernel(criterion: &mut Criterion) {
     let scene = PreparedScene::new(&lab());
     let brightness = [Quantity::Brightness];
     criterion.bench_function("render 800×600, reference", |bencher| {
-        bencher.iter(|| black_box(render(&Reference, &scene, &brightness)));
+        bencher.iter(|| black_box(render(&ReferenceRenderer, &scene, &brightness)));
     });
     for precision in [Precision::Double, Precision::Single] {
-        let lanes = Lanes::new(precision, None);
+        let lanes = SimdRenderer::new(precision, None);
         criterion.bench_function(&format!("render 800×600, lanes, {}", precision.name()), |bencher| {
             bencher.iter(|| black_box(render(&lanes, &scene, &brightness)));
         });
@@ -58,7 +58,7 @@ fn kernel(criterion: &mut Criterion) {
 /// What smooth edges cost: beside "render 800×600, lanes".
 fn samples(criterion: &mut Criterion) {
     let brightness = [Quantity::Brightness];
-    let lanes = Lanes::new(Precision::Double, None);
+    let lanes = SimdRenderer::new(Precision::Double, None);
     let mut group = criterion.benchmark_group("samples 800×600");
     group.sample_size(20);
     for (name, sampling) in [("16 everywhere", "samples = 16"), ("tolerance 0.01", "tolerance = 0.01")] {
@@ -84,7 +84,7 @@ fn many_lights(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("many lights");
     group.sample_size(10);
     for precision in [Precision::Double, Precision::Single] {
-        let lanes = Lanes::new(precision, None);
+        let lanes = SimdRenderer::new(precision, None);
         group.bench_function(format!("render 800×600, 256 lights, lanes, {}", precision.name()), |bencher| {
             bencher.iter(|| black_box(render(&lanes, &scene, &[Quantity::Brightness])));
         });
@@ -94,7 +94,7 @@ fn many_lights(criterion: &mut Criterion) {
 
 fn export(criterion: &mut Criterion) {
     let scene = PreparedScene::new(&lab());
-    let map = render(&Lanes::new(Precision::Double, None), &scene, &Quantity::COMMON);
+    let map = render(&SimdRenderer::new(Precision::Double, None), &scene, &Quantity::COMMON);
     let mut group = criterion.benchmark_group("export 800×600");
     group.sample_size(20);
     group.bench_function("png", |bencher| {
@@ -121,7 +121,7 @@ fn export(criterion: &mut Criterion) {
 fn large(criterion: &mut Criterion) {
     let scene = lab().with_resolution(Resolution { width: 3840, height: 2160 }).expect("an allowed size");
     let quantities = [Quantity::Brightness, Quantity::Shape];
-    let map = render(&Lanes::new(Precision::Double, None), &PreparedScene::new(&scene), &quantities);
+    let map = render(&SimdRenderer::new(Precision::Double, None), &PreparedScene::new(&scene), &quantities);
     let mut group = criterion.benchmark_group("export 3840×2160");
     group.sample_size(20);
     group.bench_function("statistics", |bencher| bencher.iter(|| black_box(statistics(&map, &Quantity::Brightness))));

@@ -13,20 +13,20 @@ use std::time::{Duration, Instant};
 use isophote::lanes::Precision;
 use isophote::map::{Map, Pixel, Quantity};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Lanes, RenderSettings, Renderer};
+use isophote::render::{RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::Scene;
 use serde::{Deserialize, Serialize};
 
 /// A renderer, and whether it renders in the memory of its last map.
 struct Contestant {
-    renderer: Lanes,
+    renderer: SimdRenderer,
     reuses: bool,
 }
 
 /// Everyone that takes part: precision, threads, and memory.
 fn contestants() -> Vec<(&'static str, Contestant)> {
     let contestant = |precision, threads, reuses| {
-        let renderer = Lanes::new(precision, NonZeroUsize::new(threads));
+        let renderer = SimdRenderer::new(precision, NonZeroUsize::new(threads));
         Contestant { renderer, reuses }
     };
     vec![

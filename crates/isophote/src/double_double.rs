@@ -91,7 +91,7 @@ impl<T: ExactProduct> DoubleDouble<T> {
     #[must_use]
     #[inline(always)]
     pub fn exactly(high: T) -> Self {
-        Self { high, low: high.constant(0.0) }
+        Self { high, low: high.splat_like(0.0) }
     }
 
     /// The nearest number of half the digits.
@@ -220,17 +220,17 @@ impl<T: ExactProduct> Real for DoubleDouble<T> {
     const NEGLIGIBLE_SQUARE: f64 = 1e-64;
 
     #[inline(always)]
-    fn constant(self, value: f64) -> Self {
-        Self::exactly(self.high.constant(value))
+    fn splat_like(self, value: f64) -> Self {
+        Self::exactly(self.high.splat_like(value))
     }
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        let zero = self.high.constant(0.0);
+        let zero = self.high.splat_like(0.0);
         let root = self.high.max(zero).sqrt();
         let rest = self - Self::product_of(root, root);
         let is_positive = zero.is_less(root);
-        let low = rest.high / (root + T::select(is_positive, root, root.constant(1.0)));
+        let low = rest.high / (root + T::select(is_positive, root, root.splat_like(1.0)));
         Self::normalized(root, T::select(is_positive, low, zero))
     }
 
@@ -238,7 +238,7 @@ impl<T: ExactProduct> Real for DoubleDouble<T> {
     fn is_less(self, other: Self) -> T::Mask {
         // The difference of two such numbers is never rounded to the other sign.
         let difference = self - other;
-        difference.high.is_less(difference.high.constant(0.0))
+        difference.high.is_less(difference.high.splat_like(0.0))
     }
 
     #[inline(always)]

@@ -15,15 +15,15 @@ use fearless_simd::{Level, dispatch, f32x16, f64x8, mask32x16, mask64x8, u32x16,
 use crate::real::Real;
 
 /// What vectors are computed by.
-pub trait Kind: Copy {
+pub trait SimdToken: Copy {
     /// Does a part of a job; mark the closure `#[inline(always)]`. The part is compiled by itself: compilers take long over
     /// large functions, about as the square of their size.
-    fn apart<R>(self, part: impl FnOnce() -> R) -> R;
+    fn in_own_function<R>(self, part: impl FnOnce() -> R) -> R;
 }
 
-impl<S: Simd> Kind for S {
+impl<S: Simd> SimdToken for S {
     #[inline(always)]
-    fn apart<R>(self, part: impl FnOnce() -> R) -> R {
+    fn in_own_function<R>(self, part: impl FnOnce() -> R) -> R {
         self.vectorize(part)
     }
 }
@@ -33,20 +33,20 @@ pub trait Lane: Real {
     /// One of its numbers.
     type Element: Element;
     /// The instructions that compute it.
-    type Kind: Kind;
+    type Token: SimdToken;
     /// How many numbers there are.
     const COUNT: usize;
     /// The vector of 16 singles or 8 doubles, where this one is two of them.
-    type Narrow: Lane<Element = Self::Element, Kind = Self::Kind>;
+    type Narrow: Lane<Element = Self::Element, Token = Self::Token>;
 
     /// The same number in every lane.
-    fn splat(kind: Self::Kind, element: Self::Element) -> Self;
+    fn splat(token: Self::Token, element: Self::Element) -> Self;
 
     /// Reads the numbers; the slice has [`COUNT`](Self::COUNT) of them at least.
-    fn load(kind: Self::Kind, numbers: &[Self::Element]) -> Self;
+    fn load(token: Self::Token, numbers: &[Self::Element]) -> Self;
 
     /// Reads doubles and rounds them; the slice has [`COUNT`](Self::COUNT) of them at least.
-    fn load_doubles(kind: Self::Kind, numbers: &[f64]) -> Self;
+    fn load_doubles(token: Self::Token, numbers: &[f64]) -> Self;
 
     /// Bit i tells whether the mask is set in lane i.
     fn bits(mask: Self::Mask) -> u32;
@@ -56,7 +56,7 @@ pub trait Lane: Real {
     fn min(self, other: Self) -> Self;
 
     /// For lane i the distance (first + i) − origin, computed in double precision and then rounded. `first` is whole.
-    fn distances(kind: Self::Kind, first: f64, origin: f64) -> Self;
+    fn distances(token: Self::Token, first: f64, origin: f64) -> Self;
 
     /// Writes the numbers; the slice has room for [`COUNT`](Self::COUNT).
     fn store(self, out: &mut [Self::Element]);
@@ -109,7 +109,7 @@ pub enum Precision {
     Single,
 }
 
-impl crate::units::Choice for Precision {
+impl crate::units::Keyword for Precision {
     const ALL: &'static [Self] = &[Self::Double, Self::Single];
 
     fn name(self) -> &'static str {
@@ -249,12 +249,12 @@ pub trait LaneJob {
     type Output;
 
     /// Computes it; mark it `#[inline(always)]`.
-    fn run<S, D>(self, kind: S::Kind) -> Self::Output
+    fn run<S, D>(self, token: S::Token) -> Self::Output
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>;
+        D: Lane<Element = f64, Token = S::Token>;
 
-    /// Computes it by these instructions. All that a job calls is compiled into this function, once for each kind of
+    /// Computes it by these instructions. All that a job calls is compiled into this function, once for each token of
     /// instructions. (As a method of the job it is compiled beside other jobs, and not with them.)
     #[inline(never)]
     fn run_by(self, instructions: Instructions) -> Self::Output
@@ -284,7 +284,7 @@ macro_rules! lane {
             const NEGLIGIBLE_SQUARE: f64 = $negligible;
 
             #[inline(always)]
-            fn constant(self, value: f64) -> Self {
+            fn splat_like(self, value: f64) -> Self {
                 <Self as Lane>::splat(self.simd, <$element>::from_f64(value))
             }
 
@@ -294,8 +294,8 @@ macro_rules! lane {
             }
 
             #[inline(always)]
-            fn times_plus(self, factor: Self, addend: Self) -> Self {
-                self.mul_add(factor, addend)
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                fearless_simd::SimdFloat::mul_add(self, factor, addend)
             }
 
             #[inline(always)]
@@ -316,23 +316,23 @@ macro_rules! lane {
 
         impl<S: Simd> Lane for $vector<S> {
             type Element = $element;
-            type Kind = S;
+            type Token = S;
             const COUNT: usize = <Self as SimdBase<S>>::LEN;
             type Narrow = Self;
 
             #[inline(always)]
-            fn splat(kind: S, element: $element) -> Self {
-                SimdBase::splat(kind, element)
+            fn splat(token: S, element: $element) -> Self {
+                SimdBase::splat(token, element)
             }
 
             #[inline(always)]
-            fn load(kind: S, numbers: &[$element]) -> Self {
-                SimdBase::from_slice(kind, &numbers[..Self::COUNT])
+            fn load(token: S, numbers: &[$element]) -> Self {
+                SimdBase::from_slice(token, &numbers[..Self::COUNT])
             }
 
             #[inline(always)]
-            fn load_doubles(kind: S, numbers: &[f64]) -> Self {
-                doubles::$vector(kind, numbers)
+            fn load_doubles(token: S, numbers: &[f64]) -> Self {
+                doubles::$vector(token, numbers)
             }
 
             #[inline(always)]
@@ -347,8 +347,8 @@ macro_rules! lane {
             }
 
             #[inline(always)]
-            fn distances(kind: S, first: f64, origin: f64) -> Self {
-                distances::$vector(kind, first, origin)
+            fn distances(token: S, first: f64, origin: f64) -> Self {
+                distances::$vector(token, first, origin)
             }
 
             #[inline(always)]
@@ -359,7 +359,7 @@ macro_rules! lane {
             #[inline(always)]
             fn product_rest(self, factor: Self, product: Self) -> Self {
                 if Instructions(self.simd.level()).fuse() {
-                    return self.mul_add(factor, -product);
+                    return fearless_simd::SimdFloat::mul_add(self, factor, -product);
                 }
                 // Dekker's way: numbers of half the digits, whose products are exact.
                 let halves = |whole: Self| {
@@ -405,13 +405,13 @@ mod doubles {
     use super::{Simd, SimdBase, SimdNarrow, f32x16, f64x8};
 
     #[inline(always)]
-    pub fn f64x8<S: Simd>(kind: S, numbers: &[f64]) -> f64x8<S> {
-        f64x8::from_slice(kind, &numbers[..8])
+    pub fn f64x8<S: Simd>(token: S, numbers: &[f64]) -> f64x8<S> {
+        f64x8::from_slice(token, &numbers[..8])
     }
 
     #[inline(always)]
-    pub fn f32x16<S: Simd>(kind: S, numbers: &[f64]) -> f32x16<S> {
-        f64x8(kind, numbers).narrow(f64x8(kind, &numbers[8..]))
+    pub fn f32x16<S: Simd>(token: S, numbers: &[f64]) -> f32x16<S> {
+        f64x8(token, numbers).narrow(f64x8(token, &numbers[8..]))
     }
 }
 
@@ -421,14 +421,14 @@ mod distances {
     const LANES: [f64; 16] = [0., 1., 2., 3., 4., 5., 6., 7., 8., 9., 10., 11., 12., 13., 14., 15.];
 
     #[inline(always)]
-    pub fn f64x8<S: Simd>(kind: S, first: f64, origin: f64) -> f64x8<S> {
-        (f64x8::from_slice(kind, &LANES[..8]) + first) - origin
+    pub fn f64x8<S: Simd>(token: S, first: f64, origin: f64) -> f64x8<S> {
+        (f64x8::from_slice(token, &LANES[..8]) + first) - origin
     }
 
     #[inline(always)]
-    pub fn f32x16<S: Simd>(kind: S, first: f64, origin: f64) -> f32x16<S> {
-        let lower = f64x8(kind, first, origin);
-        let upper = (f64x8::from_slice(kind, &LANES[8..]) + first) - origin;
+    pub fn f32x16<S: Simd>(token: S, first: f64, origin: f64) -> f32x16<S> {
+        let lower = f64x8(token, first, origin);
+        let upper = (f64x8::from_slice(token, &LANES[8..]) + first) - origin;
         lower.narrow(upper)
     }
 }
@@ -466,8 +466,8 @@ impl<V: Real> Real for Pair<V> {
     const NEGLIGIBLE_SQUARE: f64 = V::NEGLIGIBLE_SQUARE;
 
     #[inline(always)]
-    fn constant(self, value: f64) -> Self {
-        let constant = self.0.constant(value);
+    fn splat_like(self, value: f64) -> Self {
+        let constant = self.0.splat_like(value);
         Self(constant, constant)
     }
 
@@ -477,8 +477,8 @@ impl<V: Real> Real for Pair<V> {
     }
 
     #[inline(always)]
-    fn times_plus(self, factor: Self, addend: Self) -> Self {
-        Self(self.0.times_plus(factor.0, addend.0), self.1.times_plus(factor.1, addend.1))
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        Self(self.0.mul_add(factor.0, addend.0), self.1.mul_add(factor.1, addend.1))
     }
 
     #[inline(always)]
@@ -499,24 +499,24 @@ impl<V: Real> Real for Pair<V> {
 
 impl<V: Lane> Lane for Pair<V> {
     type Element = V::Element;
-    type Kind = V::Kind;
+    type Token = V::Token;
     const COUNT: usize = 2 * V::COUNT;
     type Narrow = V;
 
     #[inline(always)]
-    fn splat(kind: V::Kind, element: V::Element) -> Self {
-        let splat = V::splat(kind, element);
+    fn splat(token: V::Token, element: V::Element) -> Self {
+        let splat = V::splat(token, element);
         Self(splat, splat)
     }
 
     #[inline(always)]
-    fn load(kind: V::Kind, numbers: &[V::Element]) -> Self {
-        Self(V::load(kind, numbers), V::load(kind, &numbers[V::COUNT..]))
+    fn load(token: V::Token, numbers: &[V::Element]) -> Self {
+        Self(V::load(token, numbers), V::load(token, &numbers[V::COUNT..]))
     }
 
     #[inline(always)]
-    fn load_doubles(kind: V::Kind, numbers: &[f64]) -> Self {
-        Self(V::load_doubles(kind, numbers), V::load_doubles(kind, &numbers[V::COUNT..]))
+    fn load_doubles(token: V::Token, numbers: &[f64]) -> Self {
+        Self(V::load_doubles(token, numbers), V::load_doubles(token, &numbers[V::COUNT..]))
     }
 
     #[inline(always)]
@@ -531,8 +531,8 @@ impl<V: Lane> Lane for Pair<V> {
 
     #[inline(always)]
     #[expect(clippy::cast_precision_loss, reason = "a vector is short")]
-    fn distances(kind: V::Kind, first: f64, origin: f64) -> Self {
-        Self(V::distances(kind, first, origin), V::distances(kind, first + V::COUNT as f64, origin))
+    fn distances(token: V::Token, first: f64, origin: f64) -> Self {
+        Self(V::distances(token, first, origin), V::distances(token, first + V::COUNT as f64, origin))
     }
 
     #[inline(always)]

@@ -21,7 +21,7 @@ pub trait Real:
     /// A constant, of the same kind as `self`, whose value is not used: a vector of lanes knows by its kind which
     /// instructions the machine has.
     #[must_use]
-    fn constant(self, value: f64) -> Self;
+    fn splat_like(self, value: f64) -> Self;
 
     /// The square root of a number that is not negative.
     #[must_use]
@@ -30,7 +30,7 @@ pub trait Real:
     /// self · factor + addend, with one rounding where the machine has it in one instruction, else with two.
     #[must_use]
     #[inline(always)]
-    fn times_plus(self, factor: Self, addend: Self) -> Self {
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
         self * factor + addend
     }
 
@@ -50,8 +50,8 @@ pub trait Real:
     /// The number, or zero where it is negative.
     #[must_use]
     #[inline(always)]
-    fn or_zero(self) -> Self {
-        self.max(self.constant(0.0))
+    fn max_zero(self) -> Self {
+        self.max(self.splat_like(0.0))
     }
 }
 
@@ -94,7 +94,7 @@ impl Real for f64 {
     const NEGLIGIBLE_SQUARE: f64 = 1e-32;
 
     #[inline(always)]
-    fn constant(self, value: f64) -> Self {
+    fn splat_like(self, value: f64) -> Self {
         value
     }
 

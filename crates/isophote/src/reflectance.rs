@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use crate::real::{Real, Scalar};
-use crate::units::{Choice, Quantities};
+use crate::units::{Keyword, UnitSystem};
 
 /// Which formula turns irradiance into brightness. People publish several that disagree by constant factors or by
 /// a cosine, so a scene names its own.
@@ -26,7 +26,7 @@ pub enum Convention {
     Radiance,
 }
 
-impl Choice for Convention {
+impl Keyword for Convention {
     const ALL: &'static [Self] =
         &[Self::Irradiance, Self::Lambert, Self::Lab, Self::Course, Self::CoursePi, Self::Radiance];
 
@@ -77,10 +77,10 @@ impl Convention {
 
     /// The unit of B.
     #[must_use]
-    pub fn unit(self, quantities: Quantities) -> &'static str {
+    pub fn unit(self, units: UnitSystem) -> &'static str {
         match self {
-            Self::Irradiance | Self::Lambert | Self::Lab => quantities.irradiance_unit(),
-            Self::Course | Self::CoursePi | Self::Radiance => quantities.radiance_unit(),
+            Self::Irradiance | Self::Lambert | Self::Lab => units.irradiance_unit(),
+            Self::Course | Self::CoursePi | Self::Radiance => units.radiance_unit(),
         }
     }
 
@@ -182,15 +182,15 @@ impl BrightnessFormula {
     /// for the irradiance itself, which knows no viewer.
     #[inline(always)]
     pub fn diffuse_factor<T: Real>(&self, cos_theta_o: T) -> T {
-        let constant = cos_theta_o.constant(self.diffuse_constant);
-        let factor = cos_theta_o.constant(self.diffuse_cosine).times_plus(cos_theta_o, constant);
+        let constant = cos_theta_o.splat_like(self.diffuse_constant);
+        let factor = cos_theta_o.splat_like(self.diffuse_cosine).mul_add(cos_theta_o, constant);
         if self.depends_on_viewer { Self::towards_viewer(cos_theta_o, factor) } else { factor }
     }
 
     /// The factor of Σ E_j (N·H_j)ⁿ in the specular part; zero where the surface faces away from the viewer.
     #[inline(always)]
     pub fn specular_factor<T: Real>(&self, cos_theta_o: T) -> T {
-        Self::towards_viewer(cos_theta_o, cos_theta_o.constant(self.specular))
+        Self::towards_viewer(cos_theta_o, cos_theta_o.splat_like(self.specular))
     }
 
     /// n, where the formula has a highlight.
@@ -207,7 +207,7 @@ impl BrightnessFormula {
 
     #[inline(always)]
     fn towards_viewer<T: Real>(cos_theta_o: T, factor: T) -> T {
-        let zero = cos_theta_o.constant(0.0);
+        let zero = cos_theta_o.splat_like(0.0);
         T::select(zero.is_less(cos_theta_o), factor, zero)
     }
 }

@@ -131,24 +131,24 @@ pub fn light_term<T: Real>(
     let distance_squared = to_light.dot(to_light);
     let distance = distance_squared.sqrt();
     let along = point.normal.dot(to_light);
-    let along_lit = along.or_zero();
+    let along_lit = along.max_zero();
 
-    let view_across = point.normal.times_plus(-point.cos_theta_o, point.view);
-    let half_across = point.normal.times_plus(-along, view_across.times_plus(distance, to_light));
-    let half_along = distance.times_plus(point.cos_theta_o, along).or_zero();
+    let view_across = point.normal.mul_add(-point.cos_theta_o, point.view);
+    let half_across = point.normal.mul_add(-along, view_across.mul_add(distance, to_light));
+    let half_along = distance.mul_add(point.cos_theta_o, along).max_zero();
     let cos_squared = half_along * half_along;
     let sin_squared = half_across.dot(half_across);
 
     // H has no length only when the light stands straight behind the surface: then nothing is seen or nothing is lit,
     // and the guard keeps 0/0 out of it.
-    let negligible = distance_squared * distance.constant(T::NEGLIGIBLE_SQUARE);
+    let negligible = distance_squared * distance.splat_like(T::NEGLIGIBLE_SQUARE);
     let squares = lobe.denominator(cos_squared, sin_squared).max(negligible);
     let cubed = distance_squared * distance;
-    let inverse = distance.constant(1.0) / (cubed * squares);
+    let inverse = distance.splat_like(1.0) / (cubed * squares);
     let inverse_squares = cubed * inverse;
     let inverse_cubed = squares * inverse;
     let intensity = light.intensity_towards(to_light, distance_squared * inverse_cubed);
-    let inverse_distance = distance.constant(1.0) / distance;
+    let inverse_distance = distance.splat_like(1.0) / distance;
     let direction = to_light * inverse_distance;
     LightTerm {
         visibility,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// A closed set of words that a scene file may use for one key.
-pub trait Choice: Copy + 'static {
+pub trait Keyword: Copy + 'static {
     /// Every member, in the order in which error messages list them.
     const ALL: &'static [Self];
 
@@ -30,7 +30,7 @@ pub enum LengthUnit {
     Metre,
 }
 
-impl Choice for LengthUnit {
+impl Keyword for LengthUnit {
     const ALL: &'static [Self] = &[Self::Millimetre, Self::Centimetre, Self::Metre];
 
     fn name(self) -> &'static str {
@@ -114,14 +114,14 @@ impl ScreenUnit {
 /// converting needs a luminous efficacy, and there is no silent default for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum Quantities {
+pub enum UnitSystem {
     /// W, W/sr, W/m², W/(m²·sr).
     Radiometric,
     /// lm, cd, lx, cd/m².
     Photometric,
 }
 
-impl Choice for Quantities {
+impl Keyword for UnitSystem {
     const ALL: &'static [Self] = &[Self::Radiometric, Self::Photometric];
 
     fn name(self) -> &'static str {
@@ -132,7 +132,7 @@ impl Choice for Quantities {
     }
 }
 
-impl Quantities {
+impl UnitSystem {
     /// Unit of a light's power: W or lm.
     #[must_use]
     pub fn power_unit(self) -> &'static str {

@@ -26,7 +26,7 @@ impl<T: Real> Vector<T> {
     #[must_use]
     #[inline(always)]
     pub fn dot(self, other: Self) -> T {
-        self.z.times_plus(other.z, self.y.times_plus(other.y, self.x * other.x))
+        self.z.mul_add(other.z, self.y.mul_add(other.y, self.x * other.x))
     }
 
     /// Vector product.
@@ -34,9 +34,9 @@ impl<T: Real> Vector<T> {
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self::new(
-            self.y.times_plus(other.z, -(self.z * other.y)),
-            self.z.times_plus(other.x, -(self.x * other.z)),
-            self.x.times_plus(other.y, -(self.y * other.x)),
+            self.y.mul_add(other.z, -(self.z * other.y)),
+            self.z.mul_add(other.x, -(self.x * other.z)),
+            self.x.mul_add(other.y, -(self.y * other.x)),
         )
     }
 
@@ -51,18 +51,14 @@ impl<T: Real> Vector<T> {
     #[must_use]
     #[inline(always)]
     pub fn normalized(self) -> Self {
-        self * (self.x.constant(1.0) / self.length())
+        self * (self.x.splat_like(1.0) / self.length())
     }
 
     /// self · factor + addend.
     #[must_use]
     #[inline(always)]
-    pub fn times_plus(self, factor: T, addend: Self) -> Self {
-        Self::new(
-            self.x.times_plus(factor, addend.x),
-            self.y.times_plus(factor, addend.y),
-            self.z.times_plus(factor, addend.z),
-        )
+    pub fn mul_add(self, factor: T, addend: Self) -> Self {
+        Self::new(self.x.mul_add(factor, addend.x), self.y.mul_add(factor, addend.y), self.z.mul_add(factor, addend.z))
     }
 }
 

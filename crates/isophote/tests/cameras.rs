@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use isophote::analysis::probe::{Place, SeenFromEye};
+use isophote::analysis::probe::{ProbePosition, SeenFromEye};
 use isophote::map::{Coordinates, Map, Quantity};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Reference, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer};
 use isophote::scene::source::{CameraSource, ProjectionName, ScreenSource, SphereSource, WindowSource};
 use isophote::scene::{Scene, SceneSource};
 use isophote::vector::Vector;
@@ -29,7 +29,7 @@ fn prepared(source: SceneSource) -> PreparedScene {
 
 fn render(scene: &PreparedScene) -> Map {
     let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
-    Reference.render(scene, &settings).expect("it renders")
+    ReferenceRenderer.render(scene, &settings).expect("it renders")
 }
 
 fn fisheye(projection: ProjectionName, field_of_view: f64, side: u64) -> CameraSource {
@@ -149,7 +149,7 @@ fn the_plane_of_parallel_rays_may_cut_a_sphere() {
     let outside = seen(50 + 30);
     assert!(!outside.from_inside && outside.distance < 0.6, "{outside:?}");
     assert!((covered(&map) / PI - 1.0).abs() < 1e-2);
-    let behind = scene.probe(&Place::Point(Vector::new(0.0, 0.0, 0.4))).expect("it is on the sphere");
+    let behind = scene.probe(&ProbePosition::Point(Vector::new(0.0, 0.0, 0.4))).expect("it is on the sphere");
     assert_eq!(behind.seen, SeenFromEye::FacesAway, "it is the outside of a wall that is seen from inside");
 }
 
@@ -162,7 +162,7 @@ fn a_point_behind_the_plane_of_parallel_rays_is_not_seen() {
         ..CameraSource::default()
     };
     let scene = prepared(source(-5.0, camera));
-    let reading = scene.probe(&Place::Point(Vector::new(0.0, 0.0, 6.0))).expect("it is on the sphere");
+    let reading = scene.probe(&ProbePosition::Point(Vector::new(0.0, 0.0, 6.0))).expect("it is on the sphere");
     assert_eq!(reading.seen, SeenFromEye::Behind);
     assert_eq!(render(&scene).mask().visible(), 0);
 }

@@ -1,6 +1,6 @@
 //! The closed forms of docs/physics.md, section 5, to the precision that is promised.
 
-use isophote::analysis::probe::Place;
+use isophote::analysis::probe::ProbePosition;
 use isophote::light::{Emission, Light, LightKind, PointLight};
 use isophote::prepare::PreparedScene;
 use isophote::reflectance::{BrightnessFormula, Convention, Reflectance};
@@ -40,7 +40,7 @@ fn the_lab_points_have_the_values_of_the_formulas() {
         source.convention = Some(convention);
         let prepared = PreparedScene::new(&Scene::try_from(source).expect("it is valid"));
         for (probe, row) in prepared.scene().probes().iter().zip(table["probes"].as_array().expect("rows")) {
-            let reading = prepared.probe(&Place::Point(probe.at)).expect("it is on the sphere");
+            let reading = prepared.probe(&ProbePosition::Point(probe.at)).expect("it is on the sphere");
             assert_eq!(probe.name, row["name"]);
             assert_relative(reading.shading.brightness(), number(&row[key]), 1e-12, &format!("{} {key}", probe.name));
             assert_relative(reading.shading.irradiance, number(&row["irradiance"]), 1e-12, &probe.name);
@@ -59,7 +59,7 @@ fn a_sphere_under_a_point_source_has_the_irradiance_of_the_closed_form() {
         for row in table["sphere_source"]["rows"].as_array().expect("rows") {
             let beta = number(&row["beta_deg"]).to_radians();
             let direction = Vector::new(beta.sin(), beta.cos(), 0.0);
-            let reading = prepared.probe(&Place::Point(direction * 0.25)).expect("it is on the sphere");
+            let reading = prepared.probe(&ProbePosition::Point(direction * 0.25)).expect("it is on the sphere");
             let expected = number(&row[key]);
             let error = (reading.shading.irradiance - expected).abs();
             let near_terminator = reading.terms[0].cos_theta_i < 0.1;
@@ -82,7 +82,7 @@ fn the_flux_on_a_sphere_is_that_of_the_closed_form() {
             * 0.25
             * integrate(lowest, 1.0, |cosine| {
                 let direction = Vector::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0);
-                prepared.probe(&Place::NearestTo(direction * 0.25)).expect("it is there").shading.irradiance
+                prepared.probe(&ProbePosition::NearestTo(direction * 0.25)).expect("it is there").shading.irradiance
             });
         assert_relative(flux, number(&table["sphere_source"][key]), 1e-12, key);
     }
@@ -143,7 +143,7 @@ fn a_plane_of_a_scene_has_the_irradiance_of_cie_171_case_5_2() {
         let prepared = PreparedScene::new(&scene);
         for row in table["rows"].as_array().expect("rows") {
             let point = first * number(&row["x"]) + second * number(&row["y"]);
-            let reading = prepared.probe(&Place::NearestTo(point)).expect("it is there");
+            let reading = prepared.probe(&ProbePosition::NearestTo(point)).expect("it is there");
             assert_relative(reading.shading.irradiance, number(&row["exact"]), 1e-12, "exact");
         }
     }
@@ -166,7 +166,7 @@ fn a_distant_lambert_sphere_follows_the_phase_law() {
             integrate(-half_pi, half_pi, |latitude| {
                 let ring = latitude.cos();
                 let direction = Vector::new(ring * longitude.sin(), latitude.sin(), ring * longitude.cos());
-                let reading = prepared.probe(&Place::NearestTo(direction)).expect("it is there");
+                let reading = prepared.probe(&ProbePosition::NearestTo(direction)).expect("it is there");
                 reading.shading.brightness() * reading.hit.point.cos_theta_o.max(0.0) * ring
             })
         });

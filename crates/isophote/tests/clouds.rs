@@ -6,7 +6,7 @@ use isophote::conformance::conforms;
 use isophote::lanes::{Instructions, Precision};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Scalars};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::Scene;
 use isophote::scene::source::{
     ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, PlaneSource, RectangleSource,
@@ -64,9 +64,9 @@ proptest! {
     fn random_clouds_are_rendered_within_tolerance(source in clouds(200)) {
         prop_assume!(is_valid(&source));
         let scene = prepared(source).by_brute_force();
-        let result = conforms(&Lanes::new(Precision::Double, None), &scene, &DOUBLE);
+        let result = conforms(&SimdRenderer::new(Precision::Double, None), &scene, &DOUBLE);
         prop_assert!(result.is_ok(), "{}", result.unwrap_err());
-        let result = conforms(&Lanes::new(Precision::Single, None), &scene, &SINGLE);
+        let result = conforms(&SimdRenderer::new(Precision::Single, None), &scene, &SINGLE);
         prop_assert!(result.is_ok(), "single: {}", result.unwrap_err());
     }
 
@@ -74,7 +74,7 @@ proptest! {
     fn random_shadows_are_rendered_within_tolerance(source in shadows()) {
         let scene = prepared(source).by_brute_force();
         for instructions in Instructions::all() {
-            let lanes = |precision| Lanes::new(precision, None).with_instructions(instructions);
+            let lanes = |precision| SimdRenderer::new(precision, None).with_instructions(instructions);
             let result = conforms(&lanes(Precision::Double), &scene, &DOUBLE);
             prop_assert!(result.is_ok(), "{}: {}", instructions.name(), result.unwrap_err());
             let result = conforms(&lanes(Precision::Single), &scene, &SINGLE);
@@ -96,7 +96,7 @@ proptest! {
         source.camera.get_or_insert_default().resolution = Some([160, 120]);
         let scene = prepared(source);
         let precision = if is_single { Precision::Single } else { Precision::Double };
-        let renderer = |threads: usize| Lanes::new(precision, threads.try_into().ok());
+        let renderer = |threads: usize| SimdRenderer::new(precision, threads.try_into().ok());
         let whole = renderer(1).render(&scene, &settings()).expect("it renders");
         let region = Region {
             corner: Pixel { column: corner.0, row: corner.1 },
@@ -124,8 +124,8 @@ proptest! {
         let source = with_every_shape(source, &places, sizes);
         prop_assume!(is_valid(&source));
         let scene = prepared(source);
-        let found = Reference.render(&scene, &settings()).expect("it renders");
-        let expected = Reference.render(&scene.by_brute_force(), &settings()).expect("it renders");
+        let found = ReferenceRenderer.render(&scene, &settings()).expect("it renders");
+        let expected = ReferenceRenderer.render(&scene.by_brute_force(), &settings()).expect("it renders");
         prop_assert!(found == expected);
     }
 }
@@ -202,6 +202,6 @@ fn spheres_beside_the_eye_are_seen_as_by_rays() {
     let scene =
         Scene::from_text("wall", &text, isophote::scene::Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
     let scene = PreparedScene::new(&scene).by_brute_force();
-    let deviation = conforms(&Lanes::new(Precision::Double, None), &scene, &DOUBLE);
+    let deviation = conforms(&SimdRenderer::new(Precision::Double, None), &scene, &DOUBLE);
     assert!(deviation.unwrap_or_else(|error| panic!("{error}")).visible > 500);
 }

@@ -4,18 +4,18 @@ mod random;
 
 use std::num::NonZeroUsize;
 
-use isophote::analysis::probe::{Place, ProbeReading};
+use isophote::analysis::probe::{ProbePosition, ProbeReading};
 use isophote::analysis::section::SectionLine;
 use isophote::analysis::surface::SurfaceRequest;
 use isophote::color::{ColorSpace, Component, Rgb};
 use isophote::lanes::Precision;
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Lanes, Reference, RenderError, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderError, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::source::{Amount, SamplingSource};
 use isophote::scene::{Scene, SceneSource, Syntax};
 use isophote::shape::{Primitive, Side};
-use isophote::units::Choice;
+use isophote::units::Keyword;
 use isophote::vector::Vector;
 use proptest::prelude::*;
 
@@ -120,7 +120,11 @@ fn colors(map: &Map) -> &[[f64; 3]] {
 
 fn renderers() -> [Box<dyn Renderer>; 3] {
     let two = NonZeroUsize::new(2);
-    [Box::new(Reference), Box::new(Lanes::new(Precision::Double, two)), Box::new(Lanes::new(Precision::Single, two))]
+    [
+        Box::new(ReferenceRenderer),
+        Box::new(SimdRenderer::new(Precision::Double, two)),
+        Box::new(SimdRenderer::new(Precision::Single, two)),
+    ]
 }
 
 #[test]
@@ -167,7 +171,7 @@ fn a_red_ball_sends_no_green_and_no_blue_of_white_light() {
     let ball = source.material.get_mut("ball").unwrap();
     (ball.diffuse, ball.specular) = (Some(Amount::Rgb([0.5, 0.0, 0.0])), Some(Amount::Rgb([0.25, 0.0, 0.0])));
     let scene = prepared(source);
-    let map = render(&Reference, &scene, &[Quantity::Color, Quantity::Brightness]);
+    let map = render(&ReferenceRenderer, &scene, &[Quantity::Color, Quantity::Brightness]);
     let seen = |index| map.mask().shape_at(index);
     let (mut balls, mut tables) = (0, 0);
     for (index, [red, green, blue]) in colors(&map).iter().copied().enumerate() {
@@ -201,7 +205,7 @@ fn below_a_lamp_each_component_has_its_closed_form() {
         light = [{ position = [0, 2, 0], intensity = [4, 8, 16] }]
     "#;
     let scene = PreparedScene::new(&Scene::from_text("test", text, Syntax::Toml).unwrap());
-    let reading = scene.probe(&Place::Point(Vector::default())).unwrap();
+    let reading = scene.probe(&ProbePosition::Point(Vector::default())).unwrap();
     let readings = reading.components.as_deref().expect("it has colours");
     assert_eq!(readings.map(|reading| reading.shading.irradiance).into_array(), [1.0, 2.0, 4.0]);
     let expected = 0.5 / std::f64::consts::PI;
@@ -256,7 +260,7 @@ proptest! {
 fn refined_components_are_those_of_their_own_scenes() {
     let mut source = with_amounts(source(), dyed);
     source.sampling = Some(SamplingSource { tolerance: Some(0.01), ..SamplingSource::default() });
-    let lanes = Lanes::new(Precision::Double, NonZeroUsize::new(2));
+    let lanes = SimdRenderer::new(Precision::Double, NonZeroUsize::new(2));
     let quantities = [Quantity::Color, Quantity::Samples, Quantity::Coverage, Quantity::Position, Quantity::Shape];
     let map = render(&lanes, &prepared(source.clone()), &quantities);
     let mut most = vec![0.0_f64; map.region.size.pixels()];
@@ -277,11 +281,11 @@ fn refined_components_are_those_of_their_own_scenes() {
 fn a_part_of_an_image_and_any_number_of_threads_give_the_same_bytes() {
     let scene = prepared(with_amounts(source(), dyed));
     let quantities = vec![Quantity::Color, Quantity::Brightness, Quantity::Normal];
-    let whole = render(&Lanes::new(Precision::Double, NonZeroUsize::new(1)), &scene, &quantities);
-    assert_eq!(whole, render(&Lanes::new(Precision::Double, NonZeroUsize::new(3)), &scene, &quantities));
+    let whole = render(&SimdRenderer::new(Precision::Double, NonZeroUsize::new(1)), &scene, &quantities);
+    assert_eq!(whole, render(&SimdRenderer::new(Precision::Double, NonZeroUsize::new(3)), &scene, &quantities));
     let region = Region { corner: Pixel { column: 7, row: 5 }, size: Resolution { width: 20, height: 9 } };
     let settings = RenderSettings { region: Some(region), quantities, ..RenderSettings::default() };
-    let part = Lanes::new(Precision::Double, None).render(&scene, &settings).unwrap();
+    let part = SimdRenderer::new(Precision::Double, None).render(&scene, &settings).unwrap();
     for index in 0..region.size.pixels() {
         let Pixel { column, row } = part.pixel(index);
         assert_eq!(colors(&part)[index], colors(&whole)[row as usize * 40 + column as usize]);
@@ -291,7 +295,7 @@ fn a_part_of_an_image_and_any_number_of_threads_give_the_same_bytes() {
 #[test]
 fn probes_sections_and_surfaces_have_the_luminance_of_the_map() {
     let scene = prepared(with_amounts(source(), dyed));
-    let map = render(&Reference, &scene, &[Quantity::Brightness, Quantity::Color]);
+    let map = render(&ReferenceRenderer, &scene, &[Quantity::Brightness, Quantity::Color]);
     let section = scene.section(SectionLine::Row(12)).unwrap();
     let brightness = map.scalar(&Quantity::Brightness).unwrap();
     for (column, sample) in (0..40_u32).zip(section) {
@@ -299,14 +303,14 @@ fn probes_sections_and_surfaces_have_the_luminance_of_the_map() {
         let expected = brightness.at(index);
         let found = sample.seen.map_or(0.0, |(_, shading)| shading.brightness());
         assert!((found - expected).abs() <= 4e-16 * expected, "{found} {expected}");
-        let Ok(reading) = scene.probe(&Place::Pixel(Pixel { column, row: 12 })) else { continue };
+        let Ok(reading) = scene.probe(&ProbePosition::Pixel(Pixel { column, row: 12 })) else { continue };
         let ProbeReading { components: Some(readings), .. } = &reading else { panic!("it has colours") };
         assert_eq!(readings.map(|reading| reading.shading.brightness()).into_array(), colors(&map)[index]);
         assert!((reading.shading.brightness() - expected).abs() <= 4e-16 * expected);
     }
     let request = SurfaceRequest {
         primitive: Primitive { shape: 0, part: 0 },
-        projection: isophote::analysis::surface::Projection::EqualArea,
+        projection: isophote::analysis::surface::SurfaceProjection::EqualArea,
         axis: None,
         side: Side::Front,
         size: Some(Resolution { width: 12, height: 6 }),
@@ -324,14 +328,14 @@ fn probes_sections_and_surfaces_have_the_luminance_of_the_map() {
 fn a_scene_without_colours_has_no_channel_of_them() {
     let scene = prepared(source());
     let settings = RenderSettings { quantities: vec![Quantity::Color], ..RenderSettings::default() };
-    assert_eq!(Reference.render(&scene, &settings).unwrap_err(), RenderError::NoColor);
-    assert_eq!(render(&Reference, &scene, &[Quantity::Brightness]).provenance.color_space, None);
+    assert_eq!(ReferenceRenderer.render(&scene, &settings).unwrap_err(), RenderError::NoColor);
+    assert_eq!(render(&ReferenceRenderer, &scene, &[Quantity::Brightness]).provenance.color_space, None);
 }
 
 #[test]
 fn the_source_of_a_map_is_the_scene_with_its_colours() {
     let source = SceneSource { color_space: Some(ColorSpace::AcesCg), ..with_amounts(source(), dyed) };
-    let map = render(&Reference, &prepared(source.clone()), &[Quantity::Color]);
+    let map = render(&ReferenceRenderer, &prepared(source.clone()), &[Quantity::Color]);
     let again = Scene::from_text("again", &map.provenance.scene, Syntax::Toml).unwrap();
     assert_eq!(*again.source(), source);
     assert_eq!(map.provenance.color_space.as_deref(), Some("aces-cg"));

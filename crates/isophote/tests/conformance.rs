@@ -2,14 +2,14 @@
 
 mod random;
 
-use isophote::analysis::probe::Place;
+use isophote::analysis::probe::ProbePosition;
 use isophote::conformance::{conforms, cosine_of_emission};
 use isophote::double_double::DoubleDouble;
 use isophote::lanes::{Instructions, Precision};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::{Hit, PreparedScene};
 use isophote::real::Scalar;
-use isophote::render::{Lanes, Reference, RenderError, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderError, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::source::{EmissionName, LightSource, MaterialSource, ProjectionName, WindowSource};
 use isophote::scene::{Scene, SceneSource, Syntax};
 use isophote::shape::{Geometry, Primitive, SurfacePoint};
@@ -47,9 +47,9 @@ fn bits(values: &Values, index: usize) -> Vec<u64> {
 
 fn renderers() -> Vec<Box<dyn Renderer>> {
     let lanes = |instructions| -> Box<dyn Renderer> {
-        Box::new(Lanes::new(Precision::Double, None).with_instructions(instructions))
+        Box::new(SimdRenderer::new(Precision::Double, None).with_instructions(instructions))
     };
-    std::iter::once::<Box<dyn Renderer>>(Box::new(Reference))
+    std::iter::once::<Box<dyn Renderer>>(Box::new(ReferenceRenderer))
         .chain(Instructions::all().into_iter().map(lanes))
         .collect()
 }
@@ -65,8 +65,8 @@ fn precise_hit(scene: &PreparedScene, primitive: Primitive, point: Vector) -> Hi
     let to_eye = (Vector::from_f64(scene.frame().eye) - center) - offset;
     let (distance, view) = (to_eye.length(), to_eye.normalized());
     let point = SurfacePoint { anchor: sphere.center, offset, normal, view, cos_theta_o: normal.dot(view) };
-    let lift = Vector::from_f64(Vector::default());
-    Hit { primitive, distance, point, from_inside: false, lift }
+    let shadow_ray_offset = Vector::from_f64(Vector::default());
+    Hit { primitive, distance, point, from_inside: false, shadow_ray_offset }
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn single_precision_is_within_its_tolerance_on_the_scenes_of_the_repository() {
         source.camera.get_or_insert_default().resolution = Some([163, 121]);
         let scene = prepared(source);
         for instructions in Instructions::all() {
-            let renderer = Lanes::new(Precision::Single, None).with_instructions(instructions);
+            let renderer = SimdRenderer::new(Precision::Single, None).with_instructions(instructions);
             let deviation = conforms(&renderer, &scene, &SINGLE)
                 .unwrap_or_else(|error| panic!("{name}, {}: {error}", instructions.name()));
             println!("{name} {}: {deviation:?}", instructions.name());
@@ -148,7 +148,7 @@ fn many_lights_are_summed_within_tolerance() {
                 .unwrap_or_else(|error| panic!("{count} lights, {}: {error}", renderer.name()));
             assert!(deviation.visible > 400, "{deviation:?}");
         }
-        conforms(&Lanes::new(Precision::Single, None), &scene, &SINGLE)
+        conforms(&SimdRenderer::new(Precision::Single, None), &scene, &SINGLE)
             .unwrap_or_else(|error| panic!("{count} lights: {error}"));
     }
 }
@@ -170,7 +170,7 @@ fn the_bytes_do_not_depend_on_the_width_of_the_registers() {
                     .into_iter()
                     .filter(|instructions| instructions.fuse() == fuse)
                     .map(|instructions| {
-                        let renderer = Lanes::new(precision, None).with_instructions(instructions);
+                        let renderer = SimdRenderer::new(precision, None).with_instructions(instructions);
                         (instructions.name(), renderer.render(&scene, &settings).expect("it renders"))
                     })
                     .collect();
@@ -189,7 +189,7 @@ fn a_region_lit_by_many_lights_is_a_part_of_the_whole() {
         let mut source = with_many_lights(400);
         source.camera.get_or_insert_default().resolution = Some([300, 9]);
         let scene = prepared(source);
-        let renderer = Lanes::new(precision, None);
+        let renderer = SimdRenderer::new(precision, None);
         let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
         let whole = renderer.render(&scene, &settings).expect("it renders");
         for column in [50, 128, 131, 200] {
@@ -218,7 +218,7 @@ fn single_precision_keeps_its_bound_for_lights_anywhere() {
         source.camera.get_or_insert_default().resolution = Some([41, 31]);
         prepared(source)
     };
-    let renderer = Lanes::new(Precision::Single, None);
+    let renderer = SimdRenderer::new(Precision::Single, None);
     for z in [3.999, 3.99, 3.95, 3.8, 3.0, -100.0, -1e4, -1e6, -1e9] {
         conforms(&renderer, &with_light(z, 100.0), &SINGLE).unwrap_or_else(|error| panic!("z = {z}: {error}"));
     }
@@ -233,7 +233,7 @@ fn single_precision_keeps_its_bound_for_lights_anywhere() {
 #[test]
 fn a_map_in_the_memory_of_an_earlier_one_is_the_same() {
     for precision in [Precision::Double, Precision::Single] {
-        let renderer = Lanes::new(precision, None);
+        let renderer = SimdRenderer::new(precision, None);
         let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
         let mut source = scene_file("lab.toml");
         source.probe.clear();
@@ -283,7 +283,8 @@ fn distant_spheres_keep_their_digits() {
         camera.screen.get_or_insert_default().distance = Some(distance);
         camera.resolution = Some([60, 60]);
         let scene = prepared(source);
-        let deviation = conforms(&Reference, &scene, &DOUBLE).unwrap_or_else(|error| panic!("{distance}: {error}"));
+        let deviation =
+            conforms(&ReferenceRenderer, &scene, &DOUBLE).unwrap_or_else(|error| panic!("{distance}: {error}"));
         assert!(deviation.visible > 1000);
     }
 }
@@ -329,9 +330,9 @@ fn the_inside_of_a_sphere_is_seen_and_lit_from_inside() {
     let scene = Scene::from_text("room", text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(scene.warnings().len(), 1, "the light outside deserves a word");
     let scene = PreparedScene::new(&scene);
-    let deviation = conforms(&Reference, &scene, &DOUBLE).unwrap_or_else(|error| panic!("{error}"));
+    let deviation = conforms(&ReferenceRenderer, &scene, &DOUBLE).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(deviation.visible, 1600, "the wall is everywhere");
-    let reading = scene.probe(&Place::Pixel(Pixel { column: 3, row: 30 })).expect("the wall is there");
+    let reading = scene.probe(&ProbePosition::Pixel(Pixel { column: 3, row: 30 })).expect("the wall is there");
     assert!(reading.hit.point.offset.dot(reading.hit.point.normal) < 0.0, "N points inwards");
     assert!((reading.hit.point.offset.length() - 2.0).abs() < 1e-15);
     assert!(reading.terms[0].irradiance > 0.0);
@@ -357,7 +358,7 @@ fn the_nearest_sphere_hides_the_others_and_spheres_behind_the_eye_are_not_seen()
     let hit = scene.trace_pixel(Pixel { column: 400, row: 300 }).expect("a sphere is there");
     assert_eq!(scene.scene().shapes()[hit.primitive.shape].name, "before");
     assert!((hit.distance - 2.0).abs() < 1e-4);
-    let map = Reference.render(&scene, &RenderSettings::default()).expect("it renders");
+    let map = ReferenceRenderer.render(&scene, &RenderSettings::default()).expect("it renders");
     let seen: std::collections::BTreeSet<i32> = map.mask().shapes().into_iter().collect();
     assert_eq!(seen, [-1, 2].into(), "the one before covers those of the same size behind it");
 }
@@ -400,7 +401,7 @@ proptest! {
         }
         let Ok(scene) = Scene::try_from(source) else { return Ok(()) };
         let scene = PreparedScene::new(&scene);
-        for renderer in [&Reference as &dyn Renderer, &Lanes::new(Precision::Double, None)] {
+        for renderer in [&ReferenceRenderer as &dyn Renderer, &SimdRenderer::new(Precision::Double, None)] {
             let result = conforms(renderer, &scene, &DOUBLE);
             prop_assert!(result.is_ok(), "{}: {}", renderer.name(), result.unwrap_err());
         }
@@ -409,7 +410,7 @@ proptest! {
     #[test]
     fn random_scenes_in_single_precision_are_within_its_tolerance(source in random::worlds()) {
         let scene = prepared(source);
-        let result = conforms(&Lanes::new(Precision::Single, None), &scene, &SINGLE);
+        let result = conforms(&SimdRenderer::new(Precision::Single, None), &scene, &SINGLE);
         prop_assert!(result.is_ok(), "{}", result.unwrap_err());
     }
 
@@ -423,7 +424,7 @@ proptest! {
             let toward = Vector::from(toward);
             prop_assume!(toward.length() > 0.1);
             let point = sphere.center + toward.normalized() * sphere.radius;
-            let reading = scene.probe(&Place::NearestTo(point)).expect("there are spheres");
+            let reading = scene.probe(&ProbePosition::NearestTo(point)).expect("there are spheres");
             let primitive = reading.hit.primitive;
             let exact = precise_hit(&scene, primitive, point);
             let mut least_cosine = exact.point.cos_theta_o.rounded().abs();
@@ -467,7 +468,7 @@ proptest! {
         let scene = prepared(source);
         let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
         let precision = if is_single { Precision::Single } else { Precision::Double };
-        let renderer = |threads: usize| Lanes::new(precision, threads.try_into().ok());
+        let renderer = |threads: usize| SimdRenderer::new(precision, threads.try_into().ok());
         let whole = renderer(1).render(&scene, &settings).expect("it renders");
         let region = Region {
             corner: Pixel { column: corner.0, row: corner.1 },

@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use isophote::analysis::probe::Place;
+use isophote::analysis::probe::ProbePosition;
 use isophote::lanes::Precision;
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::reflectance::Convention;
-use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::source::{AmbientSource, EmissionName, LightSource};
 use isophote::scene::{Scene, SceneSource};
 use isophote::vector::Vector;
@@ -22,7 +22,7 @@ fn prepared(source: SceneSource) -> PreparedScene {
 }
 
 fn irradiance(scene: &PreparedScene, direction: Vector) -> f64 {
-    scene.probe(&Place::NearestTo(direction)).expect("there is a sphere").shading.irradiance
+    scene.probe(&ProbePosition::NearestTo(direction)).expect("there is a sphere").shading.irradiance
 }
 
 /// E = E₀ cosβ, wherever the sphere is and however large; the flux is that through its shadow, π R² E₀.
@@ -99,8 +99,11 @@ fn ambient_light_alone_gives_the_same_irradiance_everywhere() {
         source.ambient = Some(AmbientSource { radiance: Some(7.0.into()), ..AmbientSource::default() });
         source.convention = Some(convention);
         let scene = prepared(source);
-        let renderers: [&dyn Renderer; 3] =
-            [&Reference, &Lanes::new(Precision::Double, None), &Lanes::new(Precision::Single, None)];
+        let renderers: [&dyn Renderer; 3] = [
+            &ReferenceRenderer,
+            &SimdRenderer::new(Precision::Double, None),
+            &SimdRenderer::new(Precision::Single, None),
+        ];
         for (renderer, allowed) in renderers.into_iter().zip([1e-15, 1e-15, 1e-7]) {
             let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
             let map = renderer.render(&scene, &settings).expect("it renders");
@@ -136,7 +139,7 @@ fn ambient_light_belongs_to_no_light() {
     let lamp = Quantity::Light("lamp".into());
     let quantities = vec![Quantity::Irradiance, Quantity::Ambient, lamp.clone()];
     let settings = RenderSettings { quantities, ..RenderSettings::default() };
-    for renderer in [&Reference as &dyn Renderer, &Lanes::new(Precision::Double, None)] {
+    for renderer in [&ReferenceRenderer as &dyn Renderer, &SimdRenderer::new(Precision::Double, None)] {
         let map = renderer.render(&scene, &settings).expect("it renders");
         let [irradiance, ambient, lamp] =
             [&Quantity::Irradiance, &Quantity::Ambient, &lamp].map(|quantity| map.scalar(quantity).expect("asked for"));
@@ -160,7 +163,7 @@ fn the_sun_does_not_shine_into_a_closed_sphere() {
     assert_eq!(warning.path, "light[0].direction");
     assert!(warning.message.contains("lights nothing there"), "{}", warning.message);
     let scene = PreparedScene::new(&scene);
-    let reading = scene.probe(&Place::NearestTo(Vector::new(-0.6, -0.8, 0.0))).expect("there is a sphere");
+    let reading = scene.probe(&ProbePosition::NearestTo(Vector::new(-0.6, -0.8, 0.0))).expect("there is a sphere");
     assert!(reading.terms[0].cos_theta_i > 0.9, "it would shine on it");
     assert_eq!(reading.shading.irradiance, 0.0);
 }

@@ -2,7 +2,7 @@
 
 mod random;
 
-use isophote::analysis::probe::{Place, ProbeError, ProbeReading};
+use isophote::analysis::probe::{ProbeError, ProbePosition, ProbeReading};
 use isophote::prepare::PreparedScene;
 use isophote::render::{PointKernel, PointValues};
 use isophote::scene::library::Starter;
@@ -64,7 +64,7 @@ proptest! {
         let mut misses = 0;
         for (index, point) in points.iter().enumerate() {
             let metres = Vector::from(point.map(|coordinate| length.to_metres(coordinate)));
-            let place = if snaps { Place::NearestTo(metres) } else { Place::Point(metres) };
+            let place = if snaps { ProbePosition::NearestTo(metres) } else { ProbePosition::Point(metres) };
             match scene.probe(&place) {
                 Err(ProbeError::OffSurface(_)) => {
                     misses += 1;

@@ -5,7 +5,7 @@ mod random;
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::reflectance::Convention;
-use isophote::render::{Reference, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer};
 use isophote::scene::{Scene, SceneSource};
 use isophote::units::LengthUnit;
 use proptest::prelude::*;
@@ -21,7 +21,7 @@ fn render(source: &SceneSource) -> Rendered {
     let scene = Scene::try_from(source.clone()).unwrap_or_else(|error| panic!("{error}"));
     let scene = PreparedScene::new(&scene);
     let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
-    let map = Reference.render(&scene, &settings).expect("it renders");
+    let map = ReferenceRenderer.render(&scene, &settings).expect("it renders");
     let cosine = |index| scene.trace_pixel(map.pixel(index)).map_or(1.0, |hit| hit.point.cos_theta_o);
     Rendered {
         brightness: map.scalar(&Quantity::Brightness).expect("asked for").iter().collect(),

@@ -3,9 +3,9 @@
 use isophote::lanes::Precision;
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Filter, Lanes, Reference, RenderSettings, Renderer};
+use isophote::render::{Filter, ReferenceRenderer, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::{Scene, Syntax};
-use isophote::units::Choice;
+use isophote::units::Keyword;
 
 /// A sphere of radius 0.25 at distance 2.6 on the axis, screen at distance 3: the silhouette has the radius
 /// 0.289804351503 (5.6).
@@ -28,7 +28,7 @@ fn render(scene: &PreparedScene, region: Option<Region>) -> Map {
     let quantities =
         vec![Quantity::Brightness, Quantity::Samples, Quantity::Coverage, Quantity::Depth, Quantity::Shape];
     let settings = RenderSettings { quantities, region, ..RenderSettings::default() };
-    Lanes::new(Precision::Double, None).render(scene, &settings).expect("it renders")
+    SimdRenderer::new(Precision::Double, None).render(scene, &settings).expect("it renders")
 }
 
 fn values(map: &Map, quantity: &Quantity) -> Vec<f64> {
@@ -151,7 +151,7 @@ fn integrated_pixels_are_within_the_tolerance_of_many_samples() {
         let quantities = [Quantity::Brightness, Quantity::Diffuse, Quantity::Specular, side, Quantity::Samples];
         let settings = RenderSettings { quantities: quantities.to_vec(), ..RenderSettings::default() };
         let render = |sampling: &str| {
-            Lanes::new(Precision::Double, None).render(&scene(sampling), &settings).expect("it renders")
+            SimdRenderer::new(Precision::Double, None).render(&scene(sampling), &settings).expect("it renders")
         };
         let (exact, map) = (render("samples = 4096"), render("tolerance = 0.01\nsamples = 1024"));
         let samples = values(&map, &Quantity::Samples);
@@ -210,7 +210,7 @@ fn regions_and_the_reference_give_the_same_pixels() {
                 }
             }
             let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
-            let reference = Reference.render(&scene, &settings).expect("it renders");
+            let reference = ReferenceRenderer.render(&scene, &settings).expect("it renders");
             for (lanes, reference) in
                 values(&whole, &Quantity::Brightness).iter().zip(values(&reference, &Quantity::Brightness))
             {

@@ -2,7 +2,7 @@
 
 use isophote::map::{Quantity, Resolution, Values};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Reference, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer};
 use isophote::scene::{ProblemKind, Scene, SceneError, Syntax};
 use proptest::prelude::*;
 
@@ -397,7 +397,7 @@ proptest! {
             Ok(scene) => {
                 let small = scene.with_resolution(Resolution { width: 8, height: 6 }).expect("it was valid");
                 let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
-                let map = Reference.render(&PreparedScene::new(&small), &settings).expect("a valid scene renders");
+                let map = ReferenceRenderer.render(&PreparedScene::new(&small), &settings).expect("a valid scene renders");
                 for channel in map.channels() {
                     if let Values::Scalar(values) = &channel.values {
                         prop_assert!(values.iter().all(|value| value.is_finite()), "{}", channel.quantity.name());

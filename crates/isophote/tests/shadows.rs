@@ -1,10 +1,10 @@
 //! Shadows against closed forms, and without artefacts at any scale.
 
-use isophote::analysis::probe::Place;
+use isophote::analysis::probe::ProbePosition;
 use isophote::lanes::Precision;
 use isophote::map::{Map, Quantity};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Lanes, Reference, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::{Scene, Syntax};
 use isophote::vector::Vector;
 
@@ -15,7 +15,7 @@ fn prepared(text: &str) -> PreparedScene {
 fn map(scene: &PreparedScene) -> Map {
     let quantities = vec![Quantity::Brightness, Quantity::Irradiance];
     let settings = RenderSettings { quantities, ..RenderSettings::default() };
-    Lanes::new(Precision::Double, None).render(scene, &settings).expect("it renders")
+    SimdRenderer::new(Precision::Double, None).render(scene, &settings).expect("it renders")
 }
 
 fn brightness(map: &Map) -> Vec<u64> {
@@ -39,7 +39,7 @@ fn ball_over_floor(settings: &str) -> PreparedScene {
 const EDGE: f64 = 3.0 * 0.258_198_889_747_161_1;
 
 fn irradiance(scene: &PreparedScene, x: f64, z: f64) -> f64 {
-    scene.probe(&Place::Point(Vector::new(x, 0.0, z))).expect("it is on the floor").shading.irradiance
+    scene.probe(&ProbePosition::Point(Vector::new(x, 0.0, z))).expect("it is on the floor").shading.irradiance
 }
 
 #[test]
@@ -61,10 +61,10 @@ fn the_shadow_of_a_ball_is_the_cone_that_touches_it() {
 #[test]
 fn a_blocker_is_named() {
     let scene = ball_over_floor("shadows = true");
-    let reading = scene.probe(&Place::Point(Vector::new(0.1, 0.0, 0.1))).expect("it is on the floor");
+    let reading = scene.probe(&ProbePosition::Point(Vector::new(0.1, 0.0, 0.1))).expect("it is on the floor");
     let blocker = reading.blockers[0].expect("the ball is before the lamp");
     assert_eq!(scene.scene().name_of(blocker), "ball");
-    assert_eq!(scene.probe(&Place::Point(Vector::new(3.0, 0.0, 0.0))).expect("likewise").blockers, [None]);
+    assert_eq!(scene.probe(&ProbePosition::Point(Vector::new(3.0, 0.0, 0.0))).expect("likewise").blockers, [None]);
     assert!(reading.explain(&scene, "P").contains("\"ball\" stands between"));
 }
 
@@ -120,7 +120,7 @@ fn a_lone_convex_shape_never_shadows_itself() {
         // The same where every pixel is traced and shaded by itself.
         let scene = lone_sphere(size, offset, true, "");
         let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
-        let reference = Reference.render(&scene, &settings).expect("it renders");
+        let reference = ReferenceRenderer.render(&scene, &settings).expect("it renders");
         let peak = reference.scalar(&Quantity::Brightness).expect("asked for").iter().fold(0.0, f64::max);
         let pairs = reference.scalar(&Quantity::Brightness).expect("asked for").iter();
         let of_lanes: Vec<f64> = without.scalar(&Quantity::Brightness).expect("asked for").iter().collect();
@@ -190,10 +190,10 @@ fn a_lamp_in_a_ball_lights_only_the_inside_of_it() {
         assert!(outside.mask().runs().len() > 10, "something is seen");
         assert!(brightness(&outside).iter().all(|bits| *bits == 0), "and all is dark");
         let inside = scene("[-0.5, 0.1, 0]", more);
-        let lit = inside.probe(&Place::Point(Vector::new(-1.0, 0.0, 0.0))).expect("it is on the shade");
+        let lit = inside.probe(&ProbePosition::Point(Vector::new(-1.0, 0.0, 0.0))).expect("it is on the shade");
         // (3.1), 1.5 m away and straight on.
         assert!((lit.shading.irradiance - 10.0 / 2.25).abs() < 1e-14, "{}", lit.shading.irradiance);
-        let reference = Reference
+        let reference = ReferenceRenderer
             .render(&inside, &RenderSettings { quantities: vec![Quantity::Irradiance], ..RenderSettings::default() });
         let reference = reference.expect("it renders");
         let [expected, found] = [&reference, &map(&inside)]

@@ -6,8 +6,8 @@ use isophote::double_double::DoubleDouble;
 use isophote::import::CornerNormals;
 use isophote::real::Scalar;
 use isophote::shape::{
-    Accuracy, Cone, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Intersection, Mesh, MeshData, MeshError, MeshPlacing,
-    Plane, Ray, Rectangle, Rotation, Sphere, SurfacePoint,
+    Accuracy, Cone, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Mesh, MeshData, MeshError, MeshPlacing, Plane, Ray,
+    Rectangle, Rotation, ShapeHit, Sphere, SurfacePoint,
 };
 use isophote::vector::Vector;
 
@@ -117,15 +117,15 @@ fn ray<T: Scalar>(start: Vector, direction: Vector) -> Ray<T> {
 }
 
 /// The part that is met first and where; and whether that is in doubt.
-fn first<T: Scalar>(geometry: &Geometry, ray: &Ray<T>, accuracy: Accuracy) -> (Option<(u32, Intersection<T>)>, bool) {
-    let mut nearest: Option<(u32, Intersection<T>)> = None;
+fn first<T: Scalar>(geometry: &Geometry, ray: &Ray<T>, accuracy: Accuracy) -> (Option<(u32, ShapeHit<T>)>, bool) {
+    let mut nearest: Option<(u32, ShapeHit<T>)> = None;
     let mut doubtful_from: Option<T> = None;
     for part in 0..geometry.parts() {
-        let meeting = geometry.meet(part, ray, accuracy);
-        if let Some(from) = meeting.doubtful_from {
+        let intersection = geometry.intersect(part, ray, accuracy);
+        if let Some(from) = intersection.doubtful_from {
             doubtful_from = Some(doubtful_from.map_or(from, |earlier| T::select(from.is_less(earlier), from, earlier)));
         }
-        if let Some(hit) = meeting.hit
+        if let Some(hit) = intersection.hit
             && nearest.is_none_or(|(_, nearest)| hit.distance.is_less(nearest.distance))
         {
             nearest = Some((part, hit));
@@ -136,7 +136,7 @@ fn first<T: Scalar>(geometry: &Geometry, ray: &Ray<T>, accuracy: Accuracy) -> (O
 }
 
 /// As a scene finds it: what is in doubt is traced again.
-fn hit(geometry: &Geometry, start: Vector, direction: Vector) -> Option<Intersection> {
+fn hit(geometry: &Geometry, start: Vector, direction: Vector) -> Option<ShapeHit> {
     let (found, is_doubtful) = first::<f64>(geometry, &ray(start, direction), Accuracy::for_shading(None, 0.0));
     if !is_doubtful {
         return found.map(|(_, hit)| hit);
@@ -146,8 +146,8 @@ fn hit(geometry: &Geometry, start: Vector, direction: Vector) -> Option<Intersec
         let SurfacePoint { anchor, offset, normal, view, cos_theta_o } = hit.point;
         let (offset, normal, view) = (rounded(offset), rounded(normal), rounded(view));
         let point = SurfacePoint { anchor, offset, normal, view, cos_theta_o: cos_theta_o.rounded() };
-        let (distance, lift) = (hit.distance.rounded(), rounded(hit.lift));
-        Intersection { distance, point, from_inside: hit.from_inside, lift }
+        let (distance, shadow_ray_offset) = (hit.distance.rounded(), rounded(hit.shadow_ray_offset));
+        ShapeHit { distance, point, from_inside: hit.from_inside, shadow_ray_offset }
     })
 }
 
@@ -346,7 +346,7 @@ fn silhouettes_are_where_the_closed_forms_have_them() {
                 let at = |part: f64| side * half_width * part;
                 let sees = |part: f64| {
                     let ray = ray::<DoubleDouble>(away(at(part), y), towards);
-                    geometry.meet(0, &ray, Accuracy::OF_VISIBILITY).hit.is_some()
+                    geometry.intersect(0, &ray, Accuracy::OF_VISIBILITY).hit.is_some()
                 };
                 assert!(sees(1.0 - ends) && !sees(1.0 + ends), "{geometry:?} at {y}");
             }
@@ -365,16 +365,16 @@ fn a_plane_ends_at_its_horizon() {
         let eye = normal * 2.0;
         let exact = Vector::<DoubleDouble>::from_f64(along) - plane_part(along, &plane);
         let ray = Ray { direction: exact.normalized(), ..ray(eye, along) };
-        assert!(plane.meet(0, &ray, Accuracy::OF_VISIBILITY).hit.is_none());
+        assert!(plane.intersect(0, &ray, Accuracy::OF_VISIBILITY).hit.is_none());
         let rounded = Ray { direction: rounded(exact.normalized()), ..self::ray::<f64>(eye, along) };
-        assert!(plane.meet(0, &rounded, Accuracy::OF_VISIBILITY).doubtful_from.is_some());
+        assert!(plane.intersect(0, &rounded, Accuracy::OF_VISIBILITY).doubtful_from.is_some());
     }
 }
 
 /// The part of a vector across a plane, with 32 digits.
 fn plane_part(vector: Vector, plane: &Geometry) -> Vector<DoubleDouble> {
     let start = ray::<DoubleDouble>(Vector::new(1.0, 2.0, 3.0), Vector::new(-0.3, -2.0, -1.0));
-    let normal = plane.meet(0, &start, Accuracy::OF_VISIBILITY).hit.expect("it is there").point.normal;
+    let normal = plane.intersect(0, &start, Accuracy::OF_VISIBILITY).hit.expect("it is there").point.normal;
     normal * normal.dot(Vector::from_f64(vector))
 }
 
@@ -411,7 +411,7 @@ fn a_mesh_of_a_cube_is_a_box() {
             let [Some(first), Some(second)] = [first, second] else { panic!("the rays go through it") };
             assert!((first.distance - second.distance).abs() < 1e-13);
             assert!((first.point.normal - second.point.normal).length() < 1e-13);
-            assert_eq!(first.lift, Vector::default());
+            assert_eq!(first.shadow_ray_offset, Vector::default());
         }
     }
 }
@@ -446,7 +446,7 @@ fn a_smooth_mesh_has_the_normals_of_the_surface_at_its_vertices() {
             let expected = Vector::new(x / scale.x, y / scale.y, z / scale.z).normalized();
             let nearest = mesh.nearest(vertex);
             assert!((nearest.outward_normal - expected).length() < 1e-14);
-            assert!(nearest.lift.length() < 1e-15);
+            assert!(nearest.shadow_ray_offset.length() < 1e-15);
             let inner = Vector::new(0.011, -0.013, 0.017);
             let seen = hit(&mesh, inner, vertex * (1.0 - 1e-9) - inner).expect("it is all around");
             assert!((seen.point.normal + expected).length() < 1e-8, "on the viewer's side, which is inside");
@@ -462,10 +462,12 @@ fn the_lift_clears_the_tangent_planes_of_the_corners() {
     let mut random = Random(31_337);
     for _ in 0..200 {
         let hit = hit(&mesh, random.direction() * 3.0, random.direction() * 0.01);
-        assert!(hit.is_none_or(|hit| hit.lift == Vector::default() || hit.lift.dot(hit.point.normal) > 0.0));
+        assert!(hit.is_none_or(
+            |hit| hit.shadow_ray_offset == Vector::default() || hit.shadow_ray_offset.dot(hit.point.normal) > 0.0
+        ));
         let eye = random.direction() * 3.0;
         let hit = self::hit(&mesh, eye, -eye).expect("it is in the middle");
-        let start = hit.point.position() + hit.lift;
+        let start = hit.point.position() + hit.shadow_ray_offset;
         assert!(start.length() > hit.point.position().length());
         assert!((0.99..1.15).contains(&start.length()), "near the sphere that it stands for");
     }

@@ -5,7 +5,7 @@ mod random;
 use isophote::conformance::conforms;
 use isophote::map::{Map, Quantity, Values};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Reference, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer};
 use isophote::scene::{Scene, SceneSource, Syntax};
 use isophote::tolerance::DOUBLE;
 use proptest::prelude::*;
@@ -29,7 +29,7 @@ proptest! {
     #[test]
     fn random_worlds_are_rendered_within_tolerance(source in random::solids()) {
         let scene = prepared(source);
-        let result = conforms(&Reference, &scene, &DOUBLE);
+        let result = conforms(&ReferenceRenderer, &scene, &DOUBLE);
         prop_assert!(result.is_ok(), "{}", result.unwrap_err());
     }
 }
@@ -60,7 +60,7 @@ fn a_convex_shape_alone_casts_no_shadow_on_itself() {
             let maps = [true, false].map(|shadows| {
                 let scene = prepared(SceneSource { shadows: Some(shadows), ..source.clone() });
                 let settings = RenderSettings { quantities: vec![Quantity::Irradiance], ..RenderSettings::default() };
-                Reference.render(&scene, &settings).expect("it renders")
+                ReferenceRenderer.render(&scene, &settings).expect("it renders")
             });
             assert!(bits(&maps[0]) == bits(&maps[1]), "{shape} at scale {scale}, {place} away");
             let seen = maps[0].mask().shapes().iter().filter(|shape| **shape == 0).count();

@@ -11,7 +11,7 @@ use isophote::render::Sampling;
 use isophote::scene::{Material, Probe, Problem, Scene, Shape};
 use isophote::shape::Measure;
 use isophote::text::significant;
-use isophote::units::Choice;
+use isophote::units::Keyword;
 use isophote::vector::Vector;
 use serde_json::{Value, json};
 
@@ -38,14 +38,14 @@ fn to_text(scene: &Scene) -> String {
     row("length", format!("{} in the file; metres below", scene.length().name()));
     row("handedness", format!("{} (2.3)", camera.handedness.name()));
     row("convention", format!("{}: {}", convention.label(), convention.formula()));
-    row("quantities", format!("{}: B in {}", scene.quantities().name(), convention.unit(scene.quantities())));
+    row("quantities", format!("{}: B in {}", scene.unit_system().name(), convention.unit(scene.unit_system())));
     if let Some(color) = scene.color_label() {
         row("color space", color);
     }
     if scene.shadows() {
         row("shadows", "shapes stand in each other's light".into());
     }
-    if scene.sampling().is_more_than_centres() {
+    if scene.sampling().is_multisampled() {
         row("sampling", scene.sampling().describe());
     }
     row("eye", vector(camera.eye));
@@ -56,7 +56,7 @@ fn to_text(scene: &Scene) -> String {
     row(&name, projection);
     row("resolution", format!("{} × {} pixels", camera.resolution.width, camera.resolution.height));
     if let Some(ambient) = scene.ambient() {
-        let unit = scene.quantities().radiance_unit();
+        let unit = scene.unit_system().radiance_unit();
         let obstructed =
             ambient.obstruction.map_or(String::new(), |samples| format!(", obstructed: {samples} directions a point"));
         let radiance = amount(scene, radiance_of, ambient.radiance);
@@ -129,8 +129,8 @@ fn shapes(scene: &Scene) -> Option<String> {
 }
 
 fn lights(scene: &Scene) -> Option<String> {
-    let intensity = format!("I₀, {}", scene.quantities().intensity_unit());
-    let power = format!("power, {}", scene.quantities().power_unit());
+    let intensity = format!("I₀, {}", scene.unit_system().intensity_unit());
+    let power = format!("power, {}", scene.unit_system().power_unit());
     let columns = [
         ("name", Align::Left),
         ("position, m", Align::Left),
@@ -148,7 +148,7 @@ fn lights(scene: &Scene) -> Option<String> {
                 light_row(vector(point.position), strength(intensity_of), strength(power_of), emission)
             }
             LightKind::Parallel(parallel) => {
-                let irradiance = format!("{} {}", strength(intensity_of), scene.quantities().irradiance_unit());
+                let irradiance = format!("{} {}", strength(intensity_of), scene.unit_system().irradiance_unit());
                 let emission = format!("parallel, direction {}, E₀ {irradiance}", vector(parallel.direction));
                 light_row("–".into(), "–".into(), "–".into(), emission)
             }
@@ -238,8 +238,8 @@ fn to_json(scene: &Scene) -> Value {
         "handedness": scene.camera().handedness.name(),
         "convention": scene.convention().name(),
         "formula": scene.convention().formula_number(),
-        "quantities": scene.quantities().name(),
-        "unit": scene.convention().unit(scene.quantities()),
+        "quantities": scene.unit_system().name(),
+        "unit": scene.convention().unit(scene.unit_system()),
         "color_space": scene.color().map(|color| color.space.name()),
         "shadows": scene.shadows(),
         "sampling": sampling_json(scene.sampling()),

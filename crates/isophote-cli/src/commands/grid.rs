@@ -8,7 +8,7 @@ use isophote::prepare::PreparedScene;
 use isophote::scene::source::GridSource;
 use isophote::scene::{Grid, Scene};
 use isophote::text::significant;
-use isophote::units::Choice;
+use isophote::units::Keyword;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -88,8 +88,8 @@ struct Computed<'s> {
 
 impl Computed<'_> {
     fn figure_options(&self, main: &Quantity, scene: &Scene) -> FigureOptions {
-        let label = match (main, scene.quantities()) {
-            (Quantity::Irradiance, isophote::units::Quantities::Photometric) => "illuminance".into(),
+        let label = match (main, scene.unit_system()) {
+            (Quantity::Irradiance, isophote::units::UnitSystem::Photometric) => "illuminance".into(),
             _ => main.name(),
         };
         let title = [scene.title(), &self.grid.name].join(": ");

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use isophote::export::write_atomically;
-use isophote::units::Choice;
+use isophote::units::Keyword;
 
 use crate::args::NewArguments;
 use crate::failure::Usage;

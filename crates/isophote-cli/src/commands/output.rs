@@ -11,7 +11,7 @@ use isophote::export::png::{Depth, PictureColor, PictureOptions};
 use isophote::export::{self, FileMetadata, Format, atomic, csv, figure, write_atomically};
 use isophote::map::{Map, Quantity};
 use isophote::text::significant;
-use isophote::units::Choice;
+use isophote::units::Keyword;
 
 use crate::failure::Usage;
 use crate::progress::Interruptible;

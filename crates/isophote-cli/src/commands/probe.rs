@@ -3,13 +3,13 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use isophote::analysis::probe::{Place, ProbeError, ProbeReading, SeenFromEye};
+use isophote::analysis::probe::{ProbeError, ProbePosition, ProbeReading, SeenFromEye};
 use isophote::color::Component;
 use isophote::prepare::PreparedScene;
 use isophote::scene::{Scene, limits};
 use isophote::shade::Shading;
 use isophote::text::significant;
-use isophote::units::Choice;
+use isophote::units::Keyword;
 use isophote::vector::Vector;
 use serde::Serialize;
 
@@ -56,7 +56,7 @@ pub fn run(arguments: &ProbeArguments) -> Result<String> {
 /// A place with a name.
 struct Request {
     name: String,
-    place: Place,
+    place: ProbePosition,
     published: Option<f64>,
 }
 
@@ -73,20 +73,23 @@ fn requests(arguments: &ProbeArguments, scene: &Scene) -> Result<Vec<Request>> {
             return Err(Usage(message).into());
         }
         let point = Vector::from(metres);
-        push(format!("({x}, {y}, {z})"), if arguments.snap { Place::NearestTo(point) } else { Place::Point(point) });
+        push(
+            format!("({x}, {y}, {z})"),
+            if arguments.snap { ProbePosition::NearestTo(point) } else { ProbePosition::Point(point) },
+        );
     }
     for pixel in &arguments.pixel {
-        push(format!("pixel {},{}", pixel.column, pixel.row), Place::Pixel(*pixel));
+        push(format!("pixel {},{}", pixel.column, pixel.row), ProbePosition::Pixel(*pixel));
     }
     for [theta, phi] in &arguments.angles {
         let shape = sphere(arguments, scene)?;
-        let place = Place::Angles { shape, theta: theta.to_radians(), phi: phi.to_radians() };
+        let place = ProbePosition::Angles { shape, theta: theta.to_radians(), phi: phi.to_radians() };
         push(format!("θ {theta}°, φ {phi}°"), place);
     }
     if requests.is_empty() {
         requests.extend(scene.probes().iter().map(|probe| Request {
             name: probe.name.clone(),
-            place: Place::Point(probe.at),
+            place: ProbePosition::Point(probe.at),
             published: probe.published,
         }));
     }
@@ -127,8 +130,8 @@ fn refusal(name: &str, error: &ProbeError, scene: &Scene) -> String {
 }
 
 /// How far --snap moved a point, when it did.
-fn snapped(name: &str, place: &Place, reading: &ProbeReading, scene: &Scene) -> Option<String> {
-    let Place::NearestTo(asked) = place else { return None };
+fn snapped(name: &str, place: &ProbePosition, reading: &ProbeReading, scene: &Scene) -> Option<String> {
+    let ProbePosition::NearestTo(asked) = place else { return None };
     let moved = (reading.hit.point.position() - *asked).length();
     let geometry = &scene.shapes()[reading.hit.primitive.shape].geometry;
     (moved > geometry.surface_tolerance(*asked)).then(|| {
@@ -144,9 +147,9 @@ pub fn table_text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &Prepa
     let description = scene.scene();
     let length = description.length();
     let convention = description.convention();
-    let unit = convention.unit(description.quantities());
+    let unit = convention.unit(description.unit_system());
     let point = format!("point, {}", length.name());
-    let irradiance = format!("E (3.1), {}", description.quantities().irradiance_unit());
+    let irradiance = format!("E (3.1), {}", description.unit_system().irradiance_unit());
     let brightness = format!("B ({}), {unit}", convention.formula_number());
     let mut columns = vec![
         ("probe", Align::Left),
@@ -283,10 +286,10 @@ impl ProbeJson {
         let of_all =
             |of: &dyn Fn(&ProbeReading) -> f64, unit| ValueJson { value: of(reading), unit, rgb: rgb(reading, of) };
         let brightness = |of: fn(&Shading) -> f64| {
-            of_all(&|reading| of(&reading.shading), description.convention().unit(description.quantities()))
+            of_all(&|reading| of(&reading.shading), description.convention().unit(description.unit_system()))
         };
         let irradiance = |of: fn(&Shading) -> f64| {
-            of_all(&|reading| of(&reading.shading), description.quantities().irradiance_unit())
+            of_all(&|reading| of(&reading.shading), description.unit_system().irradiance_unit())
         };
         let terms = reading.terms.iter().zip(description.lights()).enumerate();
         let lights = terms.map(|(index, (term, light))| (reading.light_shares(scene, index), index, term, light));

@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use isophote::analysis::probe::Place;
+use isophote::analysis::probe::ProbePosition;
 use isophote::export::FileMetadata;
 use isophote::export::csv::Rows;
 use isophote::export::figure::{self, FigureOptions, Mark};
 use isophote::export::png::Depth;
 use isophote::map::{Map, Quantity, Region};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Lanes, RenderError, RenderSettings, Renderer};
+use isophote::render::{RenderError, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::Scene;
 
 use super::output::{
@@ -135,13 +135,13 @@ impl<'a> Job<'a> {
     fn render(&self, scene: &PreparedScene) -> Result<Map> {
         let arguments = self.arguments;
         // The irradiance tells which pixels are lit.
-        let sampled = scene.scene().sampling().is_more_than_centres().then_some(Quantity::Samples);
+        let sampled = scene.scene().sampling().is_multisampled().then_some(Quantity::Samples);
         let quantities =
             self.wanted.iter().cloned().chain([Quantity::Irradiance, self.main.clone()]).chain(sampled).collect();
         let region = arguments.region.unwrap_or(Region::all(scene.scene().camera().resolution));
         let progress = Progress::new(region.size.pixels() as u64, arguments.quiet);
         let settings = RenderSettings { region: Some(region), quantities, observer: Some(&progress) };
-        let map = Lanes::new(arguments.precision, arguments.threads).render(scene, &settings);
+        let map = SimdRenderer::new(arguments.precision, arguments.threads).render(scene, &settings);
         progress.finish();
         map.map_err(|error| match error {
             RenderError::Region { .. } => Usage(error.to_string()).into(),
@@ -231,7 +231,7 @@ fn marks(map: &Map, scene: &PreparedScene) -> Vec<Mark> {
     let mark = |probe: &isophote::scene::Probe| {
         let [x, y] = scene.frame().project(probe.at)?.map(|coordinate| window.unit().from_internal(coordinate));
         let inside = (window.x[0]..=window.x[1]).contains(&x) && (window.y[0]..=window.y[1]).contains(&y);
-        let seen = scene.probe(&Place::Point(probe.at)).ok()?.is_seen();
+        let seen = scene.probe(&ProbePosition::Point(probe.at)).ok()?.is_seen();
         (inside && seen).then(|| Mark { name: probe.name.clone(), x, y })
     };
     scene.scene().probes().iter().filter_map(mark).collect()
@@ -239,5 +239,5 @@ fn marks(map: &Map, scene: &PreparedScene) -> Vec<Mark> {
 
 /// The unit of a quantity in a scene.
 pub fn unit(quantity: &Quantity, scene: &Scene) -> String {
-    quantity.unit(scene.convention(), scene.quantities(), scene.length()).to_owned()
+    quantity.unit(scene.convention(), scene.unit_system(), scene.length()).to_owned()
 }

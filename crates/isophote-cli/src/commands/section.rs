@@ -11,7 +11,7 @@ use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::scene::Scene;
 use isophote::text::significant;
-use isophote::units::Choice;
+use isophote::units::Keyword;
 use serde::Serialize;
 
 use super::output::{FigureFormat, figure_format, refuse_twice, write_bytes, write_figure};

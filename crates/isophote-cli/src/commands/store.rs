@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Error, Result, anyhow};
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
-use isophote::render::{Lanes, RenderError};
+use isophote::render::{RenderError, SimdRenderer};
 use isophote::scene::{Scene, Syntax};
 use isophote_zarr::{Check, MapStatistics, Opening, Outcome, Request, Store, StoreError, Workers};
 use serde_json::json;
@@ -54,7 +54,7 @@ pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
     end_in_order();
     let available = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let workers = Workers { threads: arguments.threads.unwrap_or(available), memory: arguments.store.memory };
-    let renderer = Lanes::new(arguments.precision, Some(NonZeroUsize::MIN));
+    let renderer = SimdRenderer::new(arguments.precision, Some(NonZeroUsize::MIN));
     let part = arguments.store.shard;
     let is_continued = arguments.store.resume || part.is_some();
     let request = Request {

@@ -1,11 +1,11 @@
 //! The numbers of a map, for people and for programs.
 
-use isophote::analysis::probe::{Place, ProbeReading};
+use isophote::analysis::probe::{ProbePosition, ProbeReading};
 use isophote::analysis::statistics::{Counts, Extreme, Statistics, counts, statistics};
 use isophote::map::{Map, Quantity, Region};
 use isophote::prepare::PreparedScene;
 use isophote::text::significant;
-use isophote::units::Choice;
+use isophote::units::Keyword;
 use isophote_zarr::MapStatistics;
 use serde::Serialize;
 
@@ -161,7 +161,7 @@ type Reading = (String, ProbeReading, Option<f64>);
 /// The scene's own probes.
 fn readings(scene: &PreparedScene) -> Vec<Reading> {
     let reading = |probe: &isophote::scene::Probe| {
-        let reading = scene.probe(&Place::Point(probe.at)).ok()?;
+        let reading = scene.probe(&ProbePosition::Point(probe.at)).ok()?;
         Some((probe.name.clone(), reading, probe.published))
     };
     scene.scene().probes().iter().filter_map(reading).collect()

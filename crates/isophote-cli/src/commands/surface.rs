@@ -10,7 +10,7 @@ use isophote::prepare::PreparedScene;
 use isophote::scene::Scene;
 use isophote::shape::Primitive;
 use isophote::text::significant;
-use isophote::units::Choice;
+use isophote::units::Keyword;
 use isophote::vector::Vector;
 use serde::Serialize;
 
@@ -128,7 +128,7 @@ impl Summary<'_> {
         if depends_on_eye(&self.main) {
             row("turned to", format!("the eye: {} m², and over them", significant(totals.area, 12)));
         } else {
-            let power = self.scene.quantities().power_unit();
+            let power = self.scene.unit_system().power_unit();
             row("flux", format!("{} {power} = ∫ E dA", significant(totals.integral, 12)));
         }
         row("mean", format!("{} {unit}", significant(totals.mean(), 12)));
@@ -199,7 +199,7 @@ impl Summary<'_> {
             area: totals.map_or(self.surface.area(), |totals| totals.area),
             area_unit: "m²",
             left_out: self.surface.left_out(),
-            flux_unit: flux.map(|_| self.scene.quantities().power_unit()),
+            flux_unit: flux.map(|_| self.scene.unit_system().power_unit()),
             flux,
             mean: totals.map(SurfaceTotals::mean),
             max: totals.map(|totals| extreme(&totals.max)),

@@ -178,8 +178,11 @@ fn json_numbers_have_the_digits_that_tell_every_double_apart() {
     );
     let scene = isophote::scene::Scene::from_text("lab", LAB, isophote::scene::Syntax::Toml).unwrap();
     let prepared = isophote::prepare::PreparedScene::new(&scene);
-    let place =
-        isophote::analysis::probe::Place::Angles { shape: 0, theta: 1.1_f64.to_radians(), phi: 77.7_f64.to_radians() };
+    let place = isophote::analysis::probe::ProbePosition::Angles {
+        shape: 0,
+        theta: 1.1_f64.to_radians(),
+        phi: 77.7_f64.to_radians(),
+    };
     let exact = prepared.probe(&place).unwrap().shading.brightness();
     let json = folder.ok("probe --angles 1.1,77.7 --json").json();
     assert_eq!(brightness(&json["probes"][0]).to_bits(), exact.to_bits());

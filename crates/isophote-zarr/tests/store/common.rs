@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use isophote::map::{Map, Quantity, Resolution};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Reference, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer};
 use isophote::scene::{Scene, Syntax};
 use isophote_zarr::{MapStatistics, Opening, Outcome, Part, Request, Store, StoreError, Workers};
 use tempfile::TempDir;
@@ -25,7 +25,7 @@ pub fn scene(text: &str, width: u32, height: u32) -> PreparedScene {
 
 pub fn map(scene: &PreparedScene, quantities: &[Quantity]) -> Map {
     let quantities = quantities.iter().cloned().chain([Quantity::Irradiance]).collect();
-    Reference.render(scene, &RenderSettings { quantities, ..RenderSettings::default() }).unwrap()
+    ReferenceRenderer.render(scene, &RenderSettings { quantities, ..RenderSettings::default() }).unwrap()
 }
 
 /// How a store is computed.
@@ -55,8 +55,8 @@ impl Job {
             shard_side: NonZeroU32::new(self.side),
         };
         let workers = Workers { threads: NonZeroUsize::new(self.threads).unwrap(), memory: self.memory };
-        let store = Store::prepare(path, scene, &Reference, &request)?;
-        store.render(scene, &Reference, workers, self.part, None)
+        let store = Store::prepare(path, scene, &ReferenceRenderer, &request)?;
+        store.render(scene, &ReferenceRenderer, workers, self.part, None)
     }
 
     /// A complete store and its results.

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use isophote::map::Quantity;
-use isophote::render::{Observer, Reference, RenderError};
+use isophote::render::{Observer, ReferenceRenderer, RenderError};
 use isophote_zarr::{Check, Opening, Outcome, Part, Request, Store, StoreError, Workers};
 
 use crate::common::{Folder, Job, TWO_LIGHTS, scene};
@@ -43,18 +43,18 @@ fn an_interrupted_computation_is_continued_to_the_same_bytes() {
     let workers = Workers { threads: 2.try_into().unwrap(), memory: None };
     for patience in [0, 500, 1500, 2500] {
         let folder = Folder::new();
-        let store = Store::prepare(&folder.store(), &scene, &Reference, &request).unwrap();
+        let store = Store::prepare(&folder.store(), &scene, &ReferenceRenderer, &request).unwrap();
         let observer = Patience(AtomicU64::new(patience));
-        let error = store.render(&scene, &Reference, workers, None, Some(&observer)).unwrap_err();
+        let error = store.render(&scene, &ReferenceRenderer, workers, None, Some(&observer)).unwrap_err();
         assert!(matches!(error, StoreError::Render(RenderError::Interrupted)), "{error}");
         let [done, pixels] = store.pixels(None);
         assert_eq!((done, pixels), (0, 3500));
         drop(store);
         // The plan is that of the store, even if nobody says so again.
         let request = Request { shard_side: None, ..request.clone() };
-        let store = Store::prepare(&folder.store(), &scene, &Reference, &request).unwrap();
+        let store = Store::prepare(&folder.store(), &scene, &ReferenceRenderer, &request).unwrap();
         assert_eq!(store.pixels(None)[0] > 0, patience > 1000, "{patience}");
-        store.render(&scene, &Reference, workers, None, None).unwrap();
+        store.render(&scene, &ReferenceRenderer, workers, None, None).unwrap();
         assert_eq!(folder.tree(), whole.tree(), "{patience}");
     }
 }

@@ -37,7 +37,7 @@ pub fn build(count: u32, bounds: impl Fn(u32) -> Option<Bounds> + Sync) -> Accel
     } else if !parts.is_empty() {
         let mut pieces = Vec::with_capacity(parts.len() * PIECES);
         for parts in parts.chunks(AT_ONCE) {
-            let built: Vec<Part> = parts.par_iter().map(|part| Part::of(&binary_tree(leaves(part)))).collect();
+            let built: Vec<Subtree> = parts.par_iter().map(|part| Subtree::of(&binary_tree(leaves(part)))).collect();
             for part in built {
                 part.append_to(&mut nodes, &mut pieces);
             }
@@ -103,13 +103,13 @@ fn binary_tree(leaves: Vec<Bvh2Node>) -> Bvh2 {
 }
 
 /// Wide nodes over a part of the scene.
-struct Part {
+struct Subtree {
     nodes: Vec<Node>,
     /// Leaves for the tree over all parts: boxes of nodes above, or of primitives.
     pieces: Vec<Bvh2Node>,
 }
 
-impl Part {
+impl Subtree {
     fn of(tree: &Bvh2) -> Self {
         let counts = leaf_counts(tree);
         let mut part = Self { nodes: Vec::new(), pieces: Vec::with_capacity(PIECES) };

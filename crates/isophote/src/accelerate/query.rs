@@ -8,32 +8,32 @@ use crate::vector::Vector;
 /// A question to the boxes of a node.
 pub trait Query {
     /// For each box a depth, which no point of the box that counts is before; and which boxes are met.
-    fn meet<V: Lane<Element = f32>>(&self, kind: V::Kind, node: &Node) -> (V, u32);
+    fn intersect<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node) -> (V, u32);
 
     /// The same with these instructions.
-    fn meet_with(&self, instructions: Instructions, node: &Node) -> ([f32; WIDTH], u32)
+    fn intersect_with(&self, instructions: Instructions, node: &Node) -> ([f32; WIDTH], u32)
     where
         Self: Sized,
     {
-        instructions.run(Meet { query: self, node })
+        instructions.run(Intersect { query: self, node })
     }
 }
 
-struct Meet<'q, Q> {
+struct Intersect<'q, Q> {
     query: &'q Q,
     node: &'q Node,
 }
 
-impl<Q: Query> LaneJob for Meet<'_, Q> {
+impl<Q: Query> LaneJob for Intersect<'_, Q> {
     type Output = ([f32; WIDTH], u32);
 
     #[inline(always)]
-    fn run<S, D>(self, kind: S::Kind) -> Self::Output
+    fn run<S, D>(self, token: S::Token) -> Self::Output
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
-        let (near, met) = self.query.meet::<S::Narrow>(kind, self.node);
+        let (near, met) = self.query.intersect::<S::Narrow>(token, self.node);
         let mut depths = [0.0; WIDTH];
         near.store(&mut depths);
         (depths, met)
@@ -106,15 +106,15 @@ impl Tube {
 
 impl Query for Tube {
     #[inline(always)]
-    fn meet<V: Lane<Element = f32>>(&self, kind: V::Kind, node: &Node) -> (V, u32) {
-        let mut near = V::splat(kind, 0.0);
-        let mut far = V::splat(kind, f32::MAX);
+    fn intersect<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node) -> (V, u32) {
+        let mut near = V::splat(token, 0.0);
+        let mut far = V::splat(token, f32::MAX);
         for axis in 0..3 {
             let first = self.first[axis];
-            let inverse = V::splat(kind, self.inverse[axis]);
+            let inverse = V::splat(token, self.inverse[axis]);
             let [start, end] = [self.starts[0][axis], self.starts[1][axis]];
-            near = near.max((V::load(kind, &node.sides[first][axis]) - V::splat(kind, start)) * inverse);
-            far = far.min((V::load(kind, &node.sides[1 - first][axis]) - V::splat(kind, end)) * inverse);
+            near = near.max((V::load(token, &node.sides[first][axis]) - V::splat(token, start)) * inverse);
+            far = far.min((V::load(token, &node.sides[1 - first][axis]) - V::splat(token, end)) * inverse);
         }
         (near, !V::bits(far.is_less(near)) & node.used)
     }
@@ -161,25 +161,25 @@ impl Beam {
 
 /// The greatest of n·x + offset over each box.
 #[inline(always)]
-fn highest<V: Lane<Element = f32>>(kind: V::Kind, node: &Node, (normal, offset): &([f32; 3], f32)) -> V {
-    let mut sum = V::splat(kind, *offset);
+fn highest<V: Lane<Element = f32>>(token: V::Token, node: &Node, (normal, offset): &([f32; 3], f32)) -> V {
+    let mut sum = V::splat(token, *offset);
     for (axis, component) in normal.iter().enumerate() {
         let side = usize::from(*component > 0.0);
-        sum = V::load(kind, &node.sides[side][axis]).times_plus(V::splat(kind, *component), sum);
+        sum = V::load(token, &node.sides[side][axis]).mul_add(V::splat(token, *component), sum);
     }
     sum
 }
 
 impl Query for Beam {
     #[inline(always)]
-    fn meet<V: Lane<Element = f32>>(&self, kind: V::Kind, node: &Node) -> (V, u32) {
-        let zero = V::splat(kind, 0.0);
-        let mut inside = highest::<V>(kind, node, &self.walls[0]);
+    fn intersect<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node) -> (V, u32) {
+        let zero = V::splat(token, 0.0);
+        let mut inside = highest::<V>(token, node, &self.walls[0]);
         for wall in &self.walls[1..] {
-            inside = inside.min(highest(kind, node, wall));
+            inside = inside.min(highest(token, node, wall));
         }
         // −n·x is greatest where the depth is least.
-        let depth = (-highest::<V>(kind, node, &self.forward)).max(zero);
+        let depth = (-highest::<V>(token, node, &self.forward)).max(zero);
         (depth, !V::bits(inside.is_less(zero)) & node.used)
     }
 }

@@ -70,11 +70,11 @@ proptest! {
     #[test]
     fn no_box_that_a_ray_meets_is_missed(
         boxes in boxes(0), target in vector(1.0), away in vector(1.0), far in -2.0..6.0_f64, flat in 0..8_u32,
-        exponent in -6..6_i32, place in vector(1.0), remoteness in prop::sample::select(vec![0.0, 1.0, 1e3, 1e9]),
+        exponent in -6..6_i32, place in vector(1.0), relative_distance in prop::sample::select(vec![0.0, 1.0, 1e3, 1e9]),
         part in 0.0..1.5_f64,
     ) {
         let size = 10.0_f64.powi(exponent);
-        let place = place * (remoteness * size);
+        let place = place * (relative_distance * size);
         let boxes = moved(&boxes, size, place);
         let mut away = away.to_array();
         for (axis, component) in away.iter_mut().enumerate() {
@@ -155,14 +155,14 @@ impl<Q: Query> LaneJob for All<'_, Q> {
     type Output = Vec<u32>;
 
     #[inline(always)]
-    fn run<S, D>(self, kind: S::Kind) -> Vec<u32>
+    fn run<S, D>(self, token: S::Token) -> Vec<u32>
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         let mut walk = Walk::default();
         walk.start(self.tree);
-        std::iter::from_fn(|| walk.next::<S::Narrow>(kind, self.tree, self.query, f32::INFINITY)).collect()
+        std::iter::from_fn(|| walk.next::<S::Narrow>(token, self.tree, self.query, f32::INFINITY)).collect()
     }
 }
 

@@ -24,7 +24,7 @@ impl Walk {
     #[inline(always)]
     pub fn next<V: Lane<Element = f32>>(
         &mut self,
-        kind: V::Kind,
+        token: V::Token,
         tree: &Accelerator,
         query: &impl Query,
         limit: f32,
@@ -34,7 +34,7 @@ impl Walk {
             limit,
             #[inline(always)]
             |node| {
-                let (near, met) = query.meet::<V>(kind, node);
+                let (near, met) = query.intersect::<V>(token, node);
                 let mut depths = [0.0; 16];
                 near.store(&mut depths);
                 (depths, met)
@@ -50,7 +50,7 @@ impl Walk {
         query: &impl Query,
         limit: f32,
     ) -> Option<u32> {
-        self.next_by(tree, limit, |node| query.meet_with(instructions, node))
+        self.next_by(tree, limit, |node| query.intersect_with(instructions, node))
     }
 
     #[inline(always)]

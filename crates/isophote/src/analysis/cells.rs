@@ -42,7 +42,7 @@ pub(super) fn map(
     let mut channels: Vec<Channel> = Vec::new();
     for quantity in quantities {
         if channels.iter().all(|channel| channel.quantity != *quantity) {
-            let unit = quantity.unit(description.convention, description.quantities, description.length);
+            let unit = quantity.unit(description.convention, description.unit_system, description.length);
             channels.push(Channel { quantity: quantity.clone(), unit: unit.into(), values: no_values(quantity) });
         }
     }

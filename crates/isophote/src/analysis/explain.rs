@@ -10,7 +10,7 @@ use crate::prepare::{Components, PreparedScene};
 use crate::reflectance::{Convention, Reflectance, lobe_constant};
 use crate::shade::LightTerm;
 use crate::text::significant;
-use crate::units::{Choice, LengthUnit};
+use crate::units::{Keyword, LengthUnit};
 use crate::vector::Vector;
 
 impl ProbeReading {
@@ -104,7 +104,7 @@ impl ProbeReading {
         let term = &self.terms[index];
         let description = scene.scene();
         let length = description.length();
-        let unit = description.quantities().irradiance_unit();
+        let unit = description.unit_system().irradiance_unit();
         line(text, format_args!("  S   = {} {}", vector_in(light.position, length), length.name()));
         let metres = digits(term.distance);
         if length == LengthUnit::Metre {
@@ -115,7 +115,7 @@ impl ProbeReading {
         }
         line(text, format_args!("  L   = (S − P)/r = {}", vector(term.direction)));
         self.explain_cosine(text, term);
-        explain_emission(text, light, term, description.quantities().intensity_unit());
+        explain_emission(text, light, term, description.unit_system().intensity_unit());
         self.explain_visibility(text, scene, index);
         line(
             text,
@@ -132,7 +132,7 @@ impl ProbeReading {
 
     fn explain_parallel_light(&self, text: &mut String, scene: &PreparedScene, light: &ParallelLight, index: usize) {
         let term = &self.terms[index];
-        let unit = scene.scene().quantities().irradiance_unit();
+        let unit = scene.scene().unit_system().irradiance_unit();
         line(text, format_args!("  D   = {}   the way that its light travels", vector(light.direction)));
         line(text, format_args!("  L   = −D = {}", vector(term.direction)));
         self.explain_cosine(text, term);
@@ -160,7 +160,7 @@ impl ProbeReading {
     }
 
     fn explain_ambient(&self, text: &mut String, scene: &PreparedScene, ambient: &Ambient) {
-        let unit = scene.scene().quantities().irradiance_unit();
+        let unit = scene.scene().unit_system().irradiance_unit();
         let (radiance, irradiance) = (digits(ambient.radiance), digits(self.shading.ambient));
         line(text, format_args!(""));
         line(text, format_args!("Ambient light"));
@@ -191,7 +191,7 @@ impl ProbeReading {
         }
         let formula = scene.formula(self.hit.primitive);
         let irradiance = digits(term.irradiance);
-        let end = format!("{}   ({})", convention.unit(scene.scene().quantities()), convention.formula_number());
+        let end = format!("{}   ({})", convention.unit(scene.scene().unit_system()), convention.formula_number());
         let half = if term.half.length() > 0.0 { term.half.normalized() } else { term.half };
         line(text, format_args!("  H   = (L + V)/‖L + V‖ = {}", vector(half)));
         let (cosine, lobe) = (digits(term.cos_theta_h), digits(term.lobe));
@@ -215,7 +215,7 @@ impl ProbeReading {
             return;
         }
         let k_d = scene.scene().materials()[material].reflectance.diffuse;
-        let end = format!("{}   ({})", convention.unit(scene.scene().quantities()), convention.formula_number());
+        let end = format!("{}   ({})", convention.unit(scene.scene().unit_system()), convention.formula_number());
         if self.hit.point.cos_theta_o <= 0.0 {
             line(text, format_args!("  diffuse = specular = 0 {end}, since θ_o ≥ 90°"));
             return;
@@ -237,11 +237,11 @@ impl ProbeReading {
     fn explain_sum(&self, text: &mut String, scene: &PreparedScene) {
         let description = scene.scene();
         let convention = description.convention();
-        let unit = convention.unit(description.quantities());
+        let unit = convention.unit(description.unit_system());
         line(text, format_args!(""));
         let (lights, ambient) = (self.terms.len(), description.ambient().map_or("", |_| " and the ambient light"));
         line(text, format_args!("Sum over {lights} light{}{ambient}", if lights == 1 { "" } else { "s" }));
-        let irradiance = description.quantities().irradiance_unit();
+        let irradiance = description.unit_system().irradiance_unit();
         line(text, format_args!("  E = {} {irradiance}   (3.1)", full(self.shading.irradiance)));
         if convention.uses_material() {
             let (diffuse, specular) = (digits(self.shading.diffuse), digits(self.shading.specular));
@@ -261,7 +261,7 @@ fn explain_components(text: &mut String, components: &Components, readings: &Rgb
         readings.of(*component).explain_numbers(text, components.of(*component));
     }
     let scene = components.of(Component::Red).scene();
-    let (convention, quantities) = (scene.convention(), scene.quantities());
+    let (convention, units) = (scene.convention(), scene.unit_system());
     let weights = space.luminance_weights();
     line(text, format_args!(""));
     line(text, format_args!("Luminance Y = {}   (3.10), {}", space.luminance_text(), space.name()));
@@ -270,8 +270,8 @@ fn explain_components(text: &mut String, components: &Components, readings: &Rgb
         let sum = full(values.weighted_by(weights));
         line(text, format_args!("  {symbol}_Y = {} = {sum} {unit}", terms.into_array().join(" + ")));
     };
-    sum("E", readings.map(|reading| reading.shading.irradiance), quantities.irradiance_unit());
-    sum("B", readings.map(|reading| reading.shading.brightness()), convention.unit(quantities));
+    sum("E", readings.map(|reading| reading.shading.irradiance), units.irradiance_unit());
+    sum("B", readings.map(|reading| reading.shading.brightness()), convention.unit(units));
 }
 
 fn explain_emission(text: &mut String, light: &PointLight, term: &LightTerm, unit: &str) {

@@ -1,8 +1,10 @@
 //! Isophotes: contours of equal value of a map's scalar channel, by marching squares that respect the silhouette.
 
+mod contour_grid;
+
 use std::collections::{HashMap, HashSet};
 
-use crate::analysis::grid::Grid;
+use self::contour_grid::ContourGrid;
 pub use crate::analysis::levels::nice_levels;
 use crate::map::{Map, Quantity, Scalars};
 
@@ -74,7 +76,7 @@ pub fn isophotes(map: &Map, quantity: &Quantity, levels: &[f64]) -> Result<Vec<I
     if let Some((index, &level)) = levels.iter().enumerate().find(|(_, level)| !level.is_finite()) {
         return Err(IsophoteError::LevelNotFinite { index, level });
     }
-    let grid = Grid::new(map, scalar(map, quantity)?);
+    let grid = ContourGrid::new(map, scalar(map, quantity)?);
     Ok(levels.iter().map(|&level| Isophote { level, lines: lines(&grid, level) }).collect())
 }
 
@@ -89,7 +91,7 @@ fn scalar<'map>(map: &'map Map, quantity: &Quantity) -> Result<Scalars<'map>, Is
 
 /// Joins the segments of all cells. As each crossing has the higher values on its left, it starts at most one segment
 /// and ends at most one, and the way along the segments is never in doubt.
-fn lines(grid: &Grid, level: f64) -> Vec<Polyline> {
+fn lines(grid: &ContourGrid, level: f64) -> Vec<Polyline> {
     let segments = grid.segments(level);
     let mut next: HashMap<usize, usize> = segments.iter().map(|segment| (segment.start, segment.end)).collect();
     let ends: HashSet<usize> = segments.iter().map(|segment| segment.end).collect();
@@ -106,7 +108,13 @@ fn lines(grid: &Grid, level: f64) -> Vec<Polyline> {
 
 /// Follows the segments from one crossing until they end or come back to it; nothing where the line is one point
 /// (a peak that equals the level).
-fn walk(grid: &Grid, level: f64, first: usize, second: usize, next: &mut HashMap<usize, usize>) -> Option<Polyline> {
+fn walk(
+    grid: &ContourGrid,
+    level: f64,
+    first: usize,
+    second: usize,
+    next: &mut HashMap<usize, usize>,
+) -> Option<Polyline> {
     let mut points = vec![grid.crossing(first, level)];
     let mut edge = second;
     let closed = loop {

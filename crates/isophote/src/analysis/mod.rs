@@ -2,7 +2,6 @@
 
 mod cells;
 mod explain;
-mod grid;
 pub mod isophotes;
 pub(crate) mod levels;
 pub mod measuring_grid;

@@ -12,7 +12,7 @@ use crate::vector::Vector;
 
 /// Where a value is asked for.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Place {
+pub enum ProbePosition {
     /// A point in space, in metres.
     Point(Vector),
     /// The point of the nearest surface to this one, in metres.
@@ -142,7 +142,7 @@ impl PreparedScene {
     ///
     /// # Errors
     /// A place that is on no surface.
-    pub fn probe(&self, place: &Place) -> Result<ProbeReading, ProbeError> {
+    pub fn probe(&self, place: &ProbePosition) -> Result<ProbeReading, ProbeError> {
         match self.components() {
             None => self.probe_numbers(place),
             Some(components) => {
@@ -154,15 +154,15 @@ impl PreparedScene {
         }
     }
 
-    fn probe_numbers(&self, place: &Place) -> Result<ProbeReading, ProbeError> {
+    fn probe_numbers(&self, place: &ProbePosition) -> Result<ProbeReading, ProbeError> {
         let geometries = || self.scene().shapes().iter().map(|shape| &shape.geometry);
         match *place {
-            Place::Point(point) => match surface_at(geometries(), point) {
+            ProbePosition::Point(point) => match surface_at(geometries(), point) {
                 Ok(located) => Ok(self.reading_at(&located)),
                 Err(Some(miss)) => Err(ProbeError::OffSurface(miss)),
                 Err(None) => Err(ProbeError::NoShapes),
             },
-            Place::NearestTo(point) => match surface_at(geometries(), point) {
+            ProbePosition::NearestTo(point) => match surface_at(geometries(), point) {
                 Ok(located) => Ok(self.reading_at(&located)),
                 Err(Some(miss)) => {
                     let Miss { shape, nearest, .. } = *miss;
@@ -170,8 +170,8 @@ impl PreparedScene {
                 }
                 Err(None) => Err(ProbeError::NoShapes),
             },
-            Place::Pixel(pixel) => self.probe_pixel(pixel),
-            Place::Angles { shape, theta, phi } => {
+            ProbePosition::Pixel(pixel) => self.probe_pixel(pixel),
+            ProbePosition::Angles { shape, theta, phi } => {
                 let frame = self.frame();
                 let ring = frame.right * libm::cos(phi) + frame.up * libm::sin(phi);
                 let direction = ring * libm::sin(theta) - frame.forward * libm::cos(theta);

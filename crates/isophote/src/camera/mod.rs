@@ -13,7 +13,7 @@ pub use projection::{Extent, Projection, Screen};
 use serde::{Deserialize, Serialize};
 
 use crate::map::{Coordinates, Pixel, Region, Resolution, Window};
-use crate::units::{Choice, LengthUnit, ScreenUnit};
+use crate::units::{Keyword, LengthUnit, ScreenUnit};
 use crate::vector::Vector;
 
 /// Which way x runs on the screen (2.3).
@@ -26,7 +26,7 @@ pub enum Handedness {
     Right,
 }
 
-impl Choice for Handedness {
+impl Keyword for Handedness {
     const ALL: &'static [Self] = &[Self::Left, Self::Right];
 
     fn name(self) -> &'static str {

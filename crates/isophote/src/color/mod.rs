@@ -10,7 +10,7 @@ pub use space::{Chromaticity, ColorSpace};
 
 use crate::light::{Ambient, Light};
 use crate::scene::Material;
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// One thing for each component of a colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub enum Component {
     Blue,
 }
 
-impl Choice for Component {
+impl Keyword for Component {
     const ALL: &'static [Self] = &[Self::Red, Self::Green, Self::Blue];
 
     fn name(self) -> &'static str {

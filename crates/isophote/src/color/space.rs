@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Rgb;
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// Which lights the components of a colour are amounts of: a space of linear RGB, by the chromaticities of its primaries
 /// and of its white.
@@ -30,7 +30,7 @@ pub struct Chromaticity {
     pub y: f64,
 }
 
-impl Choice for ColorSpace {
+impl Keyword for ColorSpace {
     const ALL: &'static [Self] = &[Self::Rec709, Self::Rec2020, Self::DisplayP3, Self::AcesCg];
 
     fn name(self) -> &'static str {

@@ -2,7 +2,7 @@
 
 use crate::color::{ColorSpace, Matrix};
 use crate::map::Map;
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// What is shown of linear RGB, as sRGB (IEC 61966-2-1): scaled, in sRGB's primaries, clipped to what a screen can show,
 /// and with sRGB's transfer function.

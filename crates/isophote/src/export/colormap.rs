@@ -1,7 +1,7 @@
 //! Colour maps for pictures: from a fraction to an sRGB colour.
 
 use crate::export::colormap_tables::{BATLOW, CIVIDIS, INFERNO, TURBO, VIRIDIS};
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// A colour map of 256 entries. Sources and licences of the tables stand in `tools/colormaps.py`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -42,7 +42,7 @@ impl Colormap {
     }
 }
 
-impl Choice for Colormap {
+impl Keyword for Colormap {
     const ALL: &'static [Self] = &[Self::Gray, Self::Viridis, Self::Cividis, Self::Inferno, Self::Turbo, Self::Batlow];
 
     fn name(self) -> &'static str {

@@ -33,7 +33,7 @@ use super::{
 };
 use crate::color::{Chromaticity, ColorSpace, Rgb};
 use crate::map::{Channel, Map, Quantity, Region};
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// Writes one part with all channels of the map, without loss beyond the rounding to 32 bits (relative 6e-8; values
 /// below 1.2e-38 lose digits and below 7e-46 become 0).

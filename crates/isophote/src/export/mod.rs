@@ -29,7 +29,7 @@ pub use self::{
 };
 use crate::{
     map::{Channel, Map, Pixel, Quantity},
-    units::Choice,
+    units::Keyword,
 };
 
 /// What a map can be saved as.
@@ -47,7 +47,7 @@ pub enum Format {
     Csv,
 }
 
-impl Choice for Format {
+impl Keyword for Format {
     const ALL: &'static [Self] = &[Self::Png, Self::Exr, Self::Npy, Self::Npz, Self::Csv];
 
     /// The suffix of the file's name, without its dot.

@@ -7,7 +7,7 @@ use std::{
 };
 
 use super::{Format, csv, exr, metadata::FileMetadata, npy, npz, png};
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// Longer descriptions are taken for damage: none that this program writes comes near, and a lying length must not
 /// take all memory. In bytes.

@@ -48,14 +48,14 @@ pub enum ImportError {
 #[error("{place}: {problem}")]
 pub struct Fault {
     /// Where in the file.
-    pub place: Place,
+    pub place: FilePosition,
     /// What is wrong there.
-    pub problem: Problem,
+    pub problem: FileProblem,
 }
 
 /// A place in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Place {
+pub enum FilePosition {
     /// The file as a whole.
     Whole,
     /// The header of a binary file.
@@ -73,7 +73,7 @@ pub enum Place {
     Json(String),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePosition {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Whole => write!(out, "the file"),
@@ -87,7 +87,7 @@ impl fmt::Display for Place {
 
 /// What is wrong at a place.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Problem {
+pub enum FileProblem {
     /// No contents at all.
     #[error("it is empty; {expected} is needed")]
     Empty {
@@ -219,9 +219,9 @@ pub enum Problem {
     NoSpheres,
 }
 
-impl Problem {
+impl FileProblem {
     /// The problem of a certain place.
-    pub(super) fn at(self, place: Place) -> Fault {
+    pub(super) fn at(self, place: FilePosition) -> Fault {
         Fault { place, problem: self }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::{fs::File, io::Read, path::Path};
 
-use super::{Fault, ImportError, Place, Problem};
+use super::{Fault, FilePosition, FileProblem, ImportError};
 
 /// Formats of triangle meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,7 +94,7 @@ pub(super) fn contents(path: &Path) -> Result<Vec<u8>, ImportError> {
 /// Refuses nothing that is of this format; most of what is of another one is told by name.
 pub(super) fn check(bytes: &[u8], expected: Format) -> Result<(), Fault> {
     if bytes.is_empty() {
-        return Err(Problem::Empty { expected: expected.name() }.at(Place::Whole));
+        return Err(FileProblem::Empty { expected: expected.name() }.at(FilePosition::Whole));
     }
     let guess = guess(bytes);
     let is_expected = match guess {
@@ -113,7 +113,7 @@ pub(super) fn check(bytes: &[u8], expected: Format) -> Result<(), Fault> {
         Some(Guess::Binary) => "binary data",
         None => "nothing known here",
     };
-    Err(Problem::Foreign { expected: expected.name(), looks_like }.at(Place::Whole))
+    Err(FileProblem::Foreign { expected: expected.name(), looks_like }.at(FilePosition::Whole))
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::Problem;
+use super::FileProblem;
 
 /// Which material each triangle or sphere has. Only names: what they mean is not in the files that are read here.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,7 +24,7 @@ pub(super) struct SlotBook {
 
 impl SlotBook {
     /// The slot of this name, a new one where it is met for the first time.
-    pub fn slot(&mut self, name: Option<&str>) -> Result<u16, Problem> {
+    pub fn slot(&mut self, name: Option<&str>) -> Result<u16, FileProblem> {
         // Neighbours mostly have the same material: then nothing is hashed and nothing allocated.
         if self.names.get(usize::from(self.last)).is_some_and(|last| last.as_deref() == name) {
             return Ok(self.last);
@@ -34,7 +34,7 @@ impl SlotBook {
             *slot
         } else {
             let slot = u16::try_from(self.names.len())
-                .map_err(|_| Problem::TooMany { what: "materials", most: u64::from(u16::MAX) + 1 })?;
+                .map_err(|_| FileProblem::TooMany { what: "materials", most: u64::from(u16::MAX) + 1 })?;
             self.names.push(name.clone());
             self.known.insert(name, slot);
             slot

@@ -16,7 +16,7 @@ mod text;
 
 use std::path::Path;
 
-pub use error::{Fault, ImportError, Place, Problem};
+pub use error::{Fault, FilePosition, FileProblem, ImportError};
 pub use format::{MeshFormat, SpheresFormat};
 pub use materials::MaterialSlots;
 pub use mesh::{CornerNormals, TriangleMesh};

@@ -1,6 +1,6 @@
 //! Lines, words and numbers of text files, taken from bytes: comments may be in any encoding.
 
-use super::Problem;
+use super::FileProblem;
 
 /// The lines with their numbers from 1, without the line's end (LF or CR LF). Nothing follows after a last line's end.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (u64, &[u8])> {
@@ -23,30 +23,30 @@ pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
 }
 
 /// A decimal number; `nan`, `inf` and what is too large for a double are for the caller to refuse with the value.
-pub(super) fn number(word: &[u8], field: &str) -> Result<f64, Problem> {
+pub(super) fn number(word: &[u8], field: &str) -> Result<f64, FileProblem> {
     let number = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
     number.ok_or_else(|| not_a_number(word, field, "a number"))
 }
 
 /// A finite decimal number.
-pub(super) fn finite_number(word: &[u8], field: &'static str) -> Result<f64, Problem> {
+pub(super) fn finite_number(word: &[u8], field: &'static str) -> Result<f64, FileProblem> {
     let value = number(word, field)?;
     finite(value, field)
 }
 
 /// The number itself if it is finite.
-pub(super) fn finite(value: f64, field: &'static str) -> Result<f64, Problem> {
-    if value.is_finite() { Ok(value) } else { Err(Problem::NotFinite { field, value }) }
+pub(super) fn finite(value: f64, field: &'static str) -> Result<f64, FileProblem> {
+    if value.is_finite() { Ok(value) } else { Err(FileProblem::NotFinite { field, value }) }
 }
 
 /// A whole number.
-pub(super) fn integer(word: &[u8], field: &str) -> Result<i64, Problem> {
+pub(super) fn integer(word: &[u8], field: &str) -> Result<i64, FileProblem> {
     let number = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
     number.ok_or_else(|| not_a_number(word, field, "a whole number"))
 }
 
-fn not_a_number(word: &[u8], field: &str, allowed: &'static str) -> Problem {
-    Problem::NotANumber { field: field.into(), text: shown(word), allowed }
+fn not_a_number(word: &[u8], field: &str, allowed: &'static str) -> FileProblem {
+    FileProblem::NotANumber { field: field.into(), text: shown(word), allowed }
 }
 
 /// A word as messages show it: long ones are cut, and what is no text is replaced.

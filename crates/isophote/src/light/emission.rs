@@ -38,7 +38,7 @@ impl<T: Real> Emission<T> {
     pub(super) fn towards(&self, intensity: T, to_light: Vector<T>, inverse_distance: T) -> T {
         match self {
             Self::Isotropic => intensity,
-            Self::Lambertian { axis } => intensity * (-axis.dot(to_light)).or_zero() * inverse_distance,
+            Self::Lambertian { axis } => intensity * (-axis.dot(to_light)).max_zero() * inverse_distance,
             Self::Spot(spot) => intensity * spot.share(to_light, inverse_distance),
         }
     }

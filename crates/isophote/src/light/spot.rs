@@ -85,15 +85,15 @@ impl<T: Real> Spot<T> {
     #[inline(always)]
     pub fn share(&self, to_light: Vector<T>, inverse_distance: T) -> T {
         let x = self.place_in_step(to_light, inverse_distance);
-        x * x * (x + x).times_plus(x.constant(-1.0), x.constant(3.0))
+        x * x * (x + x).mul_add(x.splat_like(-1.0), x.splat_like(3.0))
     }
 
     /// x, by 2(1 − cosγ) = ‖A + L‖²: near the axis a cosine would have lost the angle's digits.
     #[inline(always)]
     fn place_in_step(&self, to_light: Vector<T>, inverse_distance: T) -> T {
-        let from_axis = to_light.times_plus(inverse_distance, self.axis);
-        let x = ((self.outer - from_axis.dot(from_axis)) * self.steepness).or_zero();
-        let one = x.constant(1.0);
+        let from_axis = to_light.mul_add(inverse_distance, self.axis);
+        let x = ((self.outer - from_axis.dot(from_axis)) * self.steepness).max_zero();
+        let one = x.splat_like(1.0);
         T::select(x.is_less(one), x, one)
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::units::{Choice, LengthUnit};
+use crate::units::{Keyword, LengthUnit};
 
 /// What x and y of a [`Window`](super::Window) are: places on the screen, or on a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

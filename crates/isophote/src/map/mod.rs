@@ -11,7 +11,7 @@ pub use values::{Scalars, Values};
 use serde::{Deserialize, Serialize};
 
 use crate::reflectance::Convention;
-use crate::units::{Choice, LengthUnit, Quantities, ScreenUnit};
+use crate::units::{Keyword, LengthUnit, ScreenUnit, UnitSystem};
 
 /// Width and height in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -135,10 +135,10 @@ impl Quantity {
 
     /// The unit of the quantity in a scene of this kind: `"1"` for pure numbers, `""` for indices.
     #[must_use]
-    pub fn unit(&self, convention: Convention, quantities: Quantities, length: LengthUnit) -> &'static str {
+    pub fn unit(&self, convention: Convention, units: UnitSystem, length: LengthUnit) -> &'static str {
         match self {
-            Self::Brightness | Self::Color | Self::Diffuse | Self::Specular => convention.unit(quantities),
-            Self::Irradiance | Self::Ambient | Self::AmbientError | Self::Light(_) => quantities.irradiance_unit(),
+            Self::Brightness | Self::Color | Self::Diffuse | Self::Specular => convention.unit(units),
+            Self::Irradiance | Self::Ambient | Self::AmbientError | Self::Light(_) => units.irradiance_unit(),
             Self::Depth | Self::Position => length.name(),
             Self::Normal | Self::Samples | Self::Coverage => "1",
             Self::Shape => "",

@@ -1,7 +1,7 @@
 //! A scene laid out for tracing and shading. It chooses no renderer.
 
-mod bare;
 mod components;
+mod free_point;
 mod obstruction;
 mod visibility;
 
@@ -38,7 +38,7 @@ pub struct PreparedScene {
     /// The number of the first primitive of each shape, and last how many there are.
     first_primitives: Vec<u32>,
     /// With so many primitives, or fewer, rays try each of them.
-    tried_one_by_one: u32,
+    linear_search_max: u32,
     /// Over all primitives; with so few that each is tried, built only when a renderer asks for it.
     accelerator: Arc<OnceLock<Accelerator>>,
     /// Where surface points look for what obstructs the ambient light, if anything does.
@@ -78,8 +78,8 @@ pub struct Hit<T = f64> {
     pub point: SurfacePoint<T>,
     /// Whether a closed shape is seen from inside.
     pub from_inside: bool,
-    /// See [`Intersection::lift`](crate::shape::Intersection::lift).
-    pub lift: Vector<T>,
+    /// See [`ShapeHit::shadow_ray_offset`](crate::shape::ShapeHit::shadow_ray_offset).
+    pub shadow_ray_offset: Vector<T>,
 }
 
 impl PreparedScene {
@@ -91,7 +91,7 @@ impl PreparedScene {
 
     /// Lays out a scene after an earlier one, whose tree is its own too if their shapes are the same.
     #[must_use]
-    pub fn after(earlier: &Self, scene: &Scene) -> Self {
+    pub fn reusing(earlier: &Self, scene: &Scene) -> Self {
         let (before, now) = (&earlier.scene.shapes, &scene.shapes);
         let is_same =
             |(before, now): (&crate::scene::Shape, &crate::scene::Shape)| before.geometry.is_same(&now.geometry);
@@ -120,7 +120,7 @@ impl PreparedScene {
         let obstruction = scene.ambient.and_then(|ambient| ambient.obstruction);
         let mut prepared = Self {
             first_primitives,
-            tried_one_by_one: HANDFUL,
+            linear_search_max: HANDFUL,
             accelerator,
             frame: CameraFrame::new(&scene.camera),
             precise_frame: CameraFrame::new(&scene.camera),
@@ -142,12 +142,12 @@ impl PreparedScene {
     #[must_use]
     pub fn by_brute_force(self) -> Self {
         let components = self.components.as_ref().map(|components| components.map(|one| one.clone().by_brute_force()));
-        Self { tried_one_by_one: u32::MAX, components, ..self }
+        Self { linear_search_max: u32::MAX, components, ..self }
     }
 
     /// The same scene seen with another number of pixels.
     pub(crate) fn at_resolution(&self, resolution: Resolution) -> Self {
-        self.seen_otherwise(&|other| {
+        self.with_view(&|other| {
             Arc::make_mut(&mut other.scene).camera.resolution = resolution;
             other.frame = CameraFrame::new(&other.scene.camera);
             other.precise_frame = CameraFrame::new(&other.scene.camera);
@@ -156,20 +156,20 @@ impl PreparedScene {
 
     /// The same with rays through another place of the pixels than their centres: parts of their width and height.
     pub(crate) fn seen_through(&self, place: [f64; 2]) -> Self {
-        self.seen_otherwise(&|other| {
+        self.with_view(&|other| {
             other.frame.place = place;
             other.precise_frame.place = place;
         })
     }
 
     /// The same after a change of how it is seen, of its components too.
-    fn seen_otherwise(&self, change: &dyn Fn(&mut Self)) -> Self {
+    fn with_view(&self, change: &dyn Fn(&mut Self)) -> Self {
         let mut other = self.clone();
         change(&mut other);
         for shape in &mut other.shapes {
             shape.outline = OnceLock::new();
         }
-        other.components = self.components.as_ref().map(|components| components.map(|one| one.seen_otherwise(change)));
+        other.components = self.components.as_ref().map(|components| components.map(|one| one.with_view(change)));
         other
     }
 
@@ -290,7 +290,7 @@ impl PreparedScene {
     /// Goes through the primitives that a ray may meet, the nearer ones first more or less; `test` says up to which
     /// distance to go on. With a handful of primitives that is all of them.
     fn along_ray<T: Scalar>(&self, ray: &Ray<T>, limit: f64, mut test: impl FnMut(Primitive) -> f64) {
-        if self.primitive_count() <= self.tried_one_by_one {
+        if self.primitive_count() <= self.linear_search_max {
             self.primitives().for_each(|primitive| {
                 test(primitive);
             });
@@ -382,7 +382,7 @@ impl PreparedScene {
         let from_inside = geometry.part_encloses(nearest.part, start);
         let from_behind = !geometry.is_closed() && nearest.face_normal.dot(view) < 0.0;
         let normal = if from_inside || from_behind { -nearest.outward_normal } else { nearest.outward_normal };
-        let lift = if from_behind { nearest.lift_behind } else { nearest.lift };
+        let shadow_ray_offset = if from_behind { nearest.shadow_ray_offset_behind } else { nearest.shadow_ray_offset };
         let point = SurfacePoint {
             anchor: nearest.anchor,
             offset: nearest.offset,
@@ -391,7 +391,7 @@ impl PreparedScene {
             cos_theta_o: normal.dot(view),
         };
         let primitive = Primitive { shape: located.shape, part: nearest.part };
-        Hit { primitive, distance, point, from_inside, lift }
+        Hit { primitive, distance, point, from_inside, shadow_ray_offset }
     }
 }
 
@@ -426,9 +426,9 @@ impl<'s, T: Scalar> Search<'s, T> {
     /// Tests a primitive; returns the distance beyond which nothing matters any more.
     fn test(&mut self, primitive: Primitive) -> f64 {
         let accuracy = self.scene.prepared_formula(primitive).accuracy;
-        let meeting = self.scene.shapes[primitive.shape].geometry.meet(primitive.part, self.ray, accuracy);
-        self.doubtful_from = least(self.doubtful_from, meeting.doubtful_from);
-        if let Some(hit) = meeting.hit {
+        let intersection = self.scene.shapes[primitive.shape].geometry.intersect(primitive.part, self.ray, accuracy);
+        self.doubtful_from = least(self.doubtful_from, intersection.doubtful_from);
+        if let Some(hit) = intersection.hit {
             let ahead_by = self.nearest.map(|nearest| (nearest.distance - hit.distance, nearest.primitive));
             // Where surfaces cross, the order of their distances is as uncertain as the distances.
             let uncertain = T::from_f64(ERROR_OF_DISTANCE) * hit.distance;
@@ -441,8 +441,8 @@ impl<'s, T: Scalar> Search<'s, T> {
                     || !by.is_less(T::zero()) && (primitive.shape, primitive.part) < (other.shape, other.part)
             };
             if ahead_by.is_none_or(is_nearer) {
-                let crate::shape::Intersection { distance, point, from_inside, lift } = hit;
-                self.nearest = Some(Hit { primitive, distance, point, from_inside, lift });
+                let crate::shape::ShapeHit { distance, point, from_inside, shadow_ray_offset } = hit;
+                self.nearest = Some(Hit { primitive, distance, point, from_inside, shadow_ray_offset });
             }
         }
         self.nearest.map_or(f64::INFINITY, |hit| hit.distance.rounded())
@@ -482,7 +482,7 @@ impl<T: Scalar> Hit<T> {
             distance: convert(self.distance),
             point: self.point.map(&convert),
             from_inside: self.from_inside,
-            lift: self.lift.map(&convert),
+            shadow_ray_offset: self.shadow_ray_offset.map(&convert),
         }
     }
 }

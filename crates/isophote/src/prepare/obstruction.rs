@@ -34,7 +34,7 @@ impl PreparedScene {
         }
         let hemisphere = self.hemisphere.as_deref().filter(|_| self.has_shapes_beside_one());
         sampled(ambient, hemisphere, hit.point.normal, |direction| {
-            let ray = Ray { anchor: hit.point.anchor, offset: hit.point.offset + hit.lift, direction };
+            let ray = Ray { anchor: hit.point.anchor, offset: hit.point.offset + hit.shadow_ray_offset, direction };
             self.nearest_blocker(&[hit.primitive], &ray, None).blocker.is_none()
         })
     }

@@ -36,7 +36,7 @@ impl PreparedScene {
         if !self.scene.casts_shadows(own.shape, light) {
             return Blocking::NONE;
         }
-        self.blocking_from(&[own], &hit.point, hit.lift, light)
+        self.blocking_from(&[own], &hit.point, hit.shadow_ray_offset, light)
     }
 
     /// What stands between a point and a light but for its `own` primitives, on which it lies.
@@ -44,11 +44,11 @@ impl PreparedScene {
         &self,
         own: &[Primitive],
         point: &SurfacePoint<T>,
-        lift: Vector<T>,
+        shadow_ray_offset: Vector<T>,
         light: usize,
     ) -> Blocking {
         let source = &self.scene.lights[light];
-        let start = point.offset + lift;
+        let start = point.offset + shadow_ray_offset;
         let to_light = source.from_place(point.anchor, start);
         if !T::zero().is_less(point.normal.dot(to_light)) {
             return Blocking::NONE;
@@ -81,10 +81,11 @@ impl PreparedScene {
             if own.contains(&primitive) || !self.scene.shapes[primitive.shape].casts_shadow {
                 return limit(nearest);
             }
-            let meeting = self.shapes[primitive.shape].geometry.meet(primitive.part, ray, Accuracy::OF_VISIBILITY);
+            let intersection =
+                self.shapes[primitive.shape].geometry.intersect(primitive.part, ray, Accuracy::OF_VISIBILITY);
             let is_before_light = |at: &T| bounds.is_none_or(|[_, _, last]| at.is_less(last));
-            doubtful_from = super::least(doubtful_from, meeting.doubtful_from.filter(is_before_light));
-            let Some(at) = meeting.hit.map(|hit| hit.distance) else { return limit(nearest) };
+            doubtful_from = super::least(doubtful_from, intersection.doubtful_from.filter(is_before_light));
+            let Some(at) = intersection.hit.map(|hit| hit.distance) else { return limit(nearest) };
             if is_neighbour(primitive, at) || bounds.is_some_and(|[_, distance, _]| !at.is_less(distance)) {
                 return limit(nearest);
             }

@@ -9,7 +9,7 @@ use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolu
 use crate::prepare::{Hit, PreparedScene};
 use crate::scene::Scene;
 use crate::shade::ByLight;
-use crate::units::{Choice, LengthUnit};
+use crate::units::{Keyword, LengthUnit};
 
 /// A map of zeros (−1 for the shape) that sees nothing, with every channel that the settings ask for. In single
 /// precision the geometry (depth, position, normal) is double all the same. `memory` is cleared memory to be used
@@ -92,7 +92,7 @@ fn empty_channel(
         }
         _ => reuse(|values| matches!(values, Values::Scalar(_))).unwrap_or_else(|| Values::Scalar(vec![0.0; pixels])),
     };
-    let unit = quantity.unit(scene.convention, scene.quantities, scene.length).into();
+    let unit = quantity.unit(scene.convention, scene.unit_system, scene.length).into();
     Ok(Channel { quantity: quantity.clone(), unit, values })
 }
 

@@ -6,7 +6,7 @@ use crate::color::{Component, Rgb};
 use crate::map::{Channel, Map, Mask, Quantity, Scalars, Values};
 use crate::prepare::PreparedScene;
 use crate::shade::Shading;
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// The map of a scene whose components `compute` makes maps of; of a scene without colours its only map.
 ///

@@ -11,8 +11,8 @@ mod tiles;
 use std::ops::ControlFlow;
 
 pub(crate) use band::provenance;
-pub use lanes::{Lanes, PointKernel, PointValues};
-pub use reference::Reference;
+pub use lanes::{PointKernel, PointValues, SimdRenderer};
+pub use reference::ReferenceRenderer;
 pub use sampling::{Filter, Sampling};
 
 use crate::map::{Map, Pixel, Quantity, Region, Resolution};

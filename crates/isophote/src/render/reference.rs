@@ -8,19 +8,19 @@ use crate::prepare::PreparedScene;
 
 /// The renderer that every other one is held to: scalar, single-threaded, obviously right.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Reference;
+pub struct ReferenceRenderer;
 
-impl Renderer for Reference {
+impl Renderer for ReferenceRenderer {
     fn name(&self) -> String {
         "double precision, reference".into()
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
         color::render(scene, settings, |scene, settings| {
-            if scene.scene().sampling().is_more_than_centres() {
+            if scene.scene().sampling().is_multisampled() {
                 let centres =
                     |_: Vec<_>, scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(scene, settings);
-                sampling::render(scene, settings, None, &Renders { shared: &centres, alone: &centres })
+                sampling::render(scene, settings, None, &Renders { parallel: &centres, serial: &centres })
             } else {
                 self.centres(scene, settings)
             }
@@ -28,7 +28,7 @@ impl Renderer for Reference {
     }
 }
 
-impl Reference {
+impl ReferenceRenderer {
     fn centres(self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
         let mut map = band::empty_map(scene, settings, self.name(), Precision::Double, Vec::new())?;
         let mut runs = Vec::new();

@@ -28,7 +28,7 @@ pub struct Problem {
     /// What is allowed, or what to do.
     pub help: Option<String>,
     /// Where it stands, when the scene came from a text that has it.
-    pub place: Option<Place>,
+    pub place: Option<TextPosition>,
     pub(super) target: Target,
 }
 
@@ -63,7 +63,7 @@ pub enum ProblemKind {
 
 /// A place in a scene file.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Place {
+pub struct TextPosition {
     /// Line, from 1.
     pub line: usize,
     /// Column in characters, from 1.
@@ -168,7 +168,7 @@ impl<'t> Lines<'t> {
         Self { text, starts }
     }
 
-    fn place(&self, span: &Range<usize>) -> Place {
+    fn place(&self, span: &Range<usize>) -> TextPosition {
         let text = self.text;
         let start = text.floor_char_boundary(span.start.min(text.len()));
         let line = self.starts.partition_point(|&line_start| line_start <= start);
@@ -181,7 +181,7 @@ impl<'t> Lines<'t> {
         let kept = text[from..to].trim_end_matches('\r');
         let highlight = (start - from).min(kept.len())..(end - from).min(kept.len());
         let column = text[line_start..start].chars().count() + 1;
-        Place { line, column, text: kept.to_owned(), highlight }
+        TextPosition { line, column, text: kept.to_owned(), highlight }
     }
 
     /// Bytes of a line that are kept on either side of the place.

@@ -1,6 +1,6 @@
 //! The starter scenes that the program carries, the same files as in `scenes/`.
 
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// A scene to start from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub enum Starter {
     Photometric,
 }
 
-impl Choice for Starter {
+impl Keyword for Starter {
     const ALL: &'static [Self] = &[Self::Lab, Self::Course, Self::TwoLights, Self::Photometric];
 
     fn name(self) -> &'static str {

@@ -11,7 +11,7 @@ use std::io::Read;
 use std::path::Path as FilePath;
 
 pub use document::Syntax;
-pub use error::{Place, Problem, ProblemKind, SceneError};
+pub use error::{Problem, ProblemKind, SceneError, TextPosition};
 pub use source::SceneSource;
 use source::{GridSource, SamplingSource, ShadowSource};
 pub use validate::limits;
@@ -23,7 +23,7 @@ use crate::map::Resolution;
 use crate::reflectance::{Convention, Reflectance};
 use crate::render::Sampling;
 use crate::shape::{Geometry, Primitive, Side};
-use crate::units::{LengthUnit, Quantities, ScreenUnit};
+use crate::units::{LengthUnit, ScreenUnit, UnitSystem};
 use crate::vector::Vector;
 use document::Document;
 use read::Problems;
@@ -37,7 +37,7 @@ pub struct Scene {
     pub(crate) convention: Convention,
     pub(crate) shadows: bool,
     pub(crate) sampling: Sampling,
-    pub(crate) quantities: Quantities,
+    pub(crate) unit_system: UnitSystem,
     pub(crate) camera: Camera,
     pub(crate) materials: Vec<Material>,
     pub(crate) shapes: Vec<Shape>,
@@ -138,14 +138,14 @@ impl Scene {
     /// # Errors
     /// As [`from_text`](Self::from_text).
     pub fn from_text_in(directory: &FilePath, name: &str, text: &str, syntax: Syntax) -> Result<Self, SceneError> {
-        Self::from_text_after(None, directory, name, text, syntax)
+        Self::from_text_reusing(None, directory, name, text, syntax)
     }
 
     /// The same after an earlier scene: files that both name are not read again.
     ///
     /// # Errors
     /// As [`from_text`](Self::from_text).
-    pub fn from_text_after(
+    pub fn from_text_reusing(
         earlier: Option<&Self>,
         directory: &FilePath,
         name: &str,
@@ -315,8 +315,8 @@ impl Scene {
 
     /// Radiometric or photometric.
     #[must_use]
-    pub fn quantities(&self) -> Quantities {
-        self.quantities
+    pub fn unit_system(&self) -> UnitSystem {
+        self.unit_system
     }
 
     /// The observer.
@@ -336,7 +336,7 @@ impl Scene {
     #[must_use]
     pub fn color_label(&self) -> Option<String> {
         let space = self.color()?.space;
-        Some(format!("{}, Y = {} (3.10)", crate::units::Choice::name(space), space.luminance_text()))
+        Some(format!("{}, Y = {} (3.10)", crate::units::Keyword::name(space), space.luminance_text()))
     }
 
     /// The materials, by name.

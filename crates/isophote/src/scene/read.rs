@@ -13,7 +13,7 @@ use super::source::{
     AmbientSource, Amount, CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource,
     SceneSource, ScreenSource, ShadowSource, SphereSource, WindowSource,
 };
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// Reads a scene out of a document. What cannot be read is reported and left out.
 pub fn read(document: &Document, problems: &mut Problems) -> SceneSource {
@@ -31,12 +31,12 @@ fn read_scene(table: &mut Table<'_>) -> SceneSource {
         directory: PathBuf::new(),
         version: table.count("version"),
         title: table.text("title"),
-        length: table.choice("length"),
-        handedness: table.choice("handedness"),
-        convention: table.choice("convention"),
-        quantities: table.choice("quantities"),
+        length: table.keyword("length"),
+        handedness: table.keyword("handedness"),
+        convention: table.keyword("convention"),
+        quantities: table.keyword("quantities"),
         shadows: table.boolean("shadows"),
-        color_space: table.choice("color_space"),
+        color_space: table.keyword("color_space"),
         camera: table.table("camera", read_camera),
         sampling: table.table("sampling", read_sampling),
         material: table.named_tables("material", read_material),
@@ -63,7 +63,7 @@ fn read_camera(table: &mut Table<'_>) -> CameraSource {
         forward: table.numbers("forward"),
         target: table.numbers("target"),
         up: table.numbers("up"),
-        projection: table.choice("projection"),
+        projection: table.keyword("projection"),
         screen: table.table("screen", read_screen),
         field_of_view: table.number("field_of_view"),
         window: table.table("window", read_window),
@@ -77,7 +77,7 @@ fn read_sampling(table: &mut Table<'_>) -> SamplingSource {
     SamplingSource {
         samples: table.count("samples"),
         tolerance: table.number("tolerance"),
-        filter: table.choice("filter"),
+        filter: table.keyword("filter"),
     }
 }
 
@@ -117,7 +117,7 @@ fn read_light(table: &mut Table<'_>) -> LightSource {
         position: table.numbers("position"),
         intensity: table.amount("intensity"),
         power: table.amount("power"),
-        emission: table.choice("emission"),
+        emission: table.keyword("emission"),
         axis: table.numbers("axis"),
         target: table.numbers("target"),
         inner_angle: table.number("inner_angle"),
@@ -148,7 +148,7 @@ fn read_grid(table: &mut Table<'_>) -> GridSource {
         u: table.numbers("u"),
         v: table.numbers("v"),
         points: table.counts("points"),
-        side: table.choice("side"),
+        side: table.keyword("side"),
     }
 }
 
@@ -318,7 +318,7 @@ impl<'t> Table<'t> {
         complete.then_some(list)
     }
 
-    fn choice<C: Choice>(&mut self, key: &'static str) -> Option<C> {
+    fn keyword<C: Keyword>(&mut self, key: &'static str) -> Option<C> {
         let text = self.text(key)?;
         let choice = C::from_name(&text);
         if choice.is_none() {

@@ -21,7 +21,7 @@ use crate::camera::Handedness;
 use crate::color::ColorSpace;
 use crate::reflectance::Convention;
 use crate::render::Filter;
-use crate::units::{LengthUnit, Quantities};
+use crate::units::{LengthUnit, UnitSystem};
 
 /// A scene of surfaces lit by point lights, for the program isophote.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
@@ -59,7 +59,7 @@ pub struct SceneSource {
     /// Whether lights are given in W and W/sr, or in lm and cd.
     #[schemars(extend("default" = "radiometric"))]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub quantities: Option<Quantities>,
+    pub quantities: Option<UnitSystem>,
     /// Which lights the three numbers of an amount that is written as [R, G, B] are amounts of: a space of linear RGB.
     #[schemars(extend("default" = "rec709"))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -228,7 +228,7 @@ pub enum ProjectionName {
     Panorama,
 }
 
-impl crate::units::Choice for ProjectionName {
+impl crate::units::Keyword for ProjectionName {
     const ALL: &'static [Self] =
         &[Self::Perspective, Self::Orthographic, Self::FisheyeEquidistant, Self::FisheyeEqualArea, Self::Panorama];
 
@@ -401,7 +401,7 @@ pub enum EmissionName {
     Parallel,
 }
 
-impl crate::units::Choice for EmissionName {
+impl crate::units::Keyword for EmissionName {
     const ALL: &'static [Self] = &[Self::Isotropic, Self::Lambertian, Self::Spot, Self::Parallel];
 
     fn name(self) -> &'static str {

@@ -3,7 +3,7 @@
 use super::placement::{LocalRay, Placement};
 use super::span::{Crossing, NEVER, Span, pass};
 use super::{
-    Accuracy, Bounds, Intersection, Measure, Meeting, NearestPoint, PLACE_ERROR, Ray, SurfacePoint, TracingError,
+    Accuracy, Bounds, Intersection, Measure, NearestPoint, PLACE_ERROR, Ray, ShapeHit, SurfacePoint, TracingError,
 };
 use crate::double_double::DoubleDouble;
 use crate::real::Scalar;
@@ -63,23 +63,23 @@ impl Cone {
     ///
     /// b² − ac is computed as ‖R D⊥ − k D_z P⊥‖² − (P⊥ × D⊥)², a difference of two squares that factors: with P near
     /// the axis it keeps its digits at the silhouette. cosθ_o is its root over R √(1 + k²), exactly.
-    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
+    pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         let local = self.placement.local_ray(ray);
         let size = self.size();
         let error = PLACE_ERROR * (local.reach + size);
         if local.passes_by(size + error) {
-            return Meeting::MISS;
+            return Intersection::MISS;
         }
         let height = T::from_precise(self.height);
         let ends = Span::between(local.nearest.z, local.direction.z, [T::zero(), height], error, [BASE, END]);
-        let Some(side) = self.side(&local, error) else { return Meeting::MISS };
+        let Some(side) = self.side(&local, error) else { return Intersection::MISS };
         let passage = pass([side.span, ends], local.along);
         let mut doubtful_from = passage.doubtful_from;
         if side.discriminant.abs() < side.error && passage.crossing.is_none_or(|crossing| crossing.face == SIDE) {
             doubtful_from = Some((local.along.rounded() - size).max(0.0));
         }
         let doubtful_from = doubtful_from.map(T::from_f64);
-        let Some(crossing) = passage.crossing else { return Meeting { hit: None, doubtful_from } };
+        let Some(crossing) = passage.crossing else { return Intersection { hit: None, doubtful_from } };
         let distance = local.along + crossing.at;
         let place = local.at(crossing.at);
         let on_side = (crossing.face == SIDE).then(|| self.on_side(place, &side, error, accuracy)).flatten();
@@ -100,18 +100,18 @@ impl Cone {
             cos_theta_o,
         };
         let doubtful_from = doubtful_from.or(is_inexact.then_some(distance));
-        let hit = Intersection { distance, point, from_inside: passage.from_inside, lift: Vector::zero() };
-        Meeting { hit: Some(hit), doubtful_from }
+        let hit = ShapeHit { distance, point, from_inside: passage.from_inside, shadow_ray_offset: Vector::zero() };
+        Intersection { hit: Some(hit), doubtful_from }
     }
 
     /// The part of a ray within the side; nothing if it passes for sure.
     fn side<T: Scalar>(&self, local: &LocalRay<T>, error: f64) -> Option<Side<T>> {
         let (place, direction) = (local.nearest, local.direction);
         let slope = self.slope::<T>();
-        let radius = slope.times_plus(place.z, T::from_f64(self.radii[0]));
+        let radius = slope.mul_add(place.z, T::from_f64(self.radii[0]));
         let narrowing = slope * direction.z;
-        let across = direction.x.times_plus(direction.x, direction.y * direction.y).sqrt();
-        let from_axis = place.x.times_plus(place.x, place.y * place.y).sqrt();
+        let across = direction.x.mul_add(direction.x, direction.y * direction.y).sqrt();
+        let from_axis = place.x.mul_add(place.x, place.y * place.y).sqrt();
         let first = Vector::new(
             direction.x * radius - place.x * narrowing,
             direction.y * radius - place.y * narrowing,
@@ -145,13 +145,13 @@ impl Cone {
     /// A point of the side, brought onto it exactly; nothing at the apex, which has no normal of its own.
     fn on_side<T: Scalar>(&self, at: Vector<T>, side: &Side<T>, error: f64, accuracy: Accuracy) -> Option<Found<T>> {
         let slope = self.slope::<T>();
-        let radius = slope.times_plus(at.z, T::from_f64(self.radii[0]));
-        let from_axis = at.x.times_plus(at.x, at.y * at.y).sqrt();
+        let radius = slope.mul_add(at.z, T::from_f64(self.radii[0]));
+        let from_axis = at.x.mul_add(at.x, at.y * at.y).sqrt();
         if !T::zero().is_less(radius) || !T::zero().is_less(from_axis) {
             return None;
         }
         let (x, y) = (at.x / from_axis, at.y / from_axis);
-        let steepness = slope.times_plus(slope, T::from_f64(1.0)).sqrt();
+        let steepness = slope.mul_add(slope, T::from_f64(1.0)).sqrt();
         let cos_theta_o = side.root / (radius * steepness);
         let narrowest = radius.rounded() * steepness.rounded();
         let tracing = TracingError {
@@ -243,7 +243,7 @@ impl Cone {
 
     /// How far away a point is, in the larger radius or in heights, whichever is less.
     #[must_use]
-    pub fn remoteness(&self, point: Vector) -> f64 {
+    pub fn relative_distance(&self, point: Vector) -> f64 {
         let widest = self.radii[0].max(self.radii[1]);
         (point - self.placement.origin).length() / self.height.rounded().min(widest)
     }

@@ -2,7 +2,7 @@
 
 use super::placement::{Placement, Rotation};
 use super::span::{Span, pass};
-use super::{Accuracy, Bounds, Intersection, Measure, Meeting, NearestPoint, PLACE_ERROR, Ray, SurfacePoint};
+use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, PLACE_ERROR, Ray, ShapeHit, SurfacePoint};
 use crate::real::Scalar;
 use crate::vector::Vector;
 
@@ -22,12 +22,12 @@ impl Cuboid {
     }
 
     /// The part of the ray between each pair of faces, and what is common to the three parts (2.4).
-    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
+    pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         let local = self.placement.local_ray(ray);
         let size = self.size();
         let error = PLACE_ERROR * (local.reach + size);
         if local.passes_by(size + error) {
-            return Meeting::MISS;
+            return Intersection::MISS;
         }
         let (places, directions) = (local.nearest.to_array(), local.direction.to_array());
         let half = self.half.to_array().map(T::from_f64);
@@ -36,7 +36,7 @@ impl Cuboid {
         };
         let passage = pass([span(0), span(1), span(2)], local.along);
         let doubtful_from = passage.doubtful_from.map(T::from_f64);
-        let Some(crossing) = passage.crossing else { return Meeting { hit: None, doubtful_from } };
+        let Some(crossing) = passage.crossing else { return Intersection { hit: None, doubtful_from } };
         let (axis, is_upper) = (crossing.face / 2, crossing.face % 2 == 1);
         let side = T::from_f64(if is_upper { 1.0 } else { -1.0 });
         let mut place = local.at(crossing.at).to_array();
@@ -54,8 +54,8 @@ impl Cuboid {
         let distance = local.along + crossing.at;
         let is_inexact = accuracy.is_exceeded_by(error / (size * cos_theta_o.rounded()), 0.0);
         let doubtful_from = doubtful_from.or(is_inexact.then_some(distance));
-        let hit = Intersection { distance, point, from_inside: passage.from_inside, lift: Vector::zero() };
-        Meeting { hit: Some(hit), doubtful_from }
+        let hit = ShapeHit { distance, point, from_inside: passage.from_inside, shadow_ray_offset: Vector::zero() };
+        Intersection { hit: Some(hit), doubtful_from }
     }
 
     /// The distance from the surface, negative inside.
@@ -96,7 +96,7 @@ impl Cuboid {
 
     /// How far away a point is, in half the shortest side.
     #[must_use]
-    pub fn remoteness(&self, point: Vector) -> f64 {
+    pub fn relative_distance(&self, point: Vector) -> f64 {
         let Vector { x, y, z } = self.half;
         (point - self.placement.origin).length() / x.min(y).min(z)
     }

@@ -1,6 +1,6 @@
 //! The cylinder with both its ends (2.4).
 
-use super::{Accuracy, Bounds, Cone, Measure, Meeting, NearestPoint, Ray};
+use super::{Accuracy, Bounds, Cone, Intersection, Measure, NearestPoint, Ray};
 use crate::real::Scalar;
 use crate::vector::Vector;
 
@@ -19,8 +19,8 @@ impl Cylinder {
     }
 
     /// See [`Cone::meet`].
-    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
-        self.body.meet(ray, accuracy)
+    pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
+        self.body.intersect(ray, accuracy)
     }
 
     /// See [`Cone::signed_distance`].
@@ -59,10 +59,10 @@ impl Cylinder {
         self.body.size()
     }
 
-    /// See [`Cone::remoteness`].
+    /// See [`Cone::relative_distance`].
     #[must_use]
-    pub fn remoteness(&self, point: Vector) -> f64 {
-        self.body.remoteness(point)
+    pub fn relative_distance(&self, point: Vector) -> f64 {
+        self.body.relative_distance(point)
     }
 
     /// What describes it.

@@ -1,7 +1,7 @@
 //! The disk (2.4).
 
 use super::placement::Placement;
-use super::{Accuracy, Bounds, Measure, Meeting, NearestPoint, Ray, flat};
+use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, Ray, flat};
 use crate::real::Scalar;
 use crate::vector::Vector;
 
@@ -21,9 +21,9 @@ impl Disk {
     }
 
     /// A hit of the plane that is within its borders.
-    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
-        let beyond = |x: T, y: T| x.times_plus(x, y * y).sqrt() - T::from_f64(self.radius);
-        flat::meet(&self.placement, Some(self.radius), ray, accuracy, beyond)
+    pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
+        let beyond = |x: T, y: T| x.mul_add(x, y * y).sqrt() - T::from_f64(self.radius);
+        flat::intersect(&self.placement, Some(self.radius), ray, accuracy, beyond)
     }
 
     /// The distance from it, never negative.
@@ -71,7 +71,7 @@ impl Disk {
 
     /// How far away a point is, in radii.
     #[must_use]
-    pub fn remoteness(&self, point: Vector) -> f64 {
+    pub fn relative_distance(&self, point: Vector) -> f64 {
         (point - self.placement.origin).length() / self.radius
     }
 

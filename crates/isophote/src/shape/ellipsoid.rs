@@ -1,7 +1,7 @@
 //! The ellipsoid (2.4).
 
 use super::placement::{Placement, Rotation};
-use super::{Accuracy, Bounds, Intersection, Measure, Meeting, NearestPoint, Ray, SurfacePoint, TracingError};
+use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, Ray, ShapeHit, SurfacePoint, TracingError};
 use crate::real::Scalar;
 use crate::vector::Vector;
 
@@ -23,11 +23,11 @@ impl Ellipsoid {
     /// As the ray meets a sphere, in the space where the radii are 1 (2.4). With x' = (x/a, y/b, z/c) of the point there
     /// and g = (x'/a, …) the normal is g/‖g‖, and cosθ_o = ‖D'‖ h'/‖g‖ exactly, D' being the direction there and h' half
     /// the chord.
-    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
+    pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         let local = self.placement.local_ray(ray);
         let [shortest, longest] = self.extremes();
         if local.passes_by(longest * (1.0 + 1e-9) + f64::EPSILON * 16.0 * local.reach) {
-            return Meeting::MISS;
+            return Intersection::MISS;
         }
         let inverse = self.radii.map(|radius| T::from_f64(1.0) / T::from_f64(radius));
         let scaled = |vector: Vector<T>| Vector::new(vector.x * inverse.x, vector.y * inverse.y, vector.z * inverse.z);
@@ -35,7 +35,7 @@ impl Ellipsoid {
         let stretch = direction.length();
         let direction = direction * (T::from_f64(1.0) / stretch);
         let along = -start.dot(direction);
-        let perpendicular = direction.times_plus(along, start);
+        let perpendicular = direction.mul_add(along, start);
         let clearance = T::from_f64(1.0) - perpendicular.dot(perpendicular);
         // Rounding is magnified by how far from round it is: once where the ray passes, again in the normal.
         let flatness = longest / shortest;
@@ -43,24 +43,24 @@ impl Ellipsoid {
         let error = TracingError { clearance: 16.0 * error * flatness, normal: 0.75 * error * flatness };
         let doubtful = accuracy.doubtful_clearance(&error);
         if clearance.rounded() <= doubtful.start {
-            return Meeting::MISS;
+            return Intersection::MISS;
         }
         let half_chord = clearance.max(T::zero()).sqrt();
         let place = |root: T| local.along + root / stretch;
         let (near, far) = (place(along - half_chord), place(along + half_chord));
         let on_surface = T::from_f64(error.clearance * longest);
         if far.is_less(-on_surface) {
-            return Meeting::MISS;
+            return Intersection::MISS;
         }
         let is_doubtful = clearance.rounded() < doubtful.end
             || [near, far].iter().any(|root| (-on_surface).is_less(*root) && root.is_less(on_surface));
         let doubtful_from = is_doubtful.then_some(near);
         if !T::zero().is_less(clearance) || !T::zero().is_less(far) {
-            return Meeting { hit: None, doubtful_from };
+            return Intersection { hit: None, doubtful_from };
         }
         let from_inside = !T::zero().is_less(near);
         let side = T::from_f64(if from_inside { -1.0 } else { 1.0 });
-        let unit = direction.times_plus(-(side * half_chord), perpendicular);
+        let unit = direction.mul_add(-(side * half_chord), perpendicular);
         let gradient = scaled(unit);
         let length = gradient.length();
         let radii = self.radii.map(T::from_f64);
@@ -72,7 +72,10 @@ impl Ellipsoid {
             cos_theta_o: stretch * half_chord / length,
         };
         let distance = if from_inside { far } else { near };
-        Meeting { hit: Some(Intersection { distance, point, from_inside, lift: Vector::zero() }), doubtful_from }
+        Intersection {
+            hit: Some(ShapeHit { distance, point, from_inside, shadow_ray_offset: Vector::zero() }),
+            doubtful_from,
+        }
     }
 
     /// The distance from the surface, negative inside.
@@ -150,7 +153,7 @@ impl Ellipsoid {
 
     /// How far away a point is, in shortest radii.
     #[must_use]
-    pub fn remoteness(&self, point: Vector) -> f64 {
+    pub fn relative_distance(&self, point: Vector) -> f64 {
         (point - self.placement.origin).length() / self.extremes()[0]
     }
 

@@ -1,7 +1,7 @@
 //! What flat shapes share: the plane z = 0 of their own axes (2.4).
 
 use super::placement::Placement;
-use super::{Accuracy, Intersection, Meeting, NearestPoint, PLACE_ERROR, Ray, SurfacePoint};
+use super::{Accuracy, Intersection, NearestPoint, PLACE_ERROR, Ray, ShapeHit, SurfacePoint};
 use crate::real::Scalar;
 use crate::vector::Vector;
 
@@ -10,37 +10,37 @@ use crate::vector::Vector;
 /// `size` is its extent in metres, none if it has no end. `beyond` tells how far a place (x, y) is outside the border,
 /// in metres, negative inside.
 #[inline]
-pub fn meet<T: Scalar>(
+pub fn intersect<T: Scalar>(
     placement: &Placement,
     size: Option<f64>,
     ray: &Ray<T>,
     accuracy: Accuracy,
     beyond: impl Fn(T, T) -> T,
-) -> Meeting<T> {
+) -> Intersection<T> {
     let local = placement.local_ray(ray);
     let error = PLACE_ERROR * (local.reach + size.unwrap_or(0.0));
     if size.is_some_and(|size| local.passes_by(size + error)) {
-        return Meeting::MISS;
+        return Intersection::MISS;
     }
     let slope = local.direction.z;
     // Seen edge-on it has no area; what is left of such a slope is rounding, which more digits tell.
     if (slope * slope).rounded() < 1e4 * T::NEGLIGIBLE_SQUARE {
-        return Meeting { hit: None, doubtful_from: Some(T::zero()) };
+        return Intersection { hit: None, doubtful_from: Some(T::zero()) };
     }
     let at = -(local.nearest.z / slope);
     let distance = local.along + at;
     let error = (error + f64::EPSILON * at.rounded().abs()) / slope.rounded().abs();
-    let (x, y) = (local.direction.x.times_plus(at, local.nearest.x), local.direction.y.times_plus(at, local.nearest.y));
+    let (x, y) = (local.direction.x.mul_add(at, local.nearest.x), local.direction.y.mul_add(at, local.nearest.y));
     let beyond = beyond(x, y);
     if beyond.rounded() > error || distance.rounded() < -error {
-        return Meeting::MISS;
+        return Intersection::MISS;
     }
     let is_uncertain = beyond.rounded() > -error || distance.rounded() < error;
     let size = size.unwrap_or(distance.rounded());
     let is_doubtful = is_uncertain || accuracy.is_exceeded_by(error / size, 0.0);
     let doubtful_from = is_doubtful.then(|| (distance - T::from_f64(error)).max(T::zero()));
     if T::zero().is_less(beyond) || !T::zero().is_less(distance) {
-        return Meeting { hit: None, doubtful_from };
+        return Intersection { hit: None, doubtful_from };
     }
     let towards_eye = T::from_f64(if T::zero().is_less(slope) { -1.0 } else { 1.0 });
     let [first, second, third] = placement.axes();
@@ -52,8 +52,8 @@ pub fn meet<T: Scalar>(
         view: -ray.direction,
         cos_theta_o: -(slope * towards_eye),
     };
-    let hit = Intersection { distance, point, from_inside: false, lift: Vector::zero() };
-    Meeting { hit: Some(hit), doubtful_from }
+    let hit = ShapeHit { distance, point, from_inside: false, shadow_ray_offset: Vector::zero() };
+    Intersection { hit: Some(hit), doubtful_from }
 }
 
 /// The point of a flat shape nearest to a point, with N on that side. `nearest_place` finds it in the shape's own axes.

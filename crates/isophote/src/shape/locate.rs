@@ -2,7 +2,7 @@
 
 use super::{Geometry, NearestPoint};
 use crate::text::significant;
-use crate::units::{Choice, LengthUnit};
+use crate::units::{Keyword, LengthUnit};
 use crate::vector::Vector;
 
 /// A point found on a surface.

@@ -27,11 +27,11 @@ pub use disk::Disk;
 pub use ellipsoid::Ellipsoid;
 pub use locate::{Located, Miss, surface_at};
 pub use mesh::{Mesh, MeshData, MeshError, MeshPlacing};
-pub(crate) use outline::{BEFORE_THE_EYE, Grid};
+pub(crate) use outline::{BEFORE_THE_EYE, PixelGrid};
 pub use outline::{Ellipse, Outline, PlaceInRow, PointInRow, RowOfEllipse};
 pub use placement::{LocalRay, Placement, Rotation};
 pub use plane::Plane;
-pub use ray::{Accuracy, Intersection, Meeting, Ray, SurfacePoint, TracingError};
+pub use ray::{Accuracy, Intersection, Ray, ShapeHit, SurfacePoint, TracingError};
 pub use rectangle::Rectangle;
 pub use side::Side;
 pub use sphere::Sphere;
@@ -155,18 +155,18 @@ impl Geometry {
 
     /// How a ray meets a part: the nearest intersection in front of its start (2.2).
     #[inline(always)]
-    pub fn meet<T: Scalar>(&self, part: u32, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
+    pub fn intersect<T: Scalar>(&self, part: u32, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         match self {
-            Self::Sphere(sphere) => sphere.meet(ray, accuracy),
-            Self::Spheres(cloud) => cloud.spheres[part as usize].meet(ray, accuracy),
-            Self::Ellipsoid(ellipsoid) => ellipsoid.meet(ray, accuracy),
-            Self::Plane(plane) => plane.meet(ray, accuracy),
-            Self::Rectangle(rectangle) => rectangle.meet(ray, accuracy),
-            Self::Disk(disk) => disk.meet(ray, accuracy),
-            Self::Cuboid(cuboid) => cuboid.meet(ray, accuracy),
-            Self::Cylinder(cylinder) => cylinder.meet(ray, accuracy),
-            Self::Cone(cone) => cone.meet(ray, accuracy),
-            Self::Mesh(mesh) => mesh.meet(part, ray, accuracy),
+            Self::Sphere(sphere) => sphere.intersect(ray, accuracy),
+            Self::Spheres(cloud) => cloud.spheres[part as usize].intersect(ray, accuracy),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.intersect(ray, accuracy),
+            Self::Plane(plane) => plane.intersect(ray, accuracy),
+            Self::Rectangle(rectangle) => rectangle.intersect(ray, accuracy),
+            Self::Disk(disk) => disk.intersect(ray, accuracy),
+            Self::Cuboid(cuboid) => cuboid.intersect(ray, accuracy),
+            Self::Cylinder(cylinder) => cylinder.intersect(ray, accuracy),
+            Self::Cone(cone) => cone.intersect(ray, accuracy),
+            Self::Mesh(mesh) => mesh.intersect(part, ray, accuracy),
         }
     }
 
@@ -308,20 +308,20 @@ impl Geometry {
 
     /// How far away a point is from the shape, in sizes of the shape.
     #[must_use]
-    pub fn remoteness(&self, point: Vector) -> f64 {
+    pub fn relative_distance(&self, point: Vector) -> f64 {
         match self {
             Self::Sphere(sphere) => (sphere.center - point).length() / sphere.radius,
             Self::Spheres(cloud) => {
-                let remoteness = |sphere: &Sphere| (sphere.center - point).length() / sphere.radius;
-                cloud.spheres.iter().map(remoteness).fold(0.0, f64::max)
+                let relative_distance = |sphere: &Sphere| (sphere.center - point).length() / sphere.radius;
+                cloud.spheres.iter().map(relative_distance).fold(0.0, f64::max)
             }
-            Self::Ellipsoid(ellipsoid) => ellipsoid.remoteness(point),
-            Self::Rectangle(rectangle) => rectangle.remoteness(point),
-            Self::Disk(disk) => disk.remoteness(point),
-            Self::Cuboid(cuboid) => cuboid.remoteness(point),
-            Self::Cylinder(cylinder) => cylinder.remoteness(point),
-            Self::Cone(cone) => cone.remoteness(point),
-            Self::Mesh(mesh) => mesh.remoteness(point),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.relative_distance(point),
+            Self::Rectangle(rectangle) => rectangle.relative_distance(point),
+            Self::Disk(disk) => disk.relative_distance(point),
+            Self::Cuboid(cuboid) => cuboid.relative_distance(point),
+            Self::Cylinder(cylinder) => cylinder.relative_distance(point),
+            Self::Cone(cone) => cone.relative_distance(point),
+            Self::Mesh(mesh) => mesh.relative_distance(point),
             // It has no end, and so comes near everything.
             Self::Plane(_) => 0.0,
         }
@@ -387,17 +387,25 @@ pub struct NearestPoint {
     pub outward_normal: Vector,
     /// The unit normal of the surface itself, on the same side: another one on meshes with smooth normals only.
     pub face_normal: Vector,
-    /// See [`Intersection::lift`], seen from the side of `face_normal`.
-    pub lift: Vector,
+    /// See [`ShapeHit::shadow_ray_offset`], seen from the side of `face_normal`.
+    pub shadow_ray_offset: Vector,
     /// The same, seen from the other side.
-    pub lift_behind: Vector,
+    pub shadow_ray_offset_behind: Vector,
 }
 
 impl NearestPoint {
     /// A point of a shape that is one part, with the same normal for shading and for shadows.
     #[must_use]
     pub fn new(anchor: Vector, offset: Vector, outward_normal: Vector) -> Self {
-        let (lift, lift_behind) = (Vector::default(), Vector::default());
-        Self { part: 0, anchor, offset, outward_normal, face_normal: outward_normal, lift, lift_behind }
+        let (shadow_ray_offset, shadow_ray_offset_behind) = (Vector::default(), Vector::default());
+        Self {
+            part: 0,
+            anchor,
+            offset,
+            outward_normal,
+            face_normal: outward_normal,
+            shadow_ray_offset,
+            shadow_ray_offset_behind,
+        }
     }
 }

@@ -129,13 +129,13 @@ impl<T: Real> RowOfEllipse<T> {
     #[inline(always)]
     pub fn point(&self, anchor: Vector, place: &PlaceInRow<T>) -> PointInRow<T> {
         let u = place.column;
-        let direction = self.direction_step.times_plus(u, self.direction);
-        let moment = self.moment_step.times_plus(u, self.moment);
-        let inverse_length = u.constant(1.0) / direction.dot(direction).sqrt();
+        let direction = self.direction_step.mul_add(u, self.direction);
+        let moment = self.moment_step.mul_add(u, self.moment);
+        let inverse_length = u.splat_like(1.0) / direction.dot(direction).sqrt();
         let clearance = self.clearance * place.after_first * place.after_last;
-        let cos_theta_o = clearance.or_zero().sqrt() * inverse_length;
+        let cos_theta_o = clearance.max_zero().sqrt() * inverse_length;
         let unit = direction * inverse_length;
-        let normal = unit.times_plus(-cos_theta_o, unit.cross(moment * inverse_length));
+        let normal = unit.mul_add(-cos_theta_o, unit.cross(moment * inverse_length));
         let point = SurfacePoint { anchor, offset: normal, normal, view: -unit, cos_theta_o };
         PointInRow { point, distance: unit.dot(self.center) - cos_theta_o }
     }
@@ -148,7 +148,7 @@ impl Ellipse {
     /// The outline of a sphere.
     pub(super) fn of_sphere(sphere: &Sphere, frame: &CameraFrame<DoubleDouble>) -> Outline {
         let Projection::Perspective(window) = &frame.projection else { return Outline::Unknown };
-        let grid = Grid::new(frame, window);
+        let grid = PixelGrid::new(frame, window);
         let from_eye = grid.seen_from_eye(Vector::from_f64(sphere.center), DoubleDouble::from_f64(sphere.radius));
         let in_camera = grid.in_camera(from_eye);
         let z = in_camera.z.rounded();
@@ -199,9 +199,13 @@ impl<T: ExactProduct> Ellipse<T> {
     /// The outline of a sphere at least [`BEFORE_THE_EYE`], given by its centre in radii from the eye, in the axes of the
     /// scene and in those of the camera.
     #[inline(always)]
-    pub(crate) fn new(from_eye: Vector<DoubleDouble<T>>, in_camera: Vector<DoubleDouble<T>>, grid: &Grid<T>) -> Self {
+    pub(crate) fn new(
+        from_eye: Vector<DoubleDouble<T>>,
+        in_camera: Vector<DoubleDouble<T>>,
+        grid: &PixelGrid<T>,
+    ) -> Self {
         let Vector { x, y, z } = in_camera;
-        let one = x.constant(1.0);
+        let one = x.splat_like(1.0);
         let a = y * y + z * z - one;
         let z_part = z * z - one;
         let root = a.sqrt();
@@ -274,7 +278,7 @@ impl<T: Real> Ellipse<T> {
     pub fn row_at(&self, v: T) -> RowOfEllipse<T> {
         let width_squared = self.width_squared * ((v - self.rows[0]) * (self.rows[1] - v));
         // Only a root that is nearly double needs to know how much it misses the row: the clearance tells.
-        let width = width_squared.or_zero().sqrt();
+        let width = width_squared.max_zero().sqrt();
         let middle = self.middle[0] + self.middle[1] * v;
         RowOfEllipse {
             roots: [middle - width, middle + width],
@@ -301,7 +305,7 @@ fn is_beside_the_window([x, y, z]: [f64; 3], window: &Screen) -> bool {
 
 /// The grid of pixel centres on a screen at distance 1, and the axes of the camera.
 #[derive(Clone, Copy)]
-pub(crate) struct Grid<T = f64> {
+pub(crate) struct PixelGrid<T = f64> {
     eye: Vector<DoubleDouble<T>>,
     right: Vector<DoubleDouble<T>>,
     up: Vector<DoubleDouble<T>>,
@@ -315,7 +319,7 @@ pub(crate) struct Grid<T = f64> {
     per_row: DoubleDouble<T>,
 }
 
-impl Grid {
+impl PixelGrid {
     /// The grid of a camera.
     pub fn new(frame: &CameraFrame<DoubleDouble>, window: &Screen) -> Self {
         let exact = DoubleDouble::from_f64;
@@ -348,8 +352,8 @@ impl Grid {
 
     /// The same grid for vectors of doubles.
     #[inline(always)]
-    pub fn map<U>(&self, convert: impl Fn(f64) -> U) -> Grid<U> {
-        Grid {
+    pub fn map<U>(&self, convert: impl Fn(f64) -> U) -> PixelGrid<U> {
+        PixelGrid {
             eye: vector_of(self.eye, &convert),
             right: vector_of(self.right, &convert),
             up: vector_of(self.up, &convert),
@@ -369,11 +373,11 @@ fn vector_of<U>(vector: Vector<DoubleDouble>, convert: &impl Fn(f64) -> U) -> Ve
     Vector { x: vector.x.map(convert), y: vector.y.map(convert), z: vector.z.map(convert) }
 }
 
-impl<T: ExactProduct> Grid<T> {
+impl<T: ExactProduct> PixelGrid<T> {
     /// From the eye to a centre, in radii.
     #[inline(always)]
     pub fn seen_from_eye(&self, center: Vector<DoubleDouble<T>>, radius: DoubleDouble<T>) -> Vector<DoubleDouble<T>> {
-        (center - self.eye) * (radius.constant(1.0) / radius)
+        (center - self.eye) * (radius.splat_like(1.0) / radius)
     }
 
     /// The same in the axes of the camera: right, up, forward.
@@ -387,10 +391,10 @@ impl<T: ExactProduct> Grid<T> {
 #[inline(always)]
 fn nearest_whole<T: ExactProduct>(number: DoubleDouble<T>) -> T {
     let number = number.nearest();
-    let farthest = number.constant(FARTHEST);
+    let farthest = number.splat_like(FARTHEST);
     let bounded = -(-number.max(-farthest)).max(-farthest);
     // Adding and subtracting 1.5·2⁵² drops the fraction.
-    let magic = number.constant(6_755_399_441_055_744.0);
+    let magic = number.splat_like(6_755_399_441_055_744.0);
     (bounded + magic) - magic
 }
 

@@ -131,7 +131,7 @@ impl Placement {
     pub fn local_ray<T: Scalar>(&self, ray: &Ray<T>) -> LocalRay<T> {
         let start = ray.start_from(self.origin);
         let along = -start.dot(ray.direction);
-        let nearest = ray.direction.times_plus(along, start);
+        let nearest = ray.direction.mul_add(along, start);
         let reach = along.rounded().abs() + nearest.length().rounded();
         LocalRay { along, nearest: self.to_local(nearest), direction: self.to_local(ray.direction), reach }
     }
@@ -168,7 +168,7 @@ impl<T: Scalar> LocalRay<T> {
     /// The point at this distance from the nearest one.
     #[inline(always)]
     pub fn at(&self, distance: T) -> Vector<T> {
-        self.direction.times_plus(distance, self.nearest)
+        self.direction.mul_add(distance, self.nearest)
     }
 }
 

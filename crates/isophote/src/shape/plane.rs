@@ -1,7 +1,7 @@
 //! The plane, without end (2.4).
 
 use super::placement::Placement;
-use super::{Accuracy, Measure, Meeting, NearestPoint, Ray, flat};
+use super::{Accuracy, Intersection, Measure, NearestPoint, Ray, flat};
 use crate::real::Scalar;
 use crate::vector::Vector;
 
@@ -19,8 +19,8 @@ impl Plane {
     }
 
     /// How a ray meets it.
-    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
-        flat::meet(&self.placement, None, ray, accuracy, |_, _| -T::from_f64(f64::INFINITY))
+    pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
+        flat::intersect(&self.placement, None, ray, accuracy, |_, _| -T::from_f64(f64::INFINITY))
     }
 
     /// The distance from it, never negative.

@@ -28,9 +28,9 @@ impl<T: Scalar> Ray<T> {
 
 /// How a ray meets a shape.
 #[derive(Clone, Copy, Debug)]
-pub struct Meeting<T = f64> {
+pub struct Intersection<T = f64> {
     /// The nearest intersection with t > 0.
-    pub hit: Option<Intersection<T>>,
+    pub hit: Option<ShapeHit<T>>,
     /// From which distance on (in metres) double precision may have decided wrongly, or lost more digits than the
     /// accuracy allows: the ray comes near a silhouette, an edge or the surface on which it starts.
     pub doubtful_from: Option<T>,
@@ -38,7 +38,7 @@ pub struct Meeting<T = f64> {
 
 /// Where a ray meets a shape.
 #[derive(Clone, Copy, Debug)]
-pub struct Intersection<T = f64> {
+pub struct ShapeHit<T = f64> {
     /// t, the distance from the start of the ray in metres.
     pub distance: T,
     /// The point that was hit.
@@ -46,7 +46,7 @@ pub struct Intersection<T = f64> {
     /// Whether the ray comes from inside a closed shape.
     pub from_inside: bool,
     /// From the point to where its shadow rays start, in metres: not zero on meshes with smooth normals only.
-    pub lift: Vector<T>,
+    pub shadow_ray_offset: Vector<T>,
 }
 
 /// A point on a surface, as its shading needs it.
@@ -85,7 +85,7 @@ impl<T: Scalar> SurfacePoint<T> {
     }
 }
 
-impl<T> Meeting<T> {
+impl<T> Intersection<T> {
     /// The ray passes, beyond doubt.
     pub const MISS: Self = Self { hit: None, doubtful_from: None };
 }
@@ -171,8 +171,8 @@ impl TracingError {
     /// hundred thousand random scenes.
     #[must_use]
     #[inline(always)]
-    pub fn of_ray(remoteness: f64) -> Self {
-        let error = f64::EPSILON * (1.0 + remoteness);
+    pub fn of_ray(relative_distance: f64) -> Self {
+        let error = f64::EPSILON * (1.0 + relative_distance);
         Self { clearance: 16.0 * error, normal: 1.25 * error }
     }
 }

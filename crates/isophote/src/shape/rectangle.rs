@@ -1,7 +1,7 @@
 //! The rectangle (2.4).
 
 use super::placement::Placement;
-use super::{Accuracy, Bounds, Measure, Meeting, NearestPoint, Ray, flat};
+use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, Ray, flat};
 use crate::real::Scalar;
 use crate::vector::Vector;
 
@@ -25,11 +25,11 @@ impl Rectangle {
     }
 
     /// A hit of the plane that is within its borders.
-    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
+    pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         let absolute = |value: T| value.max(-value);
         let beyond =
             |x: T, y: T| (absolute(x) - T::from_f64(self.half_width)).max(absolute(y) - T::from_f64(self.half_height));
-        flat::meet(&self.placement, Some(self.size()), ray, accuracy, beyond)
+        flat::intersect(&self.placement, Some(self.size()), ray, accuracy, beyond)
     }
 
     /// The distance from it, never negative.
@@ -83,7 +83,7 @@ impl Rectangle {
 
     /// How far away a point is, in halves of the shorter side.
     #[must_use]
-    pub fn remoteness(&self, point: Vector) -> f64 {
+    pub fn relative_distance(&self, point: Vector) -> f64 {
         (point - self.placement.origin).length() / self.half_width.min(self.half_height)
     }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// One of the two sides of a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -15,7 +15,7 @@ pub enum Side {
     Back,
 }
 
-impl Choice for Side {
+impl Keyword for Side {
     const ALL: &'static [Self] = &[Self::Front, Self::Back];
 
     fn name(self) -> &'static str {

@@ -29,7 +29,7 @@ pub struct Passage<T> {
     pub crossing: Option<Crossing<T>>,
     /// Whether the ray starts inside.
     pub from_inside: bool,
-    /// See [`Meeting::doubtful_from`](super::Meeting::doubtful_from), in metres.
+    /// See [`Intersection::doubtful_from`](super::Intersection::doubtful_from), in metres.
     pub doubtful_from: Option<f64>,
 }
 

@@ -1,6 +1,6 @@
 //! The sphere (2.2).
 
-use super::{Accuracy, Bounds, Intersection, Meeting, NearestPoint, Ray, SurfacePoint, TracingError};
+use super::{Accuracy, Bounds, Intersection, NearestPoint, Ray, ShapeHit, SurfacePoint, TracingError};
 use crate::real::Scalar;
 use crate::vector::Vector;
 
@@ -22,19 +22,19 @@ impl Sphere {
     /// large distances and loses the limb; this one loses only what the ray itself has lost. (Haines, Günther and
     /// Akenine-Möller, "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019.)
     #[inline(always)]
-    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
+    pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         let radius = T::from_f64(self.radius);
         let to_center = -ray.start_from(self.center);
         let along = to_center.dot(ray.direction);
         let perpendicular = ray.direction * along - to_center;
         // How far the ray is from grazing: cos²θ_o of a hit. A ray that touches at a single point sees no area: a miss.
         let clearance = (radius * radius - perpendicular.dot(perpendicular)) / (radius * radius);
-        let remoteness = (along.rounded().abs() + perpendicular.length().rounded()) / self.radius;
-        let doubtful = accuracy.doubtful_clearance(&TracingError::of_ray(remoteness));
+        let relative_distance = (along.rounded().abs() + perpendicular.length().rounded()) / self.radius;
+        let doubtful = accuracy.doubtful_clearance(&TracingError::of_ray(relative_distance));
         // Seen from outside, a sphere behind the start is a miss as clear as any; from inside, none is.
         let nearby = T::from_f64(-2.0 * self.radius);
         if clearance.rounded() <= doubtful.start || along.is_less(nearby) {
-            return Meeting::MISS;
+            return Intersection::MISS;
         }
         let cos_theta_o = clearance.max(T::zero()).sqrt();
         let half_chord = cos_theta_o * radius;
@@ -45,7 +45,7 @@ impl Sphere {
         let doubtful_from = is_doubtful.then_some(near);
         let from_inside = !T::zero().is_less(near);
         if !T::zero().is_less(clearance) || !T::zero().is_less(far) {
-            return Meeting { hit: None, doubtful_from };
+            return Intersection { hit: None, doubtful_from };
         }
         let (offset, outwards, distance) = if from_inside {
             (perpendicular + ray.direction * half_chord, -T::from_f64(1.0), far)
@@ -54,8 +54,8 @@ impl Sphere {
         };
         let normal = offset * (outwards / radius);
         let point = SurfacePoint { anchor: self.center, offset, normal, view: -ray.direction, cos_theta_o };
-        let lift = Vector::zero();
-        Meeting { hit: Some(Intersection { distance, point, from_inside, lift }), doubtful_from }
+        let shadow_ray_offset = Vector::zero();
+        Intersection { hit: Some(ShapeHit { distance, point, from_inside, shadow_ray_offset }), doubtful_from }
     }
 
     /// ‖P − C‖ − R.

@@ -6,7 +6,7 @@ use isophote::scene::source::{
     AmbientSource, CameraSource, ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, EmissionName,
     LightSource, MaterialSource, PlaneSource, RectangleSource, RotationSource, SceneSource, ScreenSource, SphereSource,
 };
-use isophote::units::{Choice, LengthUnit};
+use isophote::units::{Keyword, LengthUnit};
 use proptest::prelude::*;
 
 /// So many cases, or as many as `PROPTEST_CASES` says. Failures print their scene; no file keeps them.

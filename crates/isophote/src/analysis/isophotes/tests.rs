@@ -148,7 +148,7 @@ fn nothing_to_draw_gives_no_line() {
 fn every_crossing_is_joined_exactly_once() {
     let map = square_map(60, 1.0, everywhere(|x, y| (7.0 * x).sin() * (9.0 * y).cos() + 0.3 * x));
     for level in [-0.8, -0.3, 0.05, 0.4, 0.9] {
-        let grid = Grid::new(&map, map.scalar(&Quantity::Brightness).unwrap());
+        let grid = super::contour_grid::ContourGrid::new(&map, map.scalar(&Quantity::Brightness).unwrap());
         let segments = grid.segments(level);
         let starts: HashSet<usize> = segments.iter().map(|segment| segment.start).collect();
         let ends: HashSet<usize> = segments.iter().map(|segment| segment.end).collect();

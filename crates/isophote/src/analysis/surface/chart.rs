@@ -4,7 +4,7 @@ use super::cylinder::CylinderChart;
 use super::disk::DiskChart;
 use super::rectangle::RectangleChart;
 use super::sphere::SphereChart;
-use super::{Projection, SurfaceError};
+use super::{SurfaceError, SurfaceProjection};
 use crate::map::Coordinates;
 use crate::shape::Geometry;
 use crate::vector::Vector;
@@ -32,7 +32,7 @@ impl Chart {
     pub(super) fn new(
         geometry: &Geometry,
         part: u32,
-        projection: Projection,
+        projection: SurfaceProjection,
         axis: Option<Vector>,
     ) -> Result<Self, SurfaceError> {
         let chart = match geometry {

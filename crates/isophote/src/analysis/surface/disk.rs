@@ -1,6 +1,6 @@
 //! Angle and radius on a disk.
 
-use super::Projection;
+use super::SurfaceProjection;
 use super::chart::{ChartPoint, around, meridians};
 use crate::map::Coordinates;
 use crate::shape::Disk;
@@ -13,36 +13,36 @@ pub(super) struct DiskChart {
     normal: Vector,
     radius: f64,
     meridians: [Vector; 2],
-    projection: Projection,
+    projection: SurfaceProjection,
 }
 
 impl DiskChart {
     /// A disk does not unroll: this is a shape in which the numbers can be read.
     pub(super) const PROPORTIONS: [f64; 2] = [2.0, 1.0];
 
-    pub(super) fn new(disk: &Disk, projection: Projection) -> Self {
+    pub(super) fn new(disk: &Disk, projection: SurfaceProjection) -> Self {
         let normal = disk.normal();
         Self { center: disk.center(), normal, radius: disk.size(), meridians: meridians(normal), projection }
     }
 
     pub(super) fn coordinates(&self) -> Coordinates {
         match self.projection {
-            Projection::Equirectangular => Coordinates::AngleRadius,
-            Projection::EqualArea => Coordinates::AngleSquare,
+            SurfaceProjection::Equirectangular => Coordinates::AngleRadius,
+            SurfaceProjection::EqualArea => Coordinates::AngleSquare,
         }
     }
 
     pub(super) fn radii(&self) -> [f64; 2] {
         match self.projection {
-            Projection::Equirectangular => [0.0, self.radius],
-            Projection::EqualArea => [0.0, 1.0],
+            SurfaceProjection::Equirectangular => [0.0, self.radius],
+            SurfaceProjection::EqualArea => [0.0, 1.0],
         }
     }
 
     pub(super) fn point(&self, [angle, y]: [f64; 2]) -> ChartPoint {
         let radius = match self.projection {
-            Projection::Equirectangular => y,
-            Projection::EqualArea => self.radius * y.sqrt(),
+            SurfaceProjection::Equirectangular => y,
+            SurfaceProjection::EqualArea => self.radius * y.sqrt(),
         };
         ChartPoint { anchor: self.center, offset: around(self.meridians, angle) * radius, normal: self.normal }
     }
@@ -50,8 +50,8 @@ impl DiskChart {
     /// Δφ Δ(r²)/2.
     pub(super) fn area(&self, [first, last]: [f64; 2], [inner, outer]: [f64; 2]) -> f64 {
         let squares = match self.projection {
-            Projection::Equirectangular => (outer - inner) * (outer + inner),
-            Projection::EqualArea => self.radius * self.radius * (outer - inner),
+            SurfaceProjection::Equirectangular => (outer - inner) * (outer + inner),
+            SurfaceProjection::EqualArea => self.radius * self.radius * (outer - inner),
         };
         0.5 * (last - first).to_radians() * squares
     }

@@ -16,7 +16,7 @@ use crate::prepare::{Hit, PreparedScene};
 use crate::render::color::map_of_components;
 use crate::shade::ByLight;
 use crate::shape::{Primitive, Side, SurfacePoint};
-use crate::units::Choice;
+use crate::units::Keyword;
 use crate::vector::Vector;
 use chart::{Chart, ChartPoint};
 pub use totals::{CellExtreme, SurfaceTotals};
@@ -27,7 +27,7 @@ pub struct SurfaceRequest {
     /// What has the surface.
     pub primitive: Primitive,
     /// Which cells are equal.
-    pub projection: Projection,
+    pub projection: SurfaceProjection,
     /// Where the latitude of a sphere is 90°: a direction of any length but zero; +y by default.
     pub axis: Option<Vector>,
     /// Which side is looked at.
@@ -38,7 +38,7 @@ pub struct SurfaceRequest {
 
 /// Which cells of a map are equal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Projection {
+pub enum SurfaceProjection {
     /// Steps of latitude, of radius: the coordinates as a person reads them.
     #[default]
     Equirectangular,
@@ -46,7 +46,7 @@ pub enum Projection {
     EqualArea,
 }
 
-impl Choice for Projection {
+impl Keyword for SurfaceProjection {
     const ALL: &'static [Self] = &[Self::Equirectangular, Self::EqualArea];
 
     fn name(self) -> &'static str {
@@ -258,7 +258,7 @@ impl Surface<'_> {
         let point = SurfacePoint { anchor, offset, normal, view, cos_theta_o: normal.dot(view) };
         let geometry = &self.scene.scene().shapes()[self.request.primitive.shape].geometry;
         let from_inside = geometry.is_closed() && self.request.side == Side::Back;
-        Hit { primitive: self.request.primitive, distance, point, from_inside, lift: Vector::default() }
+        Hit { primitive: self.request.primitive, distance, point, from_inside, shadow_ray_offset: Vector::default() }
     }
 
     fn window(&self) -> Window {

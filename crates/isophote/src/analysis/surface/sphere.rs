@@ -1,6 +1,6 @@
 //! Longitude and latitude on a sphere.
 
-use super::Projection;
+use super::SurfaceProjection;
 use super::chart::{ChartPoint, around, meridians};
 use crate::map::Coordinates;
 use crate::shape::Sphere;
@@ -13,11 +13,11 @@ pub(super) struct SphereChart {
     radius: f64,
     axis: Vector,
     meridians: [Vector; 2],
-    projection: Projection,
+    projection: SurfaceProjection,
 }
 
 impl SphereChart {
-    pub(super) fn new(sphere: &Sphere, projection: Projection, axis: Option<Vector>) -> Self {
+    pub(super) fn new(sphere: &Sphere, projection: SurfaceProjection, axis: Option<Vector>) -> Self {
         let axis = axis.map_or(Vector::new(0.0, 1.0, 0.0), Vector::normalized);
         let Sphere { center, radius } = *sphere;
         Self { center, radius, axis, meridians: meridians(axis), projection }
@@ -29,15 +29,15 @@ impl SphereChart {
 
     pub(super) fn coordinates(&self) -> Coordinates {
         match self.projection {
-            Projection::Equirectangular => Coordinates::LongitudeLatitude,
-            Projection::EqualArea => Coordinates::LongitudeSine,
+            SurfaceProjection::Equirectangular => Coordinates::LongitudeLatitude,
+            SurfaceProjection::EqualArea => Coordinates::LongitudeSine,
         }
     }
 
     pub(super) fn latitudes(&self) -> [f64; 2] {
         match self.projection {
-            Projection::Equirectangular => [-90.0, 90.0],
-            Projection::EqualArea => [-1.0, 1.0],
+            SurfaceProjection::Equirectangular => [-90.0, 90.0],
+            SurfaceProjection::EqualArea => [-1.0, 1.0],
         }
     }
 
@@ -45,15 +45,15 @@ impl SphereChart {
     pub(super) fn proportions(&self) -> [f64; 2] {
         let equator = std::f64::consts::TAU * self.radius;
         match self.projection {
-            Projection::Equirectangular => [equator, 0.5 * equator],
-            Projection::EqualArea => [equator, 2.0 * self.radius],
+            SurfaceProjection::Equirectangular => [equator, 0.5 * equator],
+            SurfaceProjection::EqualArea => [equator, 2.0 * self.radius],
         }
     }
 
     pub(super) fn point(&self, [longitude, y]: [f64; 2]) -> ChartPoint {
         let (sine, cosine) = match self.projection {
-            Projection::Equirectangular => (libm::sin(y.to_radians()), libm::cos(y.to_radians())),
-            Projection::EqualArea => (y, ((1.0 - y) * (1.0 + y)).sqrt()),
+            SurfaceProjection::Equirectangular => (libm::sin(y.to_radians()), libm::cos(y.to_radians())),
+            SurfaceProjection::EqualArea => (y, ((1.0 - y) * (1.0 + y)).sqrt()),
         };
         let normal = self.axis * sine + around(self.meridians, longitude) * cosine;
         ChartPoint { anchor: self.center, offset: normal * self.radius, normal }
@@ -62,11 +62,11 @@ impl SphereChart {
     /// R² Δλ Δ(sin φ). The difference of the sines is written as a product, which keeps its digits near the poles.
     pub(super) fn area(&self, [west, east]: [f64; 2], [south, north]: [f64; 2]) -> f64 {
         let height = match self.projection {
-            Projection::Equirectangular => {
+            SurfaceProjection::Equirectangular => {
                 let (middle, half) = ((0.5 * (south + north)).to_radians(), (0.5 * (north - south)).to_radians());
                 2.0 * libm::cos(middle) * libm::sin(half)
             }
-            Projection::EqualArea => north - south,
+            SurfaceProjection::EqualArea => north - south,
         };
         self.radius * self.radius * (east - west).to_radians() * height
     }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::analysis::probe::{Place, ProbeReading};
+use crate::analysis::probe::{ProbePosition, ProbeReading};
 use crate::scene::{Scene, Syntax};
 use std::f64::consts::PI;
 
@@ -25,7 +25,7 @@ const LAMBERTIAN: &str = "emission = \"lambertian\"\ntarget = [0, 0, 0]\n";
 fn request() -> SurfaceRequest {
     SurfaceRequest {
         primitive: Primitive { shape: 0, part: 0 },
-        projection: Projection::Equirectangular,
+        projection: SurfaceProjection::Equirectangular,
         axis: None,
         side: Side::Front,
         size: None,
@@ -55,7 +55,7 @@ fn every_cell_of_a_sphere_has_the_irradiance_of_the_closed_form() {
     let (radius, distance, intensity) = (0.25, 1.6, 100.0);
     for (emission, is_lambertian) in [("", false), (LAMBERTIAN, true)] {
         let scene = ball_and_source(emission);
-        for projection in [Projection::Equirectangular, Projection::EqualArea] {
+        for projection in [SurfaceProjection::Equirectangular, SurfaceProjection::EqualArea] {
             let axis = Some(Vector::new(3.0, 0.0, 4.0));
             let request = SurfaceRequest { projection, axis, size: size(12, 400), ..request() };
             let surface = scene.surface(&request).expect("a sphere has coordinates");
@@ -64,7 +64,7 @@ fn every_cell_of_a_sphere_has_the_irradiance_of_the_closed_form() {
             let mut lit = 0;
             for (index, value) in values.iter().enumerate() {
                 let y = surface.coordinates(map.pixel(index))[1];
-                let cosine = if projection == Projection::EqualArea { y } else { libm::sin(y.to_radians()) };
+                let cosine = if projection == SurfaceProjection::EqualArea { y } else { libm::sin(y.to_radians()) };
                 let square = radius * radius + distance * distance - 2.0 * radius * distance * cosine;
                 let above = distance * cosine - radius;
                 let pattern = if is_lambertian { (distance - radius * cosine) / square.sqrt() } else { 1.0 };
@@ -90,7 +90,7 @@ fn the_flux_on_a_sphere_converges_to_the_closed_form_with_the_square_of_the_reso
     assert_close(lambertian, 7.669_903_939_4, 1e-10);
     for (emission, flux) in [("", isotropic), (LAMBERTIAN, lambertian)] {
         let scene = ball_and_source(emission);
-        for projection in [Projection::Equirectangular, Projection::EqualArea] {
+        for projection in [SurfaceProjection::Equirectangular, SurfaceProjection::EqualArea] {
             for axis in [Vector::new(0.0, 1.0, 0.0), Vector::new(0.3, -0.2, 0.9)] {
                 for rows in [15, 30, 60, 120, 240] {
                     let request =
@@ -116,7 +116,7 @@ fn the_cells_of_every_shape_cover_it_once() {
     let scene = prepared(&format!("{HEAD}{}{shapes}", camera([0.0, 0.0, -5.0])));
     let areas = [4.0 * PI * 0.49, 2.0 * PI * 0.4 * 10.0_f64.sqrt(), 0.6, PI * 2.25];
     for (shape, area) in areas.into_iter().enumerate() {
-        for projection in [Projection::Equirectangular, Projection::EqualArea] {
+        for projection in [SurfaceProjection::Equirectangular, SurfaceProjection::EqualArea] {
             let primitive = Primitive { shape, part: 0 };
             let request = SurfaceRequest { primitive, projection, size: size(37, 23), ..request() };
             let surface = scene.surface(&request).expect("it has coordinates");
@@ -145,7 +145,7 @@ fn the_flux_on_every_shape_is_the_intensity_times_the_solid_angle() {
         (&rectangle, Side::Back, 4.0 * libm::atan(1.5 * 0.5 / (2.0 * 6.5_f64.sqrt()))),
     ];
     for (scene, side, solid_angle) in cases {
-        for projection in [Projection::Equirectangular, Projection::EqualArea] {
+        for projection in [SurfaceProjection::Equirectangular, SurfaceProjection::EqualArea] {
             let request = SurfaceRequest { side, projection, size: size(200, 100), ..request() };
             let (_, totals) = irradiance(&scene.surface(&request).expect("it has coordinates"));
             assert_close(totals.integral, 3.0 * solid_angle, 1e-4);
@@ -185,7 +185,7 @@ fn a_cell_has_the_values_of_a_probe_at_its_centre_with_shadows() {
         let [all, seen] = [&quantities[..], &of_eye[..]].map(|wanted| surface.map(wanted).expect("they exist"));
         for index in 0..176 {
             let point = surface.point(all.pixel(index));
-            let reading = scene.probe(&Place::NearestTo(point)).expect("there are shapes");
+            let reading = scene.probe(&ProbePosition::NearestTo(point)).expect("there are shapes");
             let ProbeReading { hit, shading, terms, blockers, .. } = &reading;
             assert_eq!(hit.primitive.shape, shape, "cells of the shapes do not touch");
             let faces = hit.point.cos_theta_o > 0.0;

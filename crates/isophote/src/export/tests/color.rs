@@ -9,7 +9,7 @@ use crate::export::figure::{FigureOptions, map_figure_svg};
 use crate::export::png::{Depth, PictureColor, PictureOptions, PictureReport, write};
 use crate::export::{ExportError, FileMetadata, Format};
 use crate::map::{Channel, Map, Quantity, Values};
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// Of the sample's pixels 0, 2, 3 and 4 are seen.
 const COLORS: [[f64; 3]; 6] =

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use super::{encoded, sample};
 use crate::{
     export::{FileMetadata, Format, read::json_of},
-    units::Choice,
+    units::Keyword,
 };
 
 fn read(format: Format, bytes: &[u8]) -> Result<Option<Vec<u8>>, String> {

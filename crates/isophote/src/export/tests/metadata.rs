@@ -8,7 +8,7 @@ use crate::{
         read_metadata, write_atomically,
     },
     map::Quantity,
-    units::Choice,
+    units::Keyword,
 };
 
 fn read_bytes(bytes: &[u8]) -> Result<FileMetadata, ReadError> {

@@ -14,7 +14,7 @@ use std::io::{self, Cursor, Seek, SeekFrom, Write};
 use super::{ExportError, Format, csv, npy, npz, png::PictureOptions};
 use crate::{
     map::{Channel, Coordinates, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Values, Window},
-    units::{Choice, LengthUnit},
+    units::{Keyword, LengthUnit},
 };
 
 /// Two rows of three pixels out of a larger image, two of them missed; with the numbers and names that formats trip

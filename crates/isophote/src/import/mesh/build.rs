@@ -1,7 +1,7 @@
 //! From a file's vertices and faces to a mesh.
 
 use super::{CornerNormals, TriangleMesh, weld::Welder};
-use crate::import::{Fault, Place, Problem, materials::SlotBook};
+use crate::import::{Fault, FilePosition, FileProblem, materials::SlotBook};
 
 /// Takes triangles as a file has them.
 #[derive(Debug, Default)]
@@ -24,7 +24,7 @@ impl MeshBuilder {
         corners: [[f64; 3]; 3],
         normals: Option<[([f64; 3], u64); 3]>,
         material: u16,
-    ) -> Result<(), Problem> {
+    ) -> Result<(), FileProblem> {
         if plane_normal(corners).is_none() {
             self.degenerate += 1;
             return Ok(());
@@ -35,7 +35,7 @@ impl MeshBuilder {
             self.flat_until(self.triangles.len() - 1)?;
             let mut units = [[0.0; 3]; 3];
             for (unit, (vector, number)) in units.iter_mut().zip(normals) {
-                *unit = normalized(vector).ok_or(Problem::NoDirection { number })?;
+                *unit = normalized(vector).ok_or(FileProblem::NoDirection { number })?;
             }
             self.corners.push(welded(&mut self.normals, units)?);
         }
@@ -45,10 +45,10 @@ impl MeshBuilder {
     /// The mesh of all triangles so far.
     pub fn finish(mut self) -> Result<TriangleMesh, Fault> {
         if self.triangles.is_empty() {
-            return Err(Problem::NoTriangles { degenerate: self.degenerate }.at(Place::Whole));
+            return Err(FileProblem::NoTriangles { degenerate: self.degenerate }.at(FilePosition::Whole));
         }
         if !self.corners.is_empty() {
-            self.flat_until(self.triangles.len()).map_err(|problem| problem.at(Place::Whole))?;
+            self.flat_until(self.triangles.len()).map_err(|problem| problem.at(FilePosition::Whole))?;
         }
         let normals = (!self.corners.is_empty()).then(|| {
             self.corners.shrink_to_fit();
@@ -65,7 +65,7 @@ impl MeshBuilder {
     }
 
     /// Triangles that have no normals, up to this one, get those of their planes.
-    fn flat_until(&mut self, end: usize) -> Result<(), Problem> {
+    fn flat_until(&mut self, end: usize) -> Result<(), FileProblem> {
         for triangle in &self.triangles[self.corners.len()..end] {
             let corners = triangle.map(|index| self.vertices.vector(index));
             let normal = plane_normal(corners).expect("it was kept because it has one");
@@ -75,10 +75,10 @@ impl MeshBuilder {
     }
 }
 
-fn welded(welder: &mut Welder, vectors: [[f64; 3]; 3]) -> Result<[u32; 3], Problem> {
+fn welded(welder: &mut Welder, vectors: [[f64; 3]; 3]) -> Result<[u32; 3], FileProblem> {
     let mut indices = [0; 3];
     for (index, vector) in indices.iter_mut().zip(vectors) {
-        *index = welder.index(vector).ok_or(Problem::TooMany { what: "vertices", most: u64::from(u32::MAX) })?;
+        *index = welder.index(vector).ok_or(FileProblem::TooMany { what: "vertices", most: u64::from(u32::MAX) })?;
     }
     Ok(indices)
 }

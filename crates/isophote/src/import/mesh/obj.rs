@@ -8,7 +8,7 @@ use memchr::memchr;
 
 use super::{MeshBuilder, NO_NORMALS, TriangleMesh};
 use crate::import::{
-    Fault, Place, Problem,
+    Fault, FilePosition, FileProblem,
     text::{finite_number, integer, lines, shown, words},
 };
 
@@ -22,7 +22,7 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
 }
 
 /// Calls `read` with the keyword and the rest of each statement, without comments and with continued lines in one.
-fn statements(bytes: &[u8], mut read: impl FnMut(&[u8], &[u8]) -> Result<(), Problem>) -> Result<(), Fault> {
+fn statements(bytes: &[u8], mut read: impl FnMut(&[u8], &[u8]) -> Result<(), FileProblem>) -> Result<(), Fault> {
     let mut continued: Vec<u8> = Vec::new();
     for (number, line) in lines(bytes) {
         let line = memchr(b'#', line).map_or(line, |comment| &line[..comment]);
@@ -36,14 +36,14 @@ fn statements(bytes: &[u8], mut read: impl FnMut(&[u8], &[u8]) -> Result<(), Pro
         let whole = whole.trim_ascii();
         let (keyword, rest) = whole.split_at(whole.iter().position(u8::is_ascii_whitespace).unwrap_or(whole.len()));
         if !keyword.is_empty() {
-            read(keyword, rest).map_err(|problem| problem.at(Place::Line(number)))?;
+            read(keyword, rest).map_err(|problem| problem.at(FilePosition::Line(number)))?;
         }
     }
     if continued.is_empty() {
         return Ok(());
     }
-    Err(Problem::Missing { what: "the line after the last ‘\\’".into(), needed: "it is continued there" }
-        .at(Place::Whole))
+    Err(FileProblem::Missing { what: "the line after the last ‘\\’".into(), needed: "it is continued there" }
+        .at(FilePosition::Whole))
 }
 
 #[derive(Debug, Default)]
@@ -54,7 +54,7 @@ struct Vertices {
 }
 
 impl Vertices {
-    fn read(&mut self, keyword: &[u8], rest: &[u8]) -> Result<(), Problem> {
+    fn read(&mut self, keyword: &[u8], rest: &[u8]) -> Result<(), FileProblem> {
         match keyword {
             b"v" => {
                 // A weight or a colour, or both, may follow.
@@ -67,7 +67,7 @@ impl Vertices {
             b"vp" | b"cstype" | b"deg" | b"bmat" | b"step" | b"curv" | b"curv2" | b"surf" | b"parm" | b"trim"
             | b"hole" | b"scrv" | b"sp" | b"end" | b"con" | b"ctech" | b"stech" | b"call" | b"csh" => {
                 let what = format!("‘{}’ (curves, curved surfaces, other files)", shown(keyword));
-                return Err(Problem::Unsupported { what, instead: "export polygons" });
+                return Err(FileProblem::Unsupported { what, instead: "export polygons" });
             }
             _ => return Err(unknown(keyword)),
         }
@@ -75,15 +75,15 @@ impl Vertices {
     }
 }
 
-fn unknown(keyword: &[u8]) -> Problem {
-    Problem::Unexpected {
+fn unknown(keyword: &[u8]) -> FileProblem {
+    FileProblem::Unexpected {
         what: "the line's first word".into(),
         found: shown(keyword),
         allowed: "the keywords of OBJ: v, vn, vt, f, usemtl, o, g, s, mtllib and others".into(),
     }
 }
 
-fn three(rest: &[u8], what: &str, allowed: &[usize]) -> Result<[f64; 3], Problem> {
+fn three(rest: &[u8], what: &str, allowed: &[usize]) -> Result<[f64; 3], FileProblem> {
     let mut vector = [0.0; 3];
     let mut parts = words(rest);
     let mut found = 0;
@@ -98,7 +98,7 @@ fn three(rest: &[u8], what: &str, allowed: &[usize]) -> Result<[f64; 3], Problem
     }
     let counts: Vec<String> = allowed.iter().map(usize::to_string).collect();
     let allowed = format!("allowed are {} numbers", counts.join(", "));
-    Err(Problem::Parts { what: format!("the {what}"), found: found as u64, allowed })
+    Err(FileProblem::Parts { what: format!("the {what}"), found: found as u64, allowed })
 }
 
 struct Faces<'a> {
@@ -124,7 +124,7 @@ impl<'a> Faces<'a> {
         Self { vertices, so_far: [0; 3], corners: Vec::new(), material: None, builder: MeshBuilder::default() }
     }
 
-    fn read(&mut self, keyword: &[u8], rest: &[u8]) -> Result<(), Problem> {
+    fn read(&mut self, keyword: &[u8], rest: &[u8]) -> Result<(), FileProblem> {
         match keyword {
             b"v" => self.so_far[0] += 1,
             b"vt" => self.so_far[1] += 1,
@@ -141,7 +141,7 @@ impl<'a> Faces<'a> {
         Ok(())
     }
 
-    fn face(&mut self, rest: &[u8]) -> Result<(), Problem> {
+    fn face(&mut self, rest: &[u8]) -> Result<(), FileProblem> {
         self.corners.clear();
         for word in words(rest) {
             let corner = self.corner(word)?;
@@ -153,7 +153,7 @@ impl<'a> Faces<'a> {
         }
         let form = |corner: &Corner| (corner.has_texture, corner.normal.is_some());
         if let Some(other) = between.iter().position(|corner| form(corner) != form(first)) {
-            return Err(Problem::Unexpected {
+            return Err(FileProblem::Unexpected {
                 what: format!("corner {} of the face", other + 2),
                 found: words(rest).nth(other + 1).map(shown).unwrap_or_default(),
                 allowed: "the form of the first corner (v, v/vt, v//vn or v/vt/vn)".into(),
@@ -177,7 +177,7 @@ impl<'a> Faces<'a> {
     }
 
     /// `v`, `v/vt`, `v//vn` or `v/vt/vn`.
-    fn corner(&self, word: &[u8]) -> Result<Corner, Problem> {
+    fn corner(&self, word: &[u8]) -> Result<Corner, FileProblem> {
         let mut parts = word.split(|byte| *byte == b'/');
         let vertex = parts.next().unwrap_or_default();
         let texture = parts.next();
@@ -185,7 +185,7 @@ impl<'a> Faces<'a> {
         let has_texture = texture.is_some_and(|texture| !texture.is_empty());
         if parts.next().is_some() || (texture.is_some() && !has_texture && normal.is_none()) {
             let allowed = "v, v/vt, v//vn or v/vt/vn".into();
-            return Err(Problem::Unexpected { what: "a corner".into(), found: shown(word), allowed });
+            return Err(FileProblem::Unexpected { what: "a corner".into(), found: shown(word), allowed });
         }
         let [positions, textures, normals] =
             [self.vertices.positions.len(), self.vertices.textures, self.vertices.normals.len()];
@@ -198,16 +198,16 @@ impl<'a> Faces<'a> {
     }
 }
 
-fn too_few(found: usize) -> Problem {
-    Problem::Parts { what: "the face".into(), found: found as u64, allowed: "at least 3 corners are needed".into() }
+fn too_few(found: usize) -> FileProblem {
+    FileProblem::Parts { what: "the face".into(), found: found as u64, allowed: "at least 3 corners are needed".into() }
 }
 
 /// From 1 up, or from −1 down, backwards from the vertices so far.
-fn index(word: &[u8], field: &'static str, count: usize, so_far: usize) -> Result<usize, Problem> {
+fn index(word: &[u8], field: &'static str, count: usize, so_far: usize) -> Result<usize, FileProblem> {
     let index = integer(word, field)?;
     let from_start = usize::try_from(index).ok().and_then(|index| index.checked_sub(1)).filter(|index| *index < count);
     let from_here = usize::try_from(index.unsigned_abs()).ok().and_then(|back| so_far.checked_sub(back));
     let found = if index < 0 { from_here } else { from_start };
     let (count, backwards) = (count as u64, so_far as u64);
-    found.ok_or(Problem::Index { field, index, first: 1, count, backwards })
+    found.ok_or(FileProblem::Index { field, index, first: 1, count, backwards })
 }

@@ -4,7 +4,7 @@
 
 use super::{MeshBuilder, NO_NORMALS, TriangleMesh};
 use crate::import::{
-    Fault, Place, Problem,
+    Fault, FilePosition, FileProblem,
     format::is_binary_stl,
     text::{finite, finite_number, lines, shown, words},
 };
@@ -18,7 +18,7 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
 
 fn read_binary(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
     let total = bytes.len() as u64;
-    let truncated = |what: String, needed, left| Problem::Truncated { what, needed, left }.at(Place::Header);
+    let truncated = |what: String, needed, left| FileProblem::Truncated { what, needed, left }.at(FilePosition::Header);
     let Some((header, body)) = bytes.split_at_checked(84) else {
         return Err(truncated("the header and the number of triangles".into(), 84, total));
     };
@@ -28,21 +28,23 @@ fn read_binary(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
         return Err(truncated(format!("{count} triangles"), needed.into(), left));
     }
     if needed < left {
-        return Err(Problem::Leftover { what: format!("{count} triangles"), left: left - needed }.at(Place::Header));
+        return Err(
+            FileProblem::Leftover { what: format!("{count} triangles"), left: left - needed }.at(FilePosition::Header)
+        );
     }
     let mut builder = MeshBuilder::default();
     let material = builder.materials.slot(None).expect("one slot is always free");
     for (number, facet) in (0..).zip(body.as_chunks::<50>().0) {
         let corner = |first: usize| vertex(facet[first..first + 12].try_into().expect("twelve bytes"));
         let corners = [corner(12), corner(24), corner(36)];
-        let at = |problem: Problem| problem.at(Place::Element { kind: "triangle", number });
+        let at = |problem: FileProblem| problem.at(FilePosition::Element { kind: "triangle", number });
         let [a, b, c] = corners.map(|corner| corner.map_err(at));
         builder.triangle([a?, b?, c?], NO_NORMALS, material).map_err(at)?;
     }
     builder.finish()
 }
 
-fn vertex(bytes: &[u8; 12]) -> Result<[f64; 3], Problem> {
+fn vertex(bytes: &[u8; 12]) -> Result<[f64; 3], FileProblem> {
     let [x, y, z] = [0, 4, 8].map(|at| f32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes")));
     Ok([finite(x.into(), "x")?, finite(y.into(), "y")?, finite(z.into(), "z")?])
 }
@@ -53,13 +55,13 @@ fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
     let mut reader = AsciiReader { builder: MeshBuilder::default(), expected: Expected::Solid, corners: Vec::new() };
     let mut last = 0;
     for (number, line) in lines(bytes) {
-        reader.line(line).map_err(|problem| problem.at(Place::Line(number)))?;
+        reader.line(line).map_err(|problem| problem.at(FilePosition::Line(number)))?;
         last = number;
     }
     if reader.expected != Expected::Solid {
         let what = format!("‘{}’", reader.expected.keywords());
         let needed = "the file ends within a solid";
-        return Err(Problem::Missing { what, needed }.at(Place::Line(last)));
+        return Err(FileProblem::Missing { what, needed }.at(FilePosition::Line(last)));
     }
     reader.builder.finish()
 }
@@ -95,7 +97,7 @@ impl Expected {
 }
 
 impl AsciiReader {
-    fn line(&mut self, line: &[u8]) -> Result<(), Problem> {
+    fn line(&mut self, line: &[u8]) -> Result<(), FileProblem> {
         let mut parts = words(line);
         let Some(keyword) = parts.next() else { return Ok(()) };
         self.expected = match (self.expected, keyword.to_ascii_lowercase().as_slice()) {
@@ -117,14 +119,14 @@ impl AsciiReader {
             }
             (expected, _) => {
                 let (what, allowed) = ("the line's first word".into(), expected.keywords().into());
-                return Err(Problem::Unexpected { what, found: shown(keyword), allowed });
+                return Err(FileProblem::Unexpected { what, found: shown(keyword), allowed });
             }
         };
         Ok(())
     }
 }
 
-fn position<'a>(mut parts: impl Iterator<Item = &'a [u8]>) -> Result<[f64; 3], Problem> {
+fn position<'a>(mut parts: impl Iterator<Item = &'a [u8]>) -> Result<[f64; 3], FileProblem> {
     let (mut position, mut found) = ([0.0; 3], 0);
     for (component, field) in position.iter_mut().zip(["x", "y", "z"]) {
         let Some(word) = parts.next() else { break };
@@ -135,5 +137,5 @@ fn position<'a>(mut parts: impl Iterator<Item = &'a [u8]>) -> Result<[f64; 3], P
     if found == 3 {
         return Ok(position);
     }
-    Err(Problem::Parts { what: "the vertex".into(), found, allowed: "allowed are 3 numbers".into() })
+    Err(FileProblem::Parts { what: "the vertex".into(), found, allowed: "allowed are 3 numbers".into() })
 }

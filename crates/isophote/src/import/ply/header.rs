@@ -3,7 +3,7 @@
 use memchr::memchr;
 
 use crate::import::{
-    Fault, Place, Problem,
+    Fault, FilePosition, FileProblem,
     text::{integer, shown, words},
 };
 
@@ -58,7 +58,7 @@ impl Header {
         let mut elements: Vec<Element> = Vec::new();
         let mut rest = bytes;
         for number in 1.. {
-            let at = |problem: Problem| problem.at(Place::Line(number));
+            let at = |problem: FileProblem| problem.at(FilePosition::Line(number));
             let Some(end) = memchr(b'\n', rest) else { break };
             let (line, after) = (rest[..end].trim_ascii(), &rest[end + 1..]);
             rest = after;
@@ -89,34 +89,35 @@ impl Header {
                 _ => return Err(at(unexpected(line))),
             }
         }
-        Err(Problem::Missing { what: "the line ‘end_header’".into(), needed: "it ends the header" }.at(Place::Header))
+        Err(FileProblem::Missing { what: "the line ‘end_header’".into(), needed: "it ends the header" }
+            .at(FilePosition::Header))
     }
 
     /// The element of this name, which must be there.
-    pub fn element(&self, name: &str, needed: &'static str) -> Result<&Element, Problem> {
+    pub fn element(&self, name: &str, needed: &'static str) -> Result<&Element, FileProblem> {
         let element = self.elements.iter().find(|element| element.name == name);
-        element.ok_or_else(|| Problem::Missing { what: format!("element {name}"), needed })
+        element.ok_or_else(|| FileProblem::Missing { what: format!("element {name}"), needed })
     }
 }
 
 impl Encoding {
-    fn named(name: &[u8]) -> Result<Self, Problem> {
+    fn named(name: &[u8]) -> Result<Self, FileProblem> {
         match name {
             b"ascii" => Ok(Self::Ascii),
             b"binary_little_endian" => Ok(Self::Little),
             b"binary_big_endian" => Ok(Self::Big),
             _ => {
                 let allowed = "ascii, binary_little_endian and binary_big_endian".into();
-                Err(Problem::Unexpected { what: "the format".into(), found: shown(name), allowed })
+                Err(FileProblem::Unexpected { what: "the format".into(), found: shown(name), allowed })
             }
         }
     }
 }
 
 impl Element {
-    fn new(name: &[u8], count: &[u8]) -> Result<Self, Problem> {
+    fn new(name: &[u8], count: &[u8]) -> Result<Self, FileProblem> {
         let field = "the number of elements";
-        let count = u64::try_from(integer(count, field)?).map_err(|_| Problem::NotANumber {
+        let count = u64::try_from(integer(count, field)?).map_err(|_| FileProblem::NotANumber {
             field: field.into(),
             text: shown(count),
             allowed: "0 or more",
@@ -130,11 +131,11 @@ impl Element {
     }
 
     /// Where these single values are.
-    pub fn values<const N: usize>(&self, names: [&'static str; N]) -> Result<[usize; N], Problem> {
+    pub fn values<const N: usize>(&self, names: [&'static str; N]) -> Result<[usize; N], FileProblem> {
         let mut places = [0; N];
         for (place, name) in places.iter_mut().zip(names) {
             let found = self.property(&[name]).filter(|index| self.properties[*index].length.is_none());
-            *place = found.ok_or_else(|| Problem::Missing {
+            *place = found.ok_or_else(|| FileProblem::Missing {
                 what: format!("property {name} of element {}", self.name),
                 needed: "it must be a single number",
             })?;
@@ -144,7 +145,7 @@ impl Element {
 }
 
 impl Property {
-    fn new(parts: &[&[u8]]) -> Result<Self, Problem> {
+    fn new(parts: &[&[u8]]) -> Result<Self, FileProblem> {
         let (length, kind, name) = match parts {
             [b"list", length, kind, name] => (Some(Kind::named(length)?), kind, name),
             [kind, name] => (None, kind, name),
@@ -152,14 +153,14 @@ impl Property {
         };
         if matches!(length, Some(Kind::F32 | Kind::F64)) {
             let what = "the kind of a list's length".into();
-            return Err(Problem::Unexpected { what, found: "float".into(), allowed: "whole numbers".into() });
+            return Err(FileProblem::Unexpected { what, found: "float".into(), allowed: "whole numbers".into() });
         }
         Ok(Self { name: shown(name), kind: Kind::named(kind)?, length })
     }
 }
 
 impl Kind {
-    fn named(name: &[u8]) -> Result<Self, Problem> {
+    fn named(name: &[u8]) -> Result<Self, FileProblem> {
         match name {
             b"char" | b"int8" => Ok(Self::I8),
             b"uchar" | b"uint8" => Ok(Self::U8),
@@ -169,7 +170,7 @@ impl Kind {
             b"uint" | b"uint32" => Ok(Self::U32),
             b"float" | b"float32" => Ok(Self::F32),
             b"double" | b"float64" => Ok(Self::F64),
-            _ => Err(Problem::Unexpected {
+            _ => Err(FileProblem::Unexpected {
                 what: "the kind of a property".into(),
                 found: shown(name),
                 allowed: "char, uchar, short, ushort, int, uint, float, double (or int8 to float64)".into(),
@@ -192,19 +193,19 @@ impl Kind {
     }
 }
 
-fn unexpected(line: &[u8]) -> Problem {
-    Problem::Unexpected {
+fn unexpected(line: &[u8]) -> FileProblem {
+    FileProblem::Unexpected {
         what: "a line of the header".into(),
         found: shown(line),
         allowed: "format, comment, obj_info, element, property (of an element), end_header".into(),
     }
 }
 
-fn twice(what: &str, name: &str) -> Problem {
+fn twice(what: &str, name: &str) -> FileProblem {
     let what = format!("{what} that is there twice");
-    Problem::Unexpected { what, found: name.into(), allowed: "each name once".into() }
+    FileProblem::Unexpected { what, found: name.into(), allowed: "each name once".into() }
 }
 
-fn no_format() -> Problem {
-    Problem::Missing { what: "the line ‘format … 1.0’".into(), needed: "it says how numbers are written" }
+fn no_format() -> FileProblem {
+    FileProblem::Missing { what: "the line ‘format … 1.0’".into(), needed: "it says how numbers are written" }
 }

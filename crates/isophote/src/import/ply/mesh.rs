@@ -3,7 +3,7 @@
 
 use super::{Header, Row, Rows};
 use crate::import::{
-    Fault, Place, Problem, TriangleMesh,
+    Fault, FilePosition, FileProblem, TriangleMesh,
     mesh::{MeshBuilder, NO_NORMALS},
     text::finite,
 };
@@ -11,8 +11,8 @@ use crate::import::{
 /// The mesh of a PLY file.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
     let (header, rest) = Header::split(bytes)?;
-    let vertex = VertexLayout::of(&header).map_err(|problem| problem.at(Place::Header))?;
-    let indices = face_indices(&header).map_err(|problem| problem.at(Place::Header))?;
+    let vertex = VertexLayout::of(&header).map_err(|problem| problem.at(FilePosition::Header))?;
+    let indices = face_indices(&header).map_err(|problem| problem.at(FilePosition::Header))?;
     let mut rows = Rows::new(&header, rest);
     let mut vertices = Vertices::default();
     let mut faces = Faces::default();
@@ -33,7 +33,7 @@ struct VertexLayout {
 }
 
 impl VertexLayout {
-    fn of(header: &Header) -> Result<Self, Problem> {
+    fn of(header: &Header) -> Result<Self, FileProblem> {
         let element = header.element("vertex", "x, y and z stand there")?;
         let position = element.values(["x", "y", "z"])?;
         let has_normal = ["nx", "ny", "nz"].iter().any(|name| element.property(&[name]).is_some());
@@ -43,10 +43,10 @@ impl VertexLayout {
 }
 
 /// Which property of the faces has the indices of their corners.
-fn face_indices(header: &Header) -> Result<usize, Problem> {
+fn face_indices(header: &Header) -> Result<usize, FileProblem> {
     let face = header.element("face", "without faces there is no surface (points with a radius can be spheres)")?;
     let needed = "a list of whole numbers, the indices of its corners";
-    let missing = || Problem::Missing { what: "property vertex_indices of element face".into(), needed };
+    let missing = || FileProblem::Missing { what: "property vertex_indices of element face".into(), needed };
     let index = face.property(&["vertex_indices", "vertex_index"]).ok_or_else(missing)?;
     let property = &face.properties[index];
     if property.length.is_none() || !property.kind.is_integer() {
@@ -54,7 +54,7 @@ fn face_indices(header: &Header) -> Result<usize, Problem> {
     }
     let first = header.elements.iter().find(|element| matches!(element.name.as_str(), "vertex" | "face"));
     if first == Some(face) {
-        return Err(Problem::Unsupported { what: "faces before vertices".into(), instead: "write vertices first" });
+        return Err(FileProblem::Unsupported { what: "faces before vertices".into(), instead: "write vertices first" });
     }
     Ok(index)
 }
@@ -66,7 +66,7 @@ struct Vertices {
 }
 
 impl Vertices {
-    fn read(&mut self, layout: &VertexLayout, row: &Row) -> Result<(), Problem> {
+    fn read(&mut self, layout: &VertexLayout, row: &Row) -> Result<(), FileProblem> {
         let [x, y, z] = layout.position.map(|index| row.values[index]);
         self.positions.push([finite(x, "x")?, finite(y, "y")?, finite(z, "z")?]);
         if let Some(normal) = layout.normal {
@@ -84,7 +84,7 @@ struct Faces {
 }
 
 impl Faces {
-    fn read(&mut self, row: &Row, vertices: &Vertices) -> Result<(), Problem> {
+    fn read(&mut self, row: &Row, vertices: &Vertices) -> Result<(), FileProblem> {
         self.corners.clear();
         for index in row.list {
             self.corners.push(vertex_index(*index, vertices.positions.len())?);
@@ -107,13 +107,13 @@ impl Faces {
     }
 }
 
-fn too_few(found: usize) -> Problem {
-    Problem::Parts { what: "the face".into(), found: found as u64, allowed: "at least 3 corners are needed".into() }
+fn too_few(found: usize) -> FileProblem {
+    FileProblem::Parts { what: "the face".into(), found: found as u64, allowed: "at least 3 corners are needed".into() }
 }
 
-fn vertex_index(index: f64, count: usize) -> Result<usize, Problem> {
+fn vertex_index(index: f64, count: usize) -> Result<usize, FileProblem> {
     #[expect(clippy::cast_possible_truncation, reason = "it is a whole number of 32 bits")]
     let index = index as i64;
     let allowed = usize::try_from(index).ok().filter(|index| *index < count);
-    allowed.ok_or(Problem::Index { field: "a vertex index", index, first: 0, count: count as u64, backwards: 0 })
+    allowed.ok_or(FileProblem::Index { field: "a vertex index", index, first: 0, count: count as u64, backwards: 0 })
 }

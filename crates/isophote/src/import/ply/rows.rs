@@ -7,7 +7,7 @@ use super::{
     header::{Encoding, Property},
 };
 use crate::import::{
-    Fault, Place, Problem,
+    Fault, FilePosition, FileProblem,
     text::{integer, number, shown, words},
 };
 
@@ -37,9 +37,9 @@ impl<'a> Rows<'a> {
         &mut self,
         element: &Element,
         list: Option<usize>,
-        mut take: impl FnMut(Row) -> Result<(), Problem>,
+        mut take: impl FnMut(Row) -> Result<(), FileProblem>,
     ) -> Result<(), Fault> {
-        self.check_length(element).map_err(|problem| problem.at(Place::Header))?;
+        self.check_length(element).map_err(|problem| problem.at(FilePosition::Header))?;
         let mut values = vec![0.0; element.properties.len()];
         let mut wanted = Vec::new();
         for number in 0..element.count {
@@ -65,14 +65,15 @@ impl<'a> Rows<'a> {
         if left == 0 {
             return Ok(());
         }
-        Err(Problem::Leftover { what: "the last element that the header announces".into(), left }.at(Place::Whole))
+        Err(FileProblem::Leftover { what: "the last element that the header announces".into(), left }
+            .at(FilePosition::Whole))
     }
 
     /// No more rows than there is room for.
-    fn check_length(&self, element: &Element) -> Result<(), Problem> {
+    fn check_length(&self, element: &Element) -> Result<(), FileProblem> {
         if element.properties.is_empty() {
             let what = format!("a property of element {}", element.name);
-            return Err(Problem::Missing { what, needed: "an element without any has nothing to read" });
+            return Err(FileProblem::Missing { what, needed: "an element without any has nothing to read" });
         }
         let row: usize = match self.encoding {
             // A digit and what separates it from the next.
@@ -85,7 +86,11 @@ impl<'a> Rows<'a> {
         if needed <= left.into() {
             return Ok(());
         }
-        Err(Problem::Truncated { what: format!("{} rows of element {}", element.count, element.name), needed, left })
+        Err(FileProblem::Truncated {
+            what: format!("{} rows of element {}", element.count, element.name),
+            needed,
+            left,
+        })
     }
 
     fn source(&mut self, element: &Element, number: u64) -> Result<Source<'a>, Fault> {
@@ -93,7 +98,7 @@ impl<'a> Rows<'a> {
             Encoding::Ascii => self.line().map(|line| Source::Line { left: line, taken: 0 }).ok_or_else(|| {
                 let what = format!("element {}", element.name);
                 let allowed = format!("the header announces {} rows", element.count);
-                Problem::Parts { what, found: number, allowed }.at(Place::Line(self.line))
+                FileProblem::Parts { what, found: number, allowed }.at(FilePosition::Line(self.line))
             }),
             encoding => Ok(Source::Bytes { rest: self.rest, is_big: encoding == Encoding::Big }),
         }
@@ -113,16 +118,16 @@ impl<'a> Rows<'a> {
         None
     }
 
-    fn place(&self, element: &Element, number: u64) -> Place {
+    fn place(&self, element: &Element, number: u64) -> FilePosition {
         if self.encoding == Encoding::Ascii {
-            return Place::Line(self.line);
+            return FilePosition::Line(self.line);
         }
         let kind = match element.name.as_str() {
             "vertex" => "vertex",
             "face" => "face",
             _ => "row of another element",
         };
-        Place::Element { kind, number }
+        FilePosition::Element { kind, number }
     }
 }
 
@@ -138,7 +143,7 @@ impl Source<'_> {
         wanted: Option<usize>,
         values: &mut [f64],
         list: &mut Vec<f64>,
-    ) -> Result<(), Problem> {
+    ) -> Result<(), FileProblem> {
         for (index, (property, value)) in element.properties.iter().zip(values).enumerate() {
             *value = self.value(property.length.unwrap_or(property.kind), &property.name)?;
             if property.length.is_some() {
@@ -151,13 +156,13 @@ impl Source<'_> {
             return Ok(());
         }
         let allowed = format!("its properties take {taken}");
-        Err(Problem::Parts { what: "the row, by its numbers,".into(), found: *taken + more, allowed })
+        Err(FileProblem::Parts { what: "the row, by its numbers,".into(), found: *taken + more, allowed })
     }
 
-    fn list(&mut self, property: &Property, length: f64, list: Option<&mut Vec<f64>>) -> Result<(), Problem> {
+    fn list(&mut self, property: &Property, length: f64, list: Option<&mut Vec<f64>>) -> Result<(), FileProblem> {
         if length < 0.0 {
             let field = format!("the length of list {}", property.name);
-            return Err(Problem::NotANumber { field, text: length.to_string(), allowed: "0 or more" });
+            return Err(FileProblem::NotANumber { field, text: length.to_string(), allowed: "0 or more" });
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number of 32 bits")]
         let length = length as u64;
@@ -165,7 +170,7 @@ impl Source<'_> {
             let (needed, left) = (u128::from(length) * property.kind.size() as u128, rest.len() as u64);
             if needed > left.into() {
                 let what = format!("{length} values of list {}", property.name);
-                return Err(Problem::Truncated { what, needed, left });
+                return Err(FileProblem::Truncated { what, needed, left });
             }
         }
         let mut unused = Vec::new();
@@ -176,7 +181,7 @@ impl Source<'_> {
         Ok(())
     }
 
-    fn value(&mut self, kind: Kind, name: &str) -> Result<f64, Problem> {
+    fn value(&mut self, kind: Kind, name: &str) -> Result<f64, FileProblem> {
         match self {
             Self::Line { left, taken } => {
                 let start = left.trim_ascii_start();
@@ -185,7 +190,7 @@ impl Source<'_> {
                 if word.is_empty() {
                     let what = "the row, by its numbers,".into();
                     let allowed = format!("property {name} is missing");
-                    return Err(Problem::Parts { what, found: *taken, allowed });
+                    return Err(FileProblem::Parts { what, found: *taken, allowed });
                 }
                 (*left, *taken) = (after, *taken + 1);
                 if kind.is_integer() { whole_number(word, name) } else { number(word, name) }
@@ -193,7 +198,7 @@ impl Source<'_> {
             Self::Bytes { rest, is_big } => {
                 let Some((bytes, after)) = rest.split_at_checked(kind.size()) else {
                     let what = format!("the values of property {name}");
-                    return Err(Problem::Truncated { what, needed: kind.size() as u128, left: rest.len() as u64 });
+                    return Err(FileProblem::Truncated { what, needed: kind.size() as u128, left: rest.len() as u64 });
                 };
                 *rest = after;
                 Ok(decoded(kind, bytes, *is_big))
@@ -203,11 +208,11 @@ impl Source<'_> {
 }
 
 /// No kind of PLY is wider than 32 bits, and a double holds all of these.
-fn whole_number(word: &[u8], name: &str) -> Result<f64, Problem> {
+fn whole_number(word: &[u8], name: &str) -> Result<f64, FileProblem> {
     let value = integer(word, name)?;
     let value = i32::try_from(value).map(f64::from).or_else(|_| u32::try_from(value).map(f64::from));
     let allowed = "a whole number of 32 bits";
-    value.map_err(|_| Problem::NotANumber { field: name.into(), text: shown(word), allowed })
+    value.map_err(|_| FileProblem::NotANumber { field: name.into(), text: shown(word), allowed })
 }
 
 /// All of these kinds fit into a double.

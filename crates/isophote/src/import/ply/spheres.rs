@@ -2,12 +2,12 @@
 //! name is that number.
 
 use super::{Header, Rows};
-use crate::import::{Fault, Place, Problem, SphereList, spheres::SpheresBuilder};
+use crate::import::{Fault, FilePosition, FileProblem, SphereList, spheres::SpheresBuilder};
 
 /// The spheres of a PLY file.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
     let (header, rest) = Header::split(bytes)?;
-    let (numbers, material) = layout(&header).map_err(|problem| problem.at(Place::Header))?;
+    let (numbers, material) = layout(&header).map_err(|problem| problem.at(FilePosition::Header))?;
     let mut rows = Rows::new(&header, rest);
     let mut builder = SpheresBuilder::default();
     for element in &header.elements {
@@ -29,14 +29,14 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
 }
 
 /// Where the numbers of a sphere are, and its material if it has one.
-fn layout(header: &Header) -> Result<([usize; 4], Option<usize>), Problem> {
+fn layout(header: &Header) -> Result<([usize; 4], Option<usize>), FileProblem> {
     let vertex = header.element("vertex", "x, y, z and radius stand there")?;
     let numbers = vertex.values(["x", "y", "z", "radius"])?;
     let Some(index) = vertex.property(&["material"]) else { return Ok((numbers, None)) };
     let property = &vertex.properties[index];
     if property.length.is_some() || !property.kind.is_integer() {
         let what = "property material of element vertex as a whole number".into();
-        return Err(Problem::Missing { what, needed: "the number is the material's name" });
+        return Err(FileProblem::Missing { what, needed: "the number is the material's name" });
     }
     Ok((numbers, Some(index)))
 }

@@ -3,19 +3,19 @@
 
 use super::{SphereList, SpheresBuilder};
 use crate::import::{
-    Fault, Place, Problem,
+    Fault, FilePosition, FileProblem,
     text::{lines, number, shown},
 };
 
 /// The spheres of a CSV file.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
     let mut rows = lines(bytes).filter(|(_, line)| !matches!(line.trim_ascii(), [] | [b'#', ..]));
-    let Some((number, header)) = rows.next() else { return Err(Problem::NoSpheres.at(Place::Whole)) };
-    let columns = columns(header).map_err(|problem| problem.at(Place::Line(number)))?;
+    let Some((number, header)) = rows.next() else { return Err(FileProblem::NoSpheres.at(FilePosition::Whole)) };
+    let columns = columns(header).map_err(|problem| problem.at(FilePosition::Line(number)))?;
     let has_material = columns.contains(&Column::Material);
     let mut builder = SpheresBuilder::default();
     for (number, line) in rows {
-        let at = |problem: Problem| problem.at(Place::Line(number));
+        let at = |problem: FileProblem| problem.at(FilePosition::Line(number));
         let row = row(line, &columns).map_err(at)?;
         builder.sphere(row.numbers).map_err(at)?;
         if has_material {
@@ -37,12 +37,12 @@ enum Column {
 const NUMBERS: [&str; 4] = ["x", "y", "z", "radius"];
 const ALLOWED: &str = "x, y, z, radius and, if wanted, material, separated by commas";
 
-fn columns(header: &[u8]) -> Result<Vec<Column>, Problem> {
+fn columns(header: &[u8]) -> Result<Vec<Column>, FileProblem> {
     let mut columns = Vec::new();
     for field in fields(header) {
         let name = unquoted(field)?.unwrap_or_default();
         let number = NUMBERS.iter().position(|known| *known == name).map(Column::Number);
-        let unexpected = |what: &str| Problem::Unexpected {
+        let unexpected = |what: &str| FileProblem::Unexpected {
             what: what.into(),
             found: shown(name.as_bytes()),
             allowed: ALLOWED.into(),
@@ -56,7 +56,10 @@ fn columns(header: &[u8]) -> Result<Vec<Column>, Problem> {
     }
     for (index, name) in NUMBERS.iter().enumerate() {
         if !columns.contains(&Column::Number(index)) {
-            return Err(Problem::Missing { what: format!("column {name}"), needed: "needed are x, y, z and radius" });
+            return Err(FileProblem::Missing {
+                what: format!("column {name}"),
+                needed: "needed are x, y, z and radius",
+            });
         }
     }
     Ok(columns)
@@ -67,7 +70,7 @@ struct Row<'a> {
     material: Option<&'a [u8]>,
 }
 
-fn row<'a>(line: &'a [u8], columns: &[Column]) -> Result<Row<'a>, Problem> {
+fn row<'a>(line: &'a [u8], columns: &[Column]) -> Result<Row<'a>, FileProblem> {
     let mut row = Row { numbers: [0.0; 4], material: None };
     let mut fields = fields(line);
     let mut found = 0;
@@ -83,7 +86,7 @@ fn row<'a>(line: &'a [u8], columns: &[Column]) -> Result<Row<'a>, Problem> {
         return Ok(row);
     }
     let allowed = format!("the first line has {}", columns.len());
-    Err(Problem::Parts { what: "the row, by its fields,".into(), found: found as u64, allowed })
+    Err(FileProblem::Parts { what: "the row, by its fields,".into(), found: found as u64, allowed })
 }
 
 /// The parts of a line between its commas; those within double quotes separate nothing.
@@ -96,9 +99,9 @@ fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> {
 }
 
 /// A name without spaces around it and without its quotes; none if it is empty.
-fn unquoted(field: &[u8]) -> Result<Option<String>, Problem> {
+fn unquoted(field: &[u8]) -> Result<Option<String>, FileProblem> {
     let wrong =
-        |allowed: &str| Problem::Unexpected { what: "a name".into(), found: shown(field), allowed: allowed.into() };
+        |allowed: &str| FileProblem::Unexpected { what: "a name".into(), found: shown(field), allowed: allowed.into() };
     let text = std::str::from_utf8(field).map_err(|_| wrong("text in UTF-8"))?.trim();
     if !text.contains('"') {
         return Ok(Some(text.to_owned()).filter(|name| !name.is_empty()));

@@ -3,7 +3,7 @@
 pub(super) mod csv;
 pub(super) mod npy;
 
-use super::{Fault, MaterialSlots, Place, Problem, materials::SlotBook, text::finite};
+use super::{Fault, FilePosition, FileProblem, MaterialSlots, materials::SlotBook, text::finite};
 
 /// Spheres in the order of their file.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,11 +32,11 @@ impl SpheresBuilder {
     }
 
     /// One sphere.
-    pub fn sphere(&mut self, [x, y, z, radius]: [f64; 4]) -> Result<(), Problem> {
+    pub fn sphere(&mut self, [x, y, z, radius]: [f64; 4]) -> Result<(), FileProblem> {
         let center = [finite(x, "x")?, finite(y, "y")?, finite(z, "z")?];
         let radius = finite(radius, "radius")?;
         if radius <= 0.0 {
-            return Err(Problem::Radius { value: radius });
+            return Err(FileProblem::Radius { value: radius });
         }
         self.centers.push(center);
         self.radii.push(radius);
@@ -46,7 +46,7 @@ impl SpheresBuilder {
     /// The list of all spheres so far.
     pub fn finish(mut self) -> Result<SphereList, Fault> {
         if self.centers.is_empty() {
-            return Err(Problem::NoSpheres.at(Place::Whole));
+            return Err(FileProblem::NoSpheres.at(FilePosition::Whole));
         }
         self.centers.shrink_to_fit();
         self.radii.shrink_to_fit();

@@ -2,17 +2,17 @@
 //! double precision of either byte order.
 
 use super::{SphereList, SpheresBuilder};
-use crate::import::{Fault, Place, Problem, text::shown};
+use crate::import::{Fault, FilePosition, FileProblem, text::shown};
 
 /// The spheres of an NPY file. What follows after the array means nothing, as it does to `NumPy`.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
-    let (header, body) = split(bytes).map_err(|problem| problem.at(Place::Header))?;
-    let array = Array::parse(header).map_err(|problem| problem.at(Place::Header))?;
+    let (header, body) = split(bytes).map_err(|problem| problem.at(FilePosition::Header))?;
+    let array = Array::parse(header).map_err(|problem| problem.at(FilePosition::Header))?;
     let needed = u128::from(array.rows) * 4 * array.number.size() as u128;
     let left = body.len() as u64;
     if needed > left.into() {
         let what = format!("{} rows of 4 numbers", array.rows);
-        return Err(Problem::Truncated { what, needed, left }.at(Place::Header));
+        return Err(FileProblem::Truncated { what, needed, left }.at(FilePosition::Header));
     }
     let body = &body[..usize::try_from(needed).expect("it is shorter than the file")];
     match array.number {
@@ -28,14 +28,14 @@ fn rows<T: Into<f64>, const SIZE: usize>(body: &[u8], number: fn([u8; SIZE]) -> 
     let mut builder = SpheresBuilder::with_capacity(numbers.len() / 4);
     for (row, sphere) in (0..).zip(numbers.as_chunks::<4>().0) {
         let sphere = sphere.map(|bytes| number(bytes).into());
-        builder.sphere(sphere).map_err(|problem| problem.at(Place::Element { kind: "sphere", number: row }))?;
+        builder.sphere(sphere).map_err(|problem| problem.at(FilePosition::Element { kind: "sphere", number: row }))?;
     }
     builder.finish()
 }
 
 /// The dictionary and what follows it.
-fn split(bytes: &[u8]) -> Result<(&str, &[u8]), Problem> {
-    let truncated = |needed: u64| Problem::Truncated {
+fn split(bytes: &[u8]) -> Result<(&str, &[u8]), FileProblem> {
+    let truncated = |needed: u64| FileProblem::Truncated {
         what: "magic, version and header".into(),
         needed: needed.into(),
         left: bytes.len() as u64,
@@ -47,7 +47,7 @@ fn split(bytes: &[u8]) -> Result<(&str, &[u8]), Problem> {
         (1..=3, ..) => return Err(truncated(12)),
         _ => {
             let (what, allowed) = ("the version of the format".into(), "1, 2 and 3".into());
-            return Err(Problem::Unexpected { what, found: version.to_string(), allowed });
+            return Err(FileProblem::Unexpected { what, found: version.to_string(), allowed });
         }
     };
     let end = start as u64 + u64::from(length);
@@ -82,7 +82,7 @@ struct Array {
 
 impl Array {
     /// By a Python dictionary with the keys `descr`, `fortran_order` and `shape`.
-    fn parse(header: &str) -> Result<Self, Problem> {
+    fn parse(header: &str) -> Result<Self, FileProblem> {
         let kind = value(header, "descr")?;
         let order = value(header, "fortran_order")?;
         let shape = value(header, "shape")?;
@@ -119,7 +119,7 @@ impl Array {
 }
 
 /// What stands after a key of the dictionary: to the next comma outside of brackets, or to the end.
-fn value<'a>(header: &'a str, key: &str) -> Result<&'a str, Problem> {
+fn value<'a>(header: &'a str, key: &str) -> Result<&'a str, FileProblem> {
     let after = [format!("'{key}'"), format!("\"{key}\"")]
         .iter()
         .find_map(|key| header.split_once(key.as_str()))
@@ -137,15 +137,15 @@ fn value<'a>(header: &'a str, key: &str) -> Result<&'a str, Problem> {
     Ok(after[..end.unwrap_or(after.len())].trim())
 }
 
-fn dictionary(header: &[u8]) -> Problem {
+fn dictionary(header: &[u8]) -> FileProblem {
     let header = header.trim_ascii();
-    Problem::Unexpected {
+    FileProblem::Unexpected {
         what: "the header".into(),
         found: shown(header),
         allowed: "a dictionary with descr, fortran_order and shape".into(),
     }
 }
 
-fn unexpected(what: &str, found: &str, allowed: &str) -> Problem {
-    Problem::Unexpected { what: what.into(), found: shown(found.as_bytes()), allowed: allowed.into() }
+fn unexpected(what: &str, found: &str, allowed: &str) -> FileProblem {
+    FileProblem::Unexpected { what: what.into(), found: shown(found.as_bytes()), allowed: allowed.into() }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::lights::{BLOCK, ShapeLights, ShapeShading};
 use super::power::{NoPower, Power};
 use super::visible::{Candidate, RowView, Stretch};
-use crate::lanes::{Element, Kind, Lane, LaneJob, Precision};
+use crate::lanes::{Element, Lane, LaneJob, Precision, SimdToken};
 use crate::light::PlacedLight;
 use crate::map::{Pixel, Run};
 use crate::prepare::PreparedScene;
@@ -43,10 +43,10 @@ impl LaneJob for BandJob<'_, '_> {
     type Output = Result<Vec<Run>, RenderError>;
 
     #[inline(always)]
-    fn run<S, D>(mut self, kind: S::Kind) -> Self::Output
+    fn run<S, D>(mut self, token: S::Token) -> Self::Output
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         let columns = self.band.first.column..self.band.first.column + self.band.size.width;
         let has_geometry = self.band.has_geometry();
@@ -79,13 +79,13 @@ impl LaneJob for BandJob<'_, '_> {
                     band: &mut self.band,
                 };
                 match shadings.of(index) {
-                    ShapeShading::Single(lights) => work.shade::<S>(kind, lights)?,
-                    ShapeShading::Double(lights) => work.shade::<D>(kind, lights)?,
+                    ShapeShading::Single(lights) => work.shade::<S>(token, lights)?,
+                    ShapeShading::Double(lights) => work.shade::<D>(token, lights)?,
                 }
                 if has_geometry {
-                    kind.apart(
+                    token.in_own_function(
                         #[inline(always)]
-                        || work.store_geometry::<D>(kind),
+                        || work.store_geometry::<D>(token),
                     );
                 }
             }
@@ -213,38 +213,38 @@ impl<V: Lane> Sums<V> {
 
 impl StretchWork<'_, '_> {
     #[inline(always)]
-    fn shade<V: Lane>(&mut self, kind: V::Kind, lights: &ShapeLights<V::Element>) -> Result<(), RenderError> {
+    fn shade<V: Lane>(&mut self, token: V::Token, lights: &ShapeLights<V::Element>) -> Result<(), RenderError> {
         match &lights.power {
-            Power::None => self.shade_with::<V, _>(kind, lights, &NoPower),
-            Power::Even(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
-            Power::Odd(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
-            Power::Any(lobe) => self.shade_with::<V, _>(kind, lights, lobe),
+            Power::None => self.shade_with::<V, _>(token, lights, &NoPower),
+            Power::Even(lobe) => self.shade_with::<V, _>(token, lights, lobe),
+            Power::Odd(lobe) => self.shade_with::<V, _>(token, lights, lobe),
+            Power::Any(lobe) => self.shade_with::<V, _>(token, lights, lobe),
         }
     }
 
     #[inline(always)]
     fn shade_with<V: Lane, L: Lobe<V>>(
         &mut self,
-        kind: V::Kind,
+        token: V::Token,
         lights: &ShapeLights<V::Element>,
         lobe: &L,
     ) -> Result<(), RenderError> {
-        kind.apart(
+        token.in_own_function(
             #[inline(always)]
-            || self.shade_columns(kind, lights, lobe),
+            || self.shade_columns(token, lights, lobe),
         )
     }
 
     #[inline(always)]
     fn shade_columns<V: Lane, L: Lobe<V>>(
         &mut self,
-        kind: V::Kind,
+        token: V::Token,
         lights: &ShapeLights<V::Element>,
         lobe: &L,
     ) -> Result<(), RenderError> {
         let row = self.row.map(
             #[inline(always)]
-            |value| V::splat(kind, V::Element::from_f64(value)),
+            |value| V::splat(token, V::Element::from_f64(value)),
         );
         let mut chosen = Vec::new();
         let Stretch { start, end, .. } = self.stretch;
@@ -264,12 +264,12 @@ impl StretchWork<'_, '_> {
                 band::advance(self.observer, 0)?;
             }
             while first < chunk_end {
-                let point = self.point::<V>(kind, &row, first).point;
-                let (irradiance, lobes) = sum(kind, &point, lit_by, lobe);
-                let irradiance = irradiance + V::splat(kind, lights.ambient);
+                let point = self.point::<V>(token, &row, first).point;
+                let (irradiance, lobes) = sum(token, &point, lit_by, lobe);
+                let irradiance = irradiance + V::splat(token, lights.ambient);
                 let sums = Sums { irradiance, lobes, cos_theta_o: point.cos_theta_o };
                 let count = (chunk_end - first).min(count_of::<V>());
-                self.store(first, count, &sums, &point, kind, lights)?;
+                self.store(first, count, &sums, &point, token, lights)?;
                 first += count;
             }
         }
@@ -278,13 +278,13 @@ impl StretchWork<'_, '_> {
 
     /// What a vector of pixels sees.
     #[inline(always)]
-    fn point<V: Lane>(&self, kind: V::Kind, row: &RowOfEllipse<V>, first: u32) -> PointInRow<V> {
+    fn point<V: Lane>(&self, token: V::Token, row: &RowOfEllipse<V>, first: u32) -> PointInRow<V> {
         let first = f64::from(first) - self.counted_from;
         let [left, right] = self.row.roots;
         let place = PlaceInRow {
-            column: V::distances(kind, first, 0.0),
-            after_first: V::distances(kind, first, left),
-            after_last: V::distances(kind, first, right),
+            column: V::distances(token, first, 0.0),
+            after_first: V::distances(token, first, left),
+            after_last: V::distances(token, first, right),
         };
         row.point(self.center, &place)
     }
@@ -311,7 +311,7 @@ impl StretchWork<'_, '_> {
         count: u32,
         sums: &Sums<V>,
         point: &SurfacePoint<V>,
-        kind: V::Kind,
+        token: V::Token,
         lights: &ShapeLights<V::Element>,
     ) -> Result<(), RenderError> {
         let at = self.at + (first - self.stretch.start) as usize;
@@ -325,19 +325,19 @@ impl StretchWork<'_, '_> {
             let values = match quantity {
                 ScalarChannel::Brightness => sums.diffuse(formula) + sums.specular(formula),
                 ScalarChannel::Irradiance => sums.irradiance,
-                ScalarChannel::Ambient => V::splat(kind, lights.ambient),
-                ScalarChannel::AmbientError => V::splat(kind, V::Element::default()),
+                ScalarChannel::Ambient => V::splat(token, lights.ambient),
+                ScalarChannel::AmbientError => V::splat(token, V::Element::default()),
                 ScalarChannel::Diffuse => sums.diffuse(formula),
                 ScalarChannel::Specular => sums.specular(formula),
                 ScalarChannel::Light(_) => match asked_for.next() {
-                    Some(light) => sum(kind, point, std::slice::from_ref(light), &NoPower).0,
+                    Some(light) => sum(token, point, std::slice::from_ref(light), &NoPower).0,
                     None => unreachable!("a light was placed for every such channel"),
                 },
                 ScalarChannel::Depth => continue,
             };
             let overflow = match channel {
-                BandChannel::Double(_, out) => put(values, kind, &mut out[at..], count),
-                BandChannel::Single(_, out) => put(values, kind, &mut out[at..], count),
+                BandChannel::Double(_, out) => put(values, token, &mut out[at..], count),
+                BandChannel::Single(_, out) => put(values, token, &mut out[at..], count),
                 BandChannel::Position(_) | BandChannel::Normal(_) => None,
             };
             if let Some((lane, value)) = overflow {
@@ -349,15 +349,15 @@ impl StretchWork<'_, '_> {
     }
 
     #[inline(always)]
-    fn store_geometry<V: Lane<Element = f64>>(&mut self, kind: V::Kind) {
+    fn store_geometry<V: Lane<Element = f64>>(&mut self, token: V::Token) {
         let row = self.row.map(
             #[inline(always)]
-            |value| V::splat(kind, value),
+            |value| V::splat(token, value),
         );
         let length = self.band.length;
         let mut first = self.stretch.start;
         while first < self.stretch.end {
-            let PointInRow { point, distance } = self.point::<V>(kind, &row, first);
+            let PointInRow { point, distance } = self.point::<V>(token, &row, first);
             let count = (self.stretch.end - first).min(count_of::<V>()) as usize;
             let at = self.at + (first - self.stretch.start) as usize;
             let mut buffer = Vector { x: [0.0; LONGEST], y: [0.0; LONGEST], z: [0.0; LONGEST] };
@@ -406,16 +406,16 @@ const fn count_of<V: Lane>() -> u32 {
 /// Writes the first so many numbers of a vector, and zeros in place of the others if there is room: what comes later in
 /// the band is not written yet, and zero. Tells which of them, if any, is a number that the channel cannot hold.
 #[inline(always)]
-fn put<V: Lane, O: Element>(values: V, kind: V::Kind, out: &mut [O], count: u32) -> Option<(u32, f64)> {
+fn put<V: Lane, O: Element>(values: V, token: V::Token, out: &mut [O], count: u32) -> Option<(u32, f64)> {
     if out.len() >= V::COUNT
         && let Some(out) = O::cast::<V::Element>(out)
     {
         if count == count_of::<V>() {
             values.store(out);
         } else {
-            let index = V::distances(kind, 0.0, 0.0);
-            let is_wanted = index.is_less(index.constant(f64::from(count)));
-            V::select(is_wanted, values, index.constant(0.0)).store(out);
+            let index = V::distances(token, 0.0, 0.0);
+            let is_wanted = index.is_less(index.splat_like(f64::from(count)));
+            V::select(is_wanted, values, index.splat_like(0.0)).store(out);
         }
         return None;
     }
@@ -434,18 +434,18 @@ fn put<V: Lane, O: Element>(values: V, kind: V::Kind, out: &mut [O], count: u32)
 /// so that the error does not grow with the number of lights.
 #[inline(always)]
 pub fn sum<V: Lane, L: Lobe<V>>(
-    kind: V::Kind,
+    token: V::Token,
     point: &SurfacePoint<V>,
     lights: &[PlacedLight<V::Element>],
     lobe: &L,
 ) -> (V, V) {
     if lights.len() <= BLOCK {
-        return plain_sum(kind, point, lights, lobe);
+        return plain_sum(token, point, lights, lobe);
     }
-    let zero = point.cos_theta_o.constant(0.0);
+    let zero = point.cos_theta_o.splat_like(0.0);
     let (mut irradiance, mut lobes) = (Sum::starting_at(zero), Sum::starting_at(zero));
     for block in lights.chunks(BLOCK) {
-        let (of_block, lobes_of_block) = plain_sum(kind, point, block, lobe);
+        let (of_block, lobes_of_block) = plain_sum(token, point, block, lobe);
         irradiance.add(of_block);
         lobes.add(lobes_of_block);
     }
@@ -455,22 +455,22 @@ pub fn sum<V: Lane, L: Lobe<V>>(
 /// The same, by plain addition.
 #[inline(always)]
 fn plain_sum<V: Lane, L: Lobe<V>>(
-    kind: V::Kind,
+    token: V::Token,
     point: &SurfacePoint<V>,
     lights: &[PlacedLight<V::Element>],
     lobe: &L,
 ) -> (V, V) {
-    let zero = point.cos_theta_o.constant(0.0);
-    let one = point.cos_theta_o.constant(1.0);
+    let zero = point.cos_theta_o.splat_like(0.0);
+    let one = point.cos_theta_o.splat_like(1.0);
     let (mut irradiance, mut lobes) = (zero, zero);
     for light in lights {
         let light = light.map(
             #[inline(always)]
-            |element| V::splat(kind, element),
+            |element| V::splat(token, element),
         );
         let term = light_term(point, &light, one, lobe);
         irradiance = irradiance + term.irradiance;
-        lobes = term.irradiance.times_plus(term.lobe, lobes);
+        lobes = term.irradiance.mul_add(term.lobe, lobes);
     }
     (irradiance, lobes)
 }

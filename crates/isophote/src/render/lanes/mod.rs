@@ -27,17 +27,17 @@ use crate::lanes::{Instructions, Precision};
 use crate::map::{Map, Region, Run, Values};
 use crate::prepare::PreparedScene;
 use crate::shape::{Outline, Primitive};
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// The fast renderer, on one thread or several. The bytes do not depend on how many.
-pub struct Lanes {
+pub struct SimdRenderer {
     precision: Precision,
     threads: usize,
     instructions: Instructions,
     pool: OnceLock<ThreadPool>,
 }
 
-impl Lanes {
+impl SimdRenderer {
     /// A renderer of a precision on so many threads; as many as there are processors when unstated.
     #[must_use]
     pub fn new(precision: Precision, threads: Option<NonZeroUsize>) -> Self {
@@ -57,10 +57,10 @@ impl Lanes {
     #[must_use]
     pub fn is_quick(&self, scene: &PreparedScene, region: Region) -> bool {
         let description = scene.scene();
-        let is_plain = !description.sampling().is_more_than_centres() && description.color().is_none();
+        let is_plain = !description.sampling().is_multisampled() && description.color().is_none();
         let is_known = |shape| !matches!(scene.outline(shape), Outline::Unknown);
         is_plain
-            && !tiles::suit(scene)
+            && !tiles::supports(scene)
             && (0..description.shapes().len()).all(is_known)
             && estimated_time(scene, region, false) < WORTH_THREADS
     }
@@ -84,14 +84,14 @@ impl Lanes {
         scene: &PreparedScene,
         settings: &RenderSettings<'_>,
     ) -> Result<Map, RenderError> {
-        if scene.scene().sampling().is_more_than_centres() {
+        if scene.scene().sampling().is_multisampled() {
             let pool = if self.threads == 1 { None } else { Some(self.pool()?) };
             let centres = |threads| {
                 move |memory, scene: &PreparedScene, settings: &RenderSettings<'_>| {
                     self.centres(memory, scene, settings, threads)
                 }
             };
-            sampling::render(scene, settings, pool, &Renders { shared: &centres(self.threads), alone: &centres(1) })
+            sampling::render(scene, settings, pool, &Renders { parallel: &centres(self.threads), serial: &centres(1) })
         } else {
             self.centres(memory, scene, settings, self.threads)
         }
@@ -105,26 +105,26 @@ impl Lanes {
         threads: usize,
     ) -> Result<Map, RenderError> {
         let mut map = band::empty_map(scene, settings, self.name(), self.precision, memory)?;
-        let suits_tiles = tiles::suit(scene);
-        if suits_tiles {
+        let uses_tiles = tiles::supports(scene);
+        if uses_tiles {
             // Here, where all threads are free: those of the renderer would wait for each other.
             scene.accelerator();
         }
         let height = map.region.size.height;
         let order = lights::by_place(scene.scene().lights());
         let fill = |band: Band<'_>| {
-            if suits_tiles {
+            if uses_tiles {
                 self.fill_by_tiles(band, scene, &order, settings)
             } else {
                 self.fill_by_rows(band, scene, &order, settings)
             }
         };
-        let runs = if threads == 1 || estimated_time(scene, map.region, suits_tiles) < WORTH_THREADS {
+        let runs = if threads == 1 || estimated_time(scene, map.region, uses_tiles) < WORTH_THREADS {
             let bands = band::split(&mut map, scene, height).into_iter();
             bands.map(fill).collect::<Result<Vec<_>, _>>()?
         } else {
             let parts = u32::try_from(threads).unwrap_or(u32::MAX).saturating_mul(BANDS_A_THREAD);
-            let rows = if suits_tiles { tiles::HEIGHT } else { height.div_ceil(parts) };
+            let rows = if uses_tiles { tiles::HEIGHT } else { height.div_ceil(parts) };
             let bands = band::split(&mut map, scene, rows);
             self.pool()?.install(|| {
                 let bands = bands.into_par_iter().with_max_len(1);
@@ -172,9 +172,9 @@ const WORTH_THREADS: f64 = 200_000.0;
 const BANDS_A_THREAD: u32 = 8;
 
 /// About the time that one thread takes, in nanoseconds.
-fn estimated_time(scene: &PreparedScene, region: Region, suits_tiles: bool) -> f64 {
+fn estimated_time(scene: &PreparedScene, region: Region, uses_tiles: bool) -> f64 {
     let pixels = f64::from(region.size.width) * f64::from(region.size.height);
-    if suits_tiles {
+    if uses_tiles {
         return 50.0 * pixels;
     }
     let covered = |shape| match scene.outline(shape) {
@@ -192,7 +192,7 @@ fn estimated_time(scene: &PreparedScene, region: Region, suits_tiles: bool) -> f
     covered.min(500.0 * pixels) * (1.0 + 0.5 * lights)
 }
 
-impl Renderer for Lanes {
+impl Renderer for SimdRenderer {
     fn name(&self) -> String {
         // What makes other bytes has another name.
         let rounding = if self.instructions.fuse() { "" } else { " without fused multiply-add" };

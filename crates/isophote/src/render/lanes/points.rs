@@ -4,7 +4,7 @@ use super::kernel::{Sums, sum};
 use super::lights::{ShapeLights, ShapeShading, by_place};
 use super::power::{NoPower, Power};
 use crate::camera::Projection;
-use crate::lanes::{Instructions, Kind, Lane, LaneJob, Precision};
+use crate::lanes::{Instructions, Lane, LaneJob, Precision, SimdToken};
 use crate::prepare::PreparedScene;
 use crate::reflectance::{BrightnessFormula, Lobe};
 use crate::shape::{Geometry, Primitive, Sphere, SurfacePoint};
@@ -107,16 +107,16 @@ impl LaneJob for Fill<'_, '_> {
     type Output = usize;
 
     #[inline(always)]
-    fn run<S, D>(self, kind: S::Kind) -> usize
+    fn run<S, D>(self, token: S::Token) -> usize
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         const { assert!(D::COUNT <= MOST) }
         let Self { kernel, points, snaps, values } = self;
         let mut misses = 0;
         for (number, points) in points.chunks(D::COUNT).enumerate() {
-            let found = kernel.values::<D>(kind, points, snaps);
+            let found = kernel.values::<D>(token, points, snaps);
             let start = number * D::COUNT;
             let (mut brightness, mut irradiance, mut shape) = ([0.0; MOST], [0.0; MOST], [0.0; MOST]);
             found.brightness.store(&mut brightness);
@@ -146,7 +146,7 @@ struct Found<V> {
 
 impl PointKernel<'_> {
     #[inline(always)]
-    fn values<V: Lane<Element = f64>>(&self, kind: V::Kind, points: &[[f64; 3]], snaps: bool) -> Found<V> {
+    fn values<V: Lane<Element = f64>>(&self, token: V::Token, points: &[[f64; 3]], snaps: bool) -> Found<V> {
         let mut coordinates = [[0.0; MOST]; 3];
         for lane in 0..V::COUNT {
             // What is left over of the last vector repeats its last point.
@@ -156,18 +156,18 @@ impl PointKernel<'_> {
             }
         }
         let [x, y, z] = &coordinates;
-        let point = Vector::new(V::load(kind, x), V::load(kind, y), V::load(kind, z));
-        let (shape, distance) = self.nearest(kind, point, snaps);
-        let zero = V::splat(kind, 0.0);
+        let point = Vector::new(V::load(token, x), V::load(token, y), V::load(token, z));
+        let (shape, distance) = self.nearest(token, point, snaps);
+        let zero = V::splat(token, 0.0);
         let (mut brightness, mut irradiance) = (zero, zero);
         for sphere in &self.spheres {
-            let index = V::splat(kind, sphere.index);
+            let index = V::splat(token, sphere.index);
             let apart = (shape - index).max(index - shape);
-            let is_here = apart.is_less(V::splat(kind, 0.5));
+            let is_here = apart.is_less(V::splat(token, 0.5));
             if V::bits(is_here) != 0 {
-                let from_center = point - splat(kind, sphere.sphere.center);
-                let outward = direction(kind, from_center, distance);
-                let (of_brightness, of_irradiance) = sphere.shade(kind, outward);
+                let from_center = point - splat(token, sphere.sphere.center);
+                let outward = direction(token, from_center, distance);
+                let (of_brightness, of_irradiance) = sphere.shade(token, outward);
                 brightness = V::select(is_here, of_brightness, brightness);
                 irradiance = V::select(is_here, of_irradiance, irradiance);
             }
@@ -177,19 +177,19 @@ impl PointKernel<'_> {
 
     /// The index of the sphere whose surface is nearest, −1 where it is not near enough; and the distance from its centre.
     #[inline(always)]
-    fn nearest<V: Lane<Element = f64>>(&self, kind: V::Kind, point: Vector<V>, snaps: bool) -> (V, V) {
-        let mut nearest = V::splat(kind, f64::INFINITY);
-        let mut shape = V::splat(kind, -1.0);
-        let mut distance = V::splat(kind, 1.0);
+    fn nearest<V: Lane<Element = f64>>(&self, token: V::Token, point: Vector<V>, snaps: bool) -> (V, V) {
+        let mut nearest = V::splat(token, f64::INFINITY);
+        let mut shape = V::splat(token, -1.0);
+        let mut distance = V::splat(token, 1.0);
         for sphere in &self.spheres {
-            let from_center = point - splat(kind, sphere.sphere.center);
+            let from_center = point - splat(token, sphere.sphere.center);
             let length = from_center.dot(from_center).sqrt();
-            let above = length - V::splat(kind, sphere.sphere.radius);
+            let above = length - V::splat(token, sphere.sphere.radius);
             let gap = above.max(-above);
             let is_nearer = gap.is_less(nearest);
-            let tolerance = V::splat(kind, if snaps { f64::INFINITY } else { sphere.tolerance });
-            let index = V::splat(kind, sphere.index);
-            let there = V::select(tolerance.is_less(gap), V::splat(kind, -1.0), index);
+            let tolerance = V::splat(token, if snaps { f64::INFINITY } else { sphere.tolerance });
+            let index = V::splat(token, sphere.index);
+            let there = V::select(tolerance.is_less(gap), V::splat(token, -1.0), index);
             nearest = V::select(is_nearer, gap, nearest);
             shape = V::select(is_nearer, there, shape);
             distance = V::select(is_nearer, length, distance);
@@ -199,48 +199,48 @@ impl PointKernel<'_> {
 }
 
 #[inline(always)]
-fn splat<V: Lane<Element = f64>>(kind: V::Kind, vector: Vector) -> Vector<V> {
-    Vector::new(V::splat(kind, vector.x), V::splat(kind, vector.y), V::splat(kind, vector.z))
+fn splat<V: Lane<Element = f64>>(token: V::Token, vector: Vector) -> Vector<V> {
+    Vector::new(V::splat(token, vector.x), V::splat(token, vector.y), V::splat(token, vector.z))
 }
 
 /// The unit vector of a length; of none, that which [`Sphere::nearest`] takes.
 #[inline(always)]
-fn direction<V: Lane<Element = f64>>(kind: V::Kind, vector: Vector<V>, length: V) -> Vector<V> {
-    let zero = V::splat(kind, 0.0);
+fn direction<V: Lane<Element = f64>>(token: V::Token, vector: Vector<V>, length: V) -> Vector<V> {
+    let zero = V::splat(token, 0.0);
     let has_length = zero.is_less(length);
-    let inverse = V::splat(kind, 1.0) / V::select(has_length, length, V::splat(kind, 1.0));
+    let inverse = V::splat(token, 1.0) / V::select(has_length, length, V::splat(token, 1.0));
     let Vector { x, y, z } = vector * inverse;
     Vector::new(
         V::select(has_length, x, zero),
         V::select(has_length, y, zero),
-        V::select(has_length, z, V::splat(kind, -1.0)),
+        V::select(has_length, z, V::splat(token, -1.0)),
     )
 }
 
 impl PointSphere<'_> {
     /// Brightness and irradiance of points in these directions.
     #[inline(always)]
-    fn shade<V: Lane<Element = f64>>(&self, kind: V::Kind, outward: Vector<V>) -> (V, V) {
+    fn shade<V: Lane<Element = f64>>(&self, token: V::Token, outward: Vector<V>) -> (V, V) {
         match &self.lights.power {
-            Power::None => self.shade_with(kind, outward, &NoPower),
-            Power::Even(lobe) => self.shade_with(kind, outward, lobe),
-            Power::Odd(lobe) => self.shade_with(kind, outward, lobe),
-            Power::Any(lobe) => self.shade_with(kind, outward, lobe),
+            Power::None => self.shade_with(token, outward, &NoPower),
+            Power::Even(lobe) => self.shade_with(token, outward, lobe),
+            Power::Odd(lobe) => self.shade_with(token, outward, lobe),
+            Power::Any(lobe) => self.shade_with(token, outward, lobe),
         }
     }
 
     #[inline(always)]
-    fn shade_with<V: Lane<Element = f64>, L: Lobe<V>>(&self, kind: V::Kind, outward: Vector<V>, lobe: &L) -> (V, V) {
-        kind.apart(
+    fn shade_with<V: Lane<Element = f64>, L: Lobe<V>>(&self, token: V::Token, outward: Vector<V>, lobe: &L) -> (V, V) {
+        token.in_own_function(
             #[inline(always)]
             || {
-                let normal = outward * V::splat(kind, self.side);
-                let to_eye = splat(kind, self.eye) - outward;
-                let view = to_eye * (V::splat(kind, 1.0) / to_eye.dot(to_eye).sqrt());
+                let normal = outward * V::splat(token, self.side);
+                let to_eye = splat(token, self.eye) - outward;
+                let view = to_eye * (V::splat(token, 1.0) / to_eye.dot(to_eye).sqrt());
                 let cos_theta_o = normal.dot(view);
                 let point = SurfacePoint { anchor: self.sphere.center, offset: outward, normal, view, cos_theta_o };
-                let (irradiance, lobes) = sum(kind, &point, &self.lights.lights, lobe);
-                let irradiance = irradiance + V::splat(kind, self.lights.ambient);
+                let (irradiance, lobes) = sum(token, &point, &self.lights.lights, lobe);
+                let irradiance = irradiance + V::splat(token, self.lights.ambient);
                 let sums = Sums { irradiance, lobes, cos_theta_o };
                 (sums.diffuse(self.formula) + sums.specular(self.formula), irradiance)
             },

@@ -65,12 +65,12 @@ pub struct AnyPower {
 impl<V: Lane> Lobe<V> for NoPower {
     #[inline(always)]
     fn denominator(&self, cos_squared: V, _: V) -> V {
-        cos_squared.constant(1.0)
+        cos_squared.splat_like(1.0)
     }
 
     #[inline(always)]
     fn value(&self, cos_squared: V, _: V, _: V) -> V {
-        cos_squared.constant(0.0)
+        cos_squared.splat_like(0.0)
     }
 }
 
@@ -84,7 +84,7 @@ impl<V: Lane> Lobe<V> for EvenPower {
 impl<V: Lane> Lobe<V> for OddPower {
     #[inline(always)]
     fn value(&self, _: V, sin_squared: V, inverse: V) -> V {
-        let share = cos_share(sin_squared, inverse).or_zero();
+        let share = cos_share(sin_squared, inverse).max_zero();
         whole_power(share, self.half) * share.sqrt()
     }
 }
@@ -92,7 +92,7 @@ impl<V: Lane> Lobe<V> for OddPower {
 /// cos²θ_h as 1 − sin²θ_h: near the peak, where the power would multiply it, that leaves the error of one rounding.
 #[inline(always)]
 fn cos_share<V: Lane>(sin_squared: V, inverse: V) -> V {
-    (-sin_squared).times_plus(inverse, inverse.constant(1.0))
+    (-sin_squared).mul_add(inverse, inverse.splat_like(1.0))
 }
 
 /// By squaring, from the lowest digit of the exponent.
@@ -105,7 +105,7 @@ fn whole_power<V: Lane>(base: V, exponent: u32) -> V {
         rest >>= 1;
     }
     if rest == 0 {
-        return base.constant(1.0);
+        return base.splat_like(1.0);
     }
     let mut result = square;
     rest >>= 1;
@@ -134,13 +134,13 @@ impl AnyPower {
     fn split<V: Lane>(cos_squared: V, sin_squared: V) -> Split<V> {
         let sum = cos_squared + sin_squared;
         // Zero has no exponent, and what is smaller than this has no lobe.
-        let cos_squared = cos_squared.max(sum * sum.constant(1e-30));
+        let cos_squared = cos_squared.max(sum * sum.splat_like(1e-30));
         // With the factor √2, shares from √½ on have the exponent 0 or more: then only 0, as shares end at 1.
-        let scaled = cos_squared * sum.constant(std::f64::consts::SQRT_2);
+        let scaled = cos_squared * sum.splat_like(std::f64::consts::SQRT_2);
         let exponent = scaled.exponent() - sum.exponent();
-        let one_less = exponent - sum.constant(1.0);
+        let one_less = exponent - sum.splat_like(1.0);
         let exponent = V::select(scaled.mantissa().is_less(sum.mantissa()), one_less, exponent);
-        let is_far = exponent.is_less(sum.constant(0.0));
+        let is_far = exponent.is_less(sum.splat_like(0.0));
         // Near the peak cos² − sum is −sin², with all its digits.
         let difference = V::select(is_far, cos_squared * (-exponent).power_of_two() - sum, -sin_squared);
         Split { difference, sum: sum + sum, exponent }
@@ -160,8 +160,8 @@ impl<V: Lane> Lobe<V> for AnyPower {
         // ln m = 2 artanh s with s = (m − 1)/(m + 1), where m is the share of cos², times a power of two.
         let split = Self::split(cos_squared, sin_squared);
         let s = split.difference * inverse;
-        let logarithm = split.exponent.times_plus(s.constant(std::f64::consts::LN_2), twice_artanh(s));
-        exp(logarithm * s.constant(self.half))
+        let logarithm = split.exponent.mul_add(s.splat_like(std::f64::consts::LN_2), twice_artanh(s));
+        exp(logarithm * s.splat_like(self.half))
     }
 }
 
@@ -173,9 +173,9 @@ fn twice_artanh<V: Lane>(s: V) -> V {
         Precision::Double => 10,
         Precision::Single => 4,
     };
-    let mut series = s.constant(1.0 / f64::from(2 * terms + 1));
+    let mut series = s.splat_like(1.0 / f64::from(2 * terms + 1));
     for k in (0..terms).rev() {
-        series = series.times_plus(square, s.constant(1.0 / f64::from(2 * k + 1)));
+        series = series.mul_add(square, s.splat_like(1.0 / f64::from(2 * k + 1)));
     }
     (s + s) * series
 }
@@ -187,27 +187,27 @@ fn exp<V: Lane>(x: V) -> V {
         Precision::Double => (-700.0, 13),
         Precision::Single => (-86.0, 6),
     };
-    let x_bounded = x.max(x.constant(least));
+    let x_bounded = x.max(x.splat_like(least));
     // To the nearest whole: adding and subtracting 1.5·2^p drops the fraction.
-    let magic = x.constant(match V::Element::PRECISION {
+    let magic = x.splat_like(match V::Element::PRECISION {
         Precision::Double => 6_755_399_441_055_744.0,
         Precision::Single => 12_582_912.0,
     });
-    let exponent = x_bounded.times_plus(x.constant(std::f64::consts::LOG2_E), magic) - magic;
+    let exponent = x_bounded.mul_add(x.splat_like(std::f64::consts::LOG2_E), magic) - magic;
     // ln 2 in two parts, the first of which has so few digits that its product with the exponent is exact.
     let [high, low] = match V::Element::PRECISION {
         Precision::Double => [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10],
         Precision::Single => [0.693_145_751_953_125, 1.428_606_820_309_417_2e-6],
     };
-    let rest = (-exponent).times_plus(x.constant(high), x_bounded);
-    let rest = (-exponent).times_plus(x.constant(low), rest);
+    let rest = (-exponent).mul_add(x.splat_like(high), x_bounded);
+    let rest = (-exponent).mul_add(x.splat_like(low), rest);
     // eʳ by its series, |r| ≤ ln 2 / 2.
-    let mut series = x.constant(inverse_factorial(terms));
+    let mut series = x.splat_like(inverse_factorial(terms));
     for k in (0..terms).rev() {
-        series = series.times_plus(rest, x.constant(inverse_factorial(k)));
+        series = series.mul_add(rest, x.splat_like(inverse_factorial(k)));
     }
     let result = series * exponent.power_of_two();
-    V::select(x.is_less(x.constant(least)), x.constant(0.0), result)
+    V::select(x.is_less(x.splat_like(least)), x.splat_like(0.0), result)
 }
 
 #[inline(always)]
@@ -234,8 +234,8 @@ mod tests {
 
     impl LobeAt<'_> {
         #[inline(always)]
-        fn value<V: Lane>(&self, kind: V::Kind, sin_squared: f64) -> f64 {
-            let splat = |value| V::splat(kind, V::Element::from_f64(value));
+        fn value<V: Lane>(&self, token: V::Token, sin_squared: f64) -> f64 {
+            let splat = |value| V::splat(token, V::Element::from_f64(value));
             let (cos, sin) = (splat(1.0 - sin_squared), splat(sin_squared));
             let one = splat(1.0);
             let lobe = match self.power {
@@ -254,15 +254,15 @@ mod tests {
         type Output = [Vec<f64>; 2];
 
         #[inline(always)]
-        fn run<S, D>(self, kind: S::Kind) -> Self::Output
+        fn run<S, D>(self, token: S::Token) -> Self::Output
         where
             S: Lane<Element = f32>,
-            D: Lane<Element = f64, Kind = S::Kind>,
+            D: Lane<Element = f64, Token = S::Token>,
         {
             let mut values = [Vec::new(), Vec::new()];
             for sin_squared in self.sin_squared {
-                values[0].push(self.value::<S>(kind, *sin_squared));
-                values[1].push(self.value::<D>(kind, *sin_squared));
+                values[0].push(self.value::<S>(token, *sin_squared));
+                values[1].push(self.value::<D>(token, *sin_squared));
             }
             values
         }

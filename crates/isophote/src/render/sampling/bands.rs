@@ -9,7 +9,7 @@ use crate::render::{RenderError, RenderSettings};
 
 /// Rows of the region, and those around them whose light a filter spreads into these.
 #[derive(Clone, Copy)]
-pub struct Band {
+pub struct RowBand {
     /// All of them.
     region: Region,
     /// How many of them come before its own.
@@ -22,7 +22,7 @@ pub struct Band {
 const ROWS: u32 = 32;
 
 /// The bands of a region, with so many rows around each as far as the region goes.
-pub fn bands(region: Region, reach: u32) -> Vec<Band> {
+pub fn bands(region: Region, reach: u32) -> Vec<RowBand> {
     let Region { corner, size } = region;
     let end = corner.row + size.height;
     let mut bands = Vec::new();
@@ -33,13 +33,13 @@ pub fn bands(region: Region, reach: u32) -> Vec<Band> {
         let last = next.saturating_add(reach).min(end);
         let region =
             Region { corner: Pixel { row: first, ..corner }, size: Resolution { height: last - first, ..size } };
-        bands.push(Band { region, above: start - first, rows: next - start });
+        bands.push(RowBand { region, above: start - first, rows: next - start });
         start = next;
     }
     bands
 }
 
-impl Band {
+impl RowBand {
     /// The settings that render it.
     pub fn settings<'o>(&self, settings: &RenderSettings<'o>) -> RenderSettings<'o> {
         RenderSettings { region: Some(self.region), ..settings.clone() }
@@ -73,7 +73,7 @@ impl Stack {
     }
 
     /// Puts a band to the others, whichever came before.
-    pub fn add(&mut self, band: Band, part: &Map) {
+    pub fn add(&mut self, band: RowBand, part: &Map) {
         let Self { region, map, runs } = self;
         let width = region.size.width as usize;
         let map = map.get_or_insert_with(|| {

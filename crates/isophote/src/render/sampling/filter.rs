@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// The weight of the light around a pixel in its value, as a product of a function of the way across and one of the way
 /// down, both in pixels from the centre.
@@ -21,7 +21,7 @@ pub enum Filter {
     Mitchell,
 }
 
-impl Choice for Filter {
+impl Keyword for Filter {
     const ALL: &'static [Self] = &[Self::Box, Self::Triangle, Self::Gaussian, Self::Mitchell];
 
     fn name(self) -> &'static str {

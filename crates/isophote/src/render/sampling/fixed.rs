@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::ThreadPool;
 
-use super::bands::{Band, Stack, bands, each};
+use super::bands::{RowBand, Stack, bands, each};
 use super::pattern::Patterns;
 use super::refine::{copy_geometry, is_mean, offsets, put, put_exactly, put_shapes};
 use super::{Filter, Renders, Sampling};
@@ -29,12 +29,12 @@ pub fn render(
     let quantities = settings.quantities.iter().filter(|quantity| is_sampled(quantity)).cloned().collect();
     let sampled = RenderSettings { quantities, observer, region: None };
     let centres = RenderSettings { observer, ..settings.clone() };
-    let start = |band: Band| {
-        let map = (renders.alone)(Vec::new(), scene, &band.settings(&centres))?;
-        Ok(Part { means: Means::new(&map, filter), map, memory: Vec::new() })
+    let start = |band: RowBand| {
+        let map = (renders.serial)(Vec::new(), scene, &band.settings(&centres))?;
+        Ok(BandMeans { means: Means::new(&map, filter), map, memory: Vec::new() })
     };
     let stack = Mutex::new(Stack::new(region));
-    let mut parts: Vec<(Band, Option<Part>)> =
+    let mut parts: Vec<(RowBand, Option<BandMeans>)> =
         bands(region, filter.reach()).into_iter().map(|band| (band, None)).collect();
     let patterns = Patterns::new(samples);
     let mut left = samples as usize;
@@ -66,14 +66,14 @@ fn is_sampled(quantity: &Quantity) -> bool {
 }
 
 /// What a band is so far.
-struct Part {
+struct BandMeans {
     map: Map,
     means: Means,
     /// Of the last image, cleared.
     memory: Vec<Values>,
 }
 
-impl Part {
+impl BandMeans {
     /// Adds samples.
     fn add(
         &mut self,
@@ -82,7 +82,7 @@ impl Part {
         renders: &Renders<'_>,
     ) -> Result<(), RenderError> {
         for (place, view) in views {
-            let sample = (renders.alone)(std::mem::take(&mut self.memory), view, settings)?;
+            let sample = (renders.serial)(std::mem::take(&mut self.memory), view, settings)?;
             self.means.add(&self.map, &sample, *place);
             self.means.fill_in(&mut self.map, &sample);
             self.memory = band::recycle(sample);

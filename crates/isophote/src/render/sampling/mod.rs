@@ -52,14 +52,14 @@ impl Sampling {
 
     /// Whether a pixel is more than the value at its centre.
     #[must_use]
-    pub fn is_more_than_centres(self) -> bool {
+    pub fn is_multisampled(self) -> bool {
         self != Self::default()
     }
 
     /// As outputs say it.
     #[must_use]
     pub fn describe(self) -> String {
-        let filter = crate::units::Choice::name(self.filter);
+        let filter = crate::units::Keyword::name(self.filter);
         match self.tolerance {
             Some(tolerance) => format!("up to {} samples, tolerance {tolerance}, {filter} filter", self.samples),
             None => format!("{} samples, {filter} filter", self.samples),
@@ -82,9 +82,9 @@ pub type Centres<'c> = dyn Fn(Vec<Values>, &PreparedScene, &RenderSettings<'_>) 
 /// What renders the centres of pixels.
 pub struct Renders<'c> {
     /// On all threads there are.
-    pub shared: &'c Centres<'c>,
+    pub parallel: &'c Centres<'c>,
     /// On the thread that asks.
-    pub alone: &'c Centres<'c>,
+    pub serial: &'c Centres<'c>,
 }
 
 /// Renders means over pixels: of as many samples as the scene asks for, or of more where the value is uncertain.
@@ -127,7 +127,7 @@ fn refined(
     let mut quantities = settings.quantities.clone();
     quantities.push(Quantity::Brightness);
     let wide = RenderSettings { region: Some(grown(region, 1, full)), quantities, ..settings.clone() };
-    let mut map = (renders.shared)(Vec::new(), scene, &wide)?;
+    let mut map = (renders.parallel)(Vec::new(), scene, &wide)?;
     let tolerance = tolerance * peak(scene, renders)?;
     let averages = Averages::of(&map, scene);
     let (patterns, offsets) = (Patterns::new(sampling.samples), refine::offsets(sampling.filter));
@@ -182,7 +182,7 @@ fn peak(scene: &PreparedScene, renders: &Renders<'_>) -> Result<f64, RenderError
     let side = |side: u32| ((f64::from(side) * f64::from(GLANCE) / longer).ceil() as u32).clamp(1, side);
     let small = scene.at_resolution(Resolution { width: side(full.width), height: side(full.height) });
     let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
-    let map = (renders.shared)(Vec::new(), &small, &settings)?;
+    let map = (renders.parallel)(Vec::new(), &small, &settings)?;
     Ok(totals(&map, &Quantity::Brightness).map_or(0.0, |totals| totals.max.value))
 }
 

@@ -2,11 +2,11 @@
 //! share of an area that an edge cuts off only as n^(−3/4); the outline is known, and within it the brightness is smooth.
 
 use super::refine::{Averages, Refinement};
-use super::rule::{Center, MOST, Nodes, Rows};
+use super::rule::{Center, MOST, Nodes, RowRule};
 use super::uncertain::Uncertain;
 use super::{Filter, Sampling};
 use crate::camera::ScreenPosition;
-use crate::lanes::{Instructions, Kind, Lane, LaneJob, Precision};
+use crate::lanes::{Instructions, Lane, LaneJob, Precision, SimdToken};
 use crate::map::Pixel;
 use crate::prepare::PreparedScene;
 use crate::reflectance::{BrightnessFormula, Lobe};
@@ -98,7 +98,7 @@ impl<'s> Outlined<'s> {
         let center = sphere.center_of(pixel);
         let channels = self.averages.channels();
         let mut means = vec![0.0; channels.len()];
-        for (rows, widest) in [(Rows::Two, 16.0), (Rows::Four, 36.0)] {
+        for (rows, widest) in [(RowRule::Two, 16.0), (RowRule::Four, 36.0)] {
             nodes.place(sphere.outline, center, rows);
             let samples = u32::try_from(nodes.count).unwrap_or(u32::MAX);
             if nodes.coverage < NEGLIGIBLE || samples > self.most {
@@ -171,36 +171,36 @@ impl LaneJob for Evaluate<'_> {
     type Output = f64;
 
     #[inline(always)]
-    fn run<S, D>(self, kind: S::Kind) -> f64
+    fn run<S, D>(self, token: S::Token) -> f64
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         match &self.sphere.lights.power {
-            Power::None => self.with::<D::Narrow, _>(kind, &NoPower),
-            Power::Even(lobe) => self.with::<D::Narrow, _>(kind, lobe),
-            Power::Odd(lobe) => self.with::<D::Narrow, _>(kind, lobe),
-            Power::Any(lobe) => self.with::<D::Narrow, _>(kind, lobe),
+            Power::None => self.with::<D::Narrow, _>(token, &NoPower),
+            Power::Even(lobe) => self.with::<D::Narrow, _>(token, lobe),
+            Power::Odd(lobe) => self.with::<D::Narrow, _>(token, lobe),
+            Power::Any(lobe) => self.with::<D::Narrow, _>(token, lobe),
         }
     }
 }
 
 impl Evaluate<'_> {
     #[inline(always)]
-    fn with<V: Lane<Element = f64>, L: Lobe<V>>(self, kind: V::Kind, lobe: &L) -> f64 {
-        kind.apart(
+    fn with<V: Lane<Element = f64>, L: Lobe<V>>(self, token: V::Token, lobe: &L) -> f64 {
+        token.in_own_function(
             #[inline(always)]
-            || self.sums(kind, lobe),
+            || self.sums(token, lobe),
         )
     }
 
     #[inline(always)]
-    fn sums<V: Lane<Element = f64>, L: Lobe<V>>(self, kind: V::Kind, lobe: &L) -> f64 {
+    fn sums<V: Lane<Element = f64>, L: Lobe<V>>(self, token: V::Token, lobe: &L) -> f64 {
         let Self { sphere, nodes, channels, means } = self;
         let OutlinedSphere { outline, center, formula, lights, .. } = sphere;
         let outline = outline.map(
             #[inline(always)]
-            |value| V::splat(kind, value),
+            |value| V::splat(token, value),
         );
         let [mut least, mut greatest] = [f64::INFINITY, f64::NEG_INFINITY];
         means.fill(0.0);
@@ -209,12 +209,12 @@ impl Evaluate<'_> {
             let [columns, rows, after_first, after_last] =
                 [&nodes.columns, &nodes.rows, &nodes.after_first, &nodes.after_last].map(
                     #[inline(always)]
-                    |numbers| V::load(kind, &numbers[start..]),
+                    |numbers| V::load(token, &numbers[start..]),
                 );
             let place = PlaceInRow { column: columns, after_first, after_last };
             let point = outline.row_at(rows).point(*center, &place).point;
-            let (irradiance, lobes) = sum(kind, &point, &lights.lights, lobe);
-            let irradiance = irradiance + V::splat(kind, lights.ambient);
+            let (irradiance, lobes) = sum(token, &point, &lights.lights, lobe);
+            let irradiance = irradiance + V::splat(token, lights.ambient);
             let sums = Sums { irradiance, lobes, cos_theta_o: point.cos_theta_o };
             let count = V::COUNT.min(nodes.count - start);
             (sums.diffuse(formula) + sums.specular(formula)).store(&mut buffer);
@@ -226,11 +226,11 @@ impl Evaluate<'_> {
                 let values = match channel {
                     ScalarChannel::Brightness => sums.diffuse(formula) + sums.specular(formula),
                     ScalarChannel::Irradiance => sums.irradiance,
-                    ScalarChannel::Ambient => V::splat(kind, lights.ambient),
+                    ScalarChannel::Ambient => V::splat(token, lights.ambient),
                     ScalarChannel::Diffuse => sums.diffuse(formula),
                     ScalarChannel::Specular => sums.specular(formula),
                     ScalarChannel::Light(_) => match asked_for.next() {
-                        Some(light) => sum(kind, &point, std::slice::from_ref(light), &NoPower).0,
+                        Some(light) => sum(token, &point, std::slice::from_ref(light), &NoPower).0,
                         None => unreachable!("a light was placed for every such channel"),
                     },
                     ScalarChannel::Depth | ScalarChannel::AmbientError => unreachable!("it is no mean"),

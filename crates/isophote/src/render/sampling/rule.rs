@@ -50,12 +50,12 @@ const FOUR: [[f64; 2]; 4] = [
 
 /// How many rows every piece of a pixel has; in each there are four places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rows {
+pub enum RowRule {
     Two,
     Four,
 }
 
-impl Rows {
+impl RowRule {
     fn rule(self) -> &'static [[f64; 2]] {
         match self {
             Self::Two => &TWO,
@@ -96,7 +96,7 @@ impl Nodes {
 
     /// Cuts the pixel into pieces where the outline enters or leaves it through its left or right edge: between those
     /// rows, all that is integrated is smooth.
-    pub fn place(&mut self, outline: &Ellipse, pixel: Center, rows: Rows) {
+    pub fn place(&mut self, outline: &Ellipse, pixel: Center, rows: RowRule) {
         (self.count, self.coverage) = (0, 0.0);
         let first = (pixel.row - 0.5).max(outline.rows[0]);
         let last = (pixel.row + 0.5).min(outline.rows[1]);
@@ -210,7 +210,7 @@ mod tests {
             let scene = disc(radius);
             let Outline::Ellipse(outline) = scene.outline(0) else { panic!("it is before the eye") };
             let mut cut = 0;
-            for (rows, error) in [(Rows::Two, 4e-3), (Rows::Four, 3e-4)] {
+            for (rows, error) in [(RowRule::Two, 4e-3), (RowRule::Four, 3e-4)] {
                 for row in 0..30_u32 {
                     for column in 0..40_u32 {
                         let pixel =

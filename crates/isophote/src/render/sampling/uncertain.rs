@@ -184,35 +184,35 @@ impl LaneJob for Bends<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<S, D>(self, kind: S::Kind)
+    fn run<S, D>(self, token: S::Token)
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         match self.finder.brightness {
-            Scalars::Double(values) => self.find::<D>(kind, values),
-            Scalars::Single(values) => self.find::<S>(kind, values),
+            Scalars::Double(values) => self.find::<D>(token, values),
+            Scalars::Single(values) => self.find::<S>(token, values),
         }
     }
 }
 
 impl Bends<'_, '_> {
     #[inline(always)]
-    fn find<V: Lane>(self, kind: V::Kind, values: &[V::Element]) {
+    fn find<V: Lane>(self, token: V::Token, values: &[V::Element]) {
         let Self { finder, row, inner, suspects } = self;
         if inner.len() < V::COUNT {
             suspects.extend(inner);
             return;
         }
-        let tolerance = V::splat(kind, V::Element::from_f64(finder.tolerance));
-        let two = V::splat(kind, V::Element::from_f64(2.0));
+        let tolerance = V::splat(token, V::Element::from_f64(finder.tolerance));
+        let two = V::splat(token, V::Element::from_f64(2.0));
         let width = finder.width;
         let [above, here, below] = [row - 1, row, row + 1].map(|row| &values[row * width..][..width]);
         let mut first = inner.start;
         loop {
             // Those beside the last ones are looked at twice rather than one by one.
             let column = first.min(inner.end - V::COUNT);
-            let bend = |before: &[V::Element], after: &[V::Element]| V::load(kind, before) + V::load(kind, after);
+            let bend = |before: &[V::Element], after: &[V::Element]| V::load(token, before) + V::load(token, after);
             let [left, middle, right] = [column - 1, column, column + 1];
             let sums = [
                 bend(&here[left..], &here[right..]),
@@ -220,7 +220,7 @@ impl Bends<'_, '_> {
                 bend(&above[left..], &below[right..]),
                 bend(&above[right..], &below[left..]),
             ];
-            let twice = V::load(kind, &here[middle..]) * two;
+            let twice = V::load(token, &here[middle..]) * two;
             let greatest = sums[0].max(sums[1]).max(sums[2].max(sums[3])) - twice;
             let least = twice - sums[0].min(sums[1]).min(sums[2].min(sums[3]));
             let mut found = V::bits(tolerance.is_less(greatest.max(least)));

@@ -77,16 +77,16 @@ impl LaneJob for Draw<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<S, D>(self, kind: S::Kind)
+    fn run<S, D>(self, token: S::Token)
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         let Self { canvas, outlines, view, tile, least_length } = self;
         for index in outlines.by_distance() {
-            canvas.draw::<D>(kind, outlines, *index, tile, least_length, view);
+            canvas.draw::<D>(token, outlines, *index, tile, least_length, view);
         }
-        canvas.measure::<D>(kind, tile);
+        canvas.measure::<D>(token, tile);
     }
 }
 
@@ -116,7 +116,7 @@ impl Canvas {
 
     /// Finds out how far the pixels of each part are.
     #[inline(always)]
-    fn measure<D: Lane<Element = f64>>(&mut self, kind: D::Kind, tile: Tile) {
+    fn measure<D: Lane<Element = f64>>(&mut self, token: D::Token, tile: Tile) {
         for (row, parts) in self.farthest.iter_mut().enumerate() {
             for (column, farthest) in parts.iter_mut().enumerate() {
                 let rows = (row * PART_ROWS)..((row + 1) * PART_ROWS).min(tile.height as usize);
@@ -126,7 +126,7 @@ impl Canvas {
                     let at = row * STRIDE + column * PART;
                     let part = &self.depths[at..at + PART];
                     *farthest = if end == PART {
-                        greatest::<D>(kind, part).max(*farthest)
+                        greatest::<D>(token, part).max(*farthest)
                     } else {
                         part[..end].iter().copied().fold(*farthest, f64::max)
                     };
@@ -139,7 +139,7 @@ impl Canvas {
     #[inline(always)]
     fn draw<D: Lane<Element = f64>>(
         &mut self,
-        kind: D::Kind,
+        token: D::Token,
         outlines: &Outlines,
         index: u32,
         tile: Tile,
@@ -173,7 +173,7 @@ impl Canvas {
             if start < end {
                 let at = whole(at_row - top) * STRIDE + whole(start - left);
                 if squared >= 0.0 {
-                    self.draw_row::<D>(kind, &pen, &row_of, start, end, at);
+                    self.draw_row::<D>(token, &pen, &row_of, start, end, at);
                 } else if pen.clearance * squared > pen.doubtful[0] {
                     for offset in 0..whole(end - start) {
                         self.doubts.push(Doubt { at: at + offset, from: 0.0 });
@@ -187,35 +187,35 @@ impl Canvas {
     #[inline(always)]
     fn draw_row<D: Lane<Element = f64>>(
         &mut self,
-        kind: D::Kind,
+        token: D::Token,
         pen: &Pen,
         row: &RowOf,
         mut column: f64,
         end: f64,
         mut at: usize,
     ) {
-        let (zero, beyond) = (D::splat(kind, 0.0), D::splat(kind, f64::INFINITY));
-        let [least, greatest] = [D::splat(kind, pen.doubtful[0]), D::splat(kind, pen.doubtful[1])];
+        let (zero, beyond) = (D::splat(token, 0.0), D::splat(token, f64::INFINITY));
+        let [least, greatest] = [D::splat(token, pen.doubtful[0]), D::splat(token, pen.doubtful[1])];
         while column < end {
             let first = column - pen.column;
-            let u = D::distances(kind, first, 0.0);
-            let after_first = D::distances(kind, first, row.roots[0]);
-            let before_last = -D::distances(kind, first, row.roots[1]);
-            let clearance = D::splat(kind, pen.clearance) * after_first * before_last;
-            let along = u.times_plus(D::splat(kind, row.depth[1]), D::splat(kind, row.depth[0]));
-            let depth = D::select(zero.is_less(clearance), along - clearance.or_zero().sqrt(), beyond);
-            let before = D::load(kind, &self.depths[at..]);
+            let u = D::distances(token, first, 0.0);
+            let after_first = D::distances(token, first, row.roots[0]);
+            let before_last = -D::distances(token, first, row.roots[1]);
+            let clearance = D::splat(token, pen.clearance) * after_first * before_last;
+            let along = u.mul_add(D::splat(token, row.depth[1]), D::splat(token, row.depth[0]));
+            let depth = D::select(zero.is_less(clearance), along - clearance.max_zero().sqrt(), beyond);
+            let before = D::load(token, &self.depths[at..]);
             let is_nearer = depth.is_less(before);
             let apart = (depth - before).max(before - depth);
             let at_edge = D::bits(least.is_less(clearance)) & D::bits(clearance.is_less(greatest));
-            let close = D::bits(apart.is_less(D::splat(kind, pen.uncertain)));
+            let close = D::bits(apart.is_less(D::splat(token, pen.uncertain)));
             let here = bits_below(end - column);
             if (at_edge | close) & here != 0 {
                 self.doubt(pen, [at_edge & here, close & here], &stored(along), &stored(clearance), &stored(depth), at);
             }
             D::select(is_nearer, depth, before).store(&mut self.depths[at..]);
-            let outlines = D::load(kind, &self.outlines[at..]);
-            D::select(is_nearer, D::splat(kind, pen.index), outlines).store(&mut self.outlines[at..]);
+            let outlines = D::load(token, &self.outlines[at..]);
+            D::select(is_nearer, D::splat(token, pen.index), outlines).store(&mut self.outlines[at..]);
             column += count_of::<D>();
             at += D::COUNT;
         }
@@ -311,10 +311,10 @@ fn columns_of(block: &Block, lane: usize) -> [f64; 2] {
 }
 
 #[inline(always)]
-fn greatest<D: Lane<Element = f64>>(kind: D::Kind, numbers: &[f64]) -> f64 {
-    let mut greatest = D::load(kind, numbers);
+fn greatest<D: Lane<Element = f64>>(token: D::Token, numbers: &[f64]) -> f64 {
+    let mut greatest = D::load(token, numbers);
     for numbers in numbers.chunks_exact(D::COUNT).skip(1) {
-        greatest = greatest.max(D::load(kind, numbers));
+        greatest = greatest.max(D::load(token, numbers));
     }
     stored(greatest)[..D::COUNT].iter().copied().fold(0.0, f64::max)
 }

@@ -12,9 +12,9 @@ pub const MOST: usize = 256;
 
 /// A pixel of a tile.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Cell(u16);
+pub struct TilePixel(u16);
 
-impl Cell {
+impl TilePixel {
     /// The pixel of the image.
     #[inline(always)]
     pub fn within(self, tile: Tile) -> Pixel {
@@ -32,7 +32,7 @@ pub struct Group<'g> {
     /// Where the pixels are.
     pub tile: Tile,
     /// At most [`MOST`].
-    pub pixels: &'g [Cell],
+    pub pixels: &'g [TilePixel],
     /// Memory for a query.
     pub walk: &'g mut Walk,
 }
@@ -44,7 +44,7 @@ pub struct Groups {
     pub seen: Vec<u32>,
     /// Where the pixels of each of them end.
     ends: Vec<usize>,
-    cells: Vec<Cell>,
+    cells: Vec<TilePixel>,
     /// For each outline the number of its pixels, then where the next one goes.
     places: Vec<usize>,
 }
@@ -72,12 +72,12 @@ impl Groups {
             }
         }
         self.cells.clear();
-        self.cells.resize(end, Cell::default());
+        self.cells.resize(end, TilePixel::default());
         for row in 0..tile.height {
             for (column, outline) in (0..).zip(canvas.row(row, tile.width)) {
                 if *outline >= 0.0 {
                     let place = &mut self.places[whole(*outline)];
-                    self.cells[*place] = Cell(u16::try_from(row * WIDTH + column).unwrap_or(0));
+                    self.cells[*place] = TilePixel(u16::try_from(row * WIDTH + column).unwrap_or(0));
                     *place += 1;
                 }
             }
@@ -85,7 +85,7 @@ impl Groups {
     }
 
     /// The pixels that see one of them.
-    pub fn pixels_of(&self, index: usize) -> &[Cell] {
+    pub fn pixels_of(&self, index: usize) -> &[TilePixel] {
         let start = if index == 0 { 0 } else { self.ends[index - 1] };
         &self.cells[start..self.ends[index]]
     }

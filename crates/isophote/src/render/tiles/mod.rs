@@ -31,7 +31,7 @@ pub const HEIGHT: u32 = 64;
 
 /// Whether scenes like this are drawn by tiles: spheres only, and many of them or with shadows; seen in perspective, with
 /// lights that are somewhere, and ambient light that nothing keeps off.
-pub fn suit(scene: &PreparedScene) -> bool {
+pub fn supports(scene: &PreparedScene) -> bool {
     let description = scene.scene();
     let is_round = description.shapes().iter().all(|shape| shape.geometry.is_round());
     let all_are_somewhere = description.lights().iter().all(|light| light.position().is_some());
@@ -77,7 +77,7 @@ impl Tiles<'_> {
     /// Fills a band, and says what its pixels see.
     pub fn fill(&self, mut band: Band<'_>) -> Result<Vec<Run>, RenderError> {
         let Projection::Perspective(window) = &self.scene.frame().projection else {
-            unreachable!("`suit` refuses other cameras");
+            unreachable!("`supports` refuses other cameras");
         };
         let view = View::new(self.scene, window);
         let mut work = Work {

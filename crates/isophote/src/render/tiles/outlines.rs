@@ -4,15 +4,15 @@ use super::Tile;
 use crate::accelerate::{Accelerator, Beam, Walk};
 use crate::camera::Screen;
 use crate::double_double::DoubleDouble;
-use crate::lanes::{Kind, Lane, LaneJob};
+use crate::lanes::{Lane, LaneJob, SimdToken};
 use crate::map::Resolution;
 use crate::prepare::PreparedScene;
-use crate::shape::{BEFORE_THE_EYE, Ellipse, Grid, Sphere};
+use crate::shape::{BEFORE_THE_EYE, Ellipse, PixelGrid, Sphere};
 use crate::vector::Vector;
 
 /// The camera, as tiles need it.
 pub struct View {
-    grid: Grid,
+    grid: PixelGrid,
     eye: Vector,
     forward: Vector,
     right: Vector,
@@ -27,7 +27,7 @@ pub struct View {
 impl View {
     /// The view of a scene's camera through its window.
     pub fn new(scene: &PreparedScene, window: &Screen) -> Self {
-        let (frame, grid) = (scene.frame(), Grid::new(scene.precise_frame(), window));
+        let (frame, grid) = (scene.frame(), PixelGrid::new(scene.precise_frame(), window));
         let (first, step) = grid.rounded();
         let mut view = Self {
             grid,
@@ -126,15 +126,15 @@ impl LaneJob for Take<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<S, D>(self, kind: S::Kind)
+    fn run<S, D>(self, token: S::Token)
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         let Self { outlines, tree, beam, limit, walk } = self;
         outlines.taken.clear();
         while outlines.taken.len() < BATCH
-            && let Some(number) = walk.next::<S::Narrow>(kind, tree, beam, limit)
+            && let Some(number) = walk.next::<S::Narrow>(token, tree, beam, limit)
         {
             outlines.taken.push(number);
         }
@@ -155,12 +155,12 @@ impl LaneJob for Prepare<'_> {
     type Output = bool;
 
     #[inline(always)]
-    fn run<S, D>(self, kind: S::Kind) -> bool
+    fn run<S, D>(self, token: S::Token) -> bool
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
-        self.outlines.prepare::<D::Narrow>(kind, self.scene, self.view)
+        self.outlines.prepare::<D::Narrow>(token, self.scene, self.view)
     }
 }
 
@@ -198,11 +198,11 @@ impl Outlines {
     }
 
     #[inline(always)]
-    fn prepare<D: Lane<Element = f64>>(&mut self, kind: D::Kind, scene: &PreparedScene, view: &View) -> bool {
+    fn prepare<D: Lane<Element = f64>>(&mut self, token: D::Token, scene: &PreparedScene, view: &View) -> bool {
         self.order.clear();
         let grid = view.grid.map(
             #[inline(always)]
-            |number| D::splat(kind, number),
+            |number| D::splat(token, number),
         );
         for numbers in self.taken.chunks(BLOCK) {
             let mut spheres = [(Vector::default(), 1.0); BLOCK];
@@ -215,9 +215,9 @@ impl Outlines {
                 spheres[lane] = (*center, *radius);
                 doubtful[lane] = scene.doubtful_in_outline(primitive).end;
             }
-            let block = kind.apart(
+            let block = token.in_own_function(
                 #[inline(always)]
-                || Block::new::<D>(kind, &grid, &spheres, doubtful, number),
+                || Block::new::<D>(token, &grid, &spheres, doubtful, number),
             );
             let first = u32::try_from(self.count()).unwrap_or(u32::MAX);
             for lane in 0..numbers.len() {
@@ -244,8 +244,8 @@ impl Outlines {
 }
 
 #[inline(always)]
-fn exactly<D: Lane<Element = f64>>(kind: D::Kind, numbers: &[f64; BLOCK]) -> DoubleDouble<D> {
-    DoubleDouble::exactly(D::load(kind, numbers))
+fn exactly<D: Lane<Element = f64>>(token: D::Token, numbers: &[f64; BLOCK]) -> DoubleDouble<D> {
+    DoubleDouble::exactly(D::load(token, numbers))
 }
 
 #[inline(always)]
@@ -258,21 +258,21 @@ fn store<D: Lane<Element = f64>>(numbers: D) -> [f64; BLOCK] {
 impl Block {
     #[inline(always)]
     fn new<D: Lane<Element = f64>>(
-        kind: D::Kind,
-        grid: &Grid<D>,
+        token: D::Token,
+        grid: &PixelGrid<D>,
         spheres: &[(Vector, f64); BLOCK],
         doubtful: [f64; BLOCK],
         number: [u32; BLOCK],
     ) -> Self {
         let radius = spheres.map(|(_, radius)| radius);
         let center = Vector::new(
-            exactly::<D>(kind, &spheres.map(|(center, _)| center.x)),
-            exactly::<D>(kind, &spheres.map(|(center, _)| center.y)),
-            exactly::<D>(kind, &spheres.map(|(center, _)| center.z)),
+            exactly::<D>(token, &spheres.map(|(center, _)| center.x)),
+            exactly::<D>(token, &spheres.map(|(center, _)| center.y)),
+            exactly::<D>(token, &spheres.map(|(center, _)| center.z)),
         );
-        let from_eye = grid.seen_from_eye(center, exactly::<D>(kind, &radius));
+        let from_eye = grid.seen_from_eye(center, exactly::<D>(token, &radius));
         let ellipse = Ellipse::new(from_eye, grid.in_camera(from_eye), grid);
-        let metres = D::load(kind, &radius);
+        let metres = D::load(token, &radius);
         let [first, by_column, by_row] = ellipse.direction;
         let depth = [
             store(first.dot(ellipse.center) * metres),

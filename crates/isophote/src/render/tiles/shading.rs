@@ -3,7 +3,7 @@
 use super::Tiles;
 use super::group::{Group, MOST};
 use super::shadow::Shadows;
-use crate::lanes::{Element, Instructions, Kind, Lane, LaneJob, Precision};
+use crate::lanes::{Element, Instructions, Lane, LaneJob, Precision, SimdToken};
 use crate::light::{Ambient, PlacedLight};
 use crate::map::Pixel;
 use crate::prepare::PreparedScene;
@@ -90,15 +90,15 @@ impl Places {
 
     /// Finds what they see.
     #[inline(always)]
-    fn find<D: Lane<Element = f64>>(&mut self, kind: D::Kind, group: &Group<'_>) {
+    fn find<D: Lane<Element = f64>>(&mut self, token: D::Token, group: &Group<'_>) {
         let end = self.count.next_multiple_of(16);
         let outline = group.seen.ellipse.map(
             #[inline(always)]
-            |number| D::splat(kind, number),
+            |number| D::splat(token, number),
         );
         for at in (0..end).step_by(D::COUNT) {
-            let column = D::load(kind, &self.column[at..]);
-            let row = outline.row_at(D::load(kind, &self.row[at..]));
+            let column = D::load(token, &self.column[at..]);
+            let row = outline.row_at(D::load(token, &self.row[at..]));
             let place = PlaceInRow { column, after_first: column - row.roots[0], after_last: column - row.roots[1] };
             place.after_first.store(&mut self.after_first[at..]);
             place.after_last.store(&mut self.after_last[at..]);
@@ -112,10 +112,10 @@ impl Places {
 
     /// N of a vector of pixels.
     #[inline(always)]
-    pub fn normal_at<D: Lane<Element = f64>>(&self, kind: D::Kind, vector: usize) -> Vector<D> {
+    pub fn normal_at<D: Lane<Element = f64>>(&self, token: D::Token, vector: usize) -> Vector<D> {
         let at = vector * D::COUNT;
         let [x, y, z] = &self.normal;
-        Vector::new(D::load(kind, &x[at..]), D::load(kind, &y[at..]), D::load(kind, &z[at..]))
+        Vector::new(D::load(token, &x[at..]), D::load(token, &y[at..]), D::load(token, &z[at..]))
     }
 }
 
@@ -129,16 +129,16 @@ impl LaneJob for See<'_, '_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<S, D>(self, kind: S::Kind)
+    fn run<S, D>(self, token: S::Token)
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
-        kind.apart(
+        token.in_own_function(
             #[inline(always)]
-            || self.shader.places.find::<D::Narrow>(kind, self.group),
+            || self.shader.places.find::<D::Narrow>(token, self.group),
         );
-        self.shader.see_lights::<S::Narrow, D::Narrow>(kind, self.group);
+        self.shader.see_lights::<S::Narrow, D::Narrow>(token, self.group);
     }
 }
 
@@ -158,13 +158,13 @@ impl LaneJob for ShadeInSingle<'_, '_, '_, '_> {
     type Output = Result<(), RenderError>;
 
     #[inline(always)]
-    fn run<S, D>(self, kind: S::Kind) -> Self::Output
+    fn run<S, D>(self, token: S::Token) -> Self::Output
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         let Shade { shader, group, formula, band } = self.0;
-        shader.shade_in::<S::Narrow>(kind, group, formula, band)
+        shader.shade_in::<S::Narrow>(token, group, formula, band)
     }
 }
 
@@ -172,13 +172,13 @@ impl LaneJob for ShadeInDouble<'_, '_, '_, '_> {
     type Output = Result<(), RenderError>;
 
     #[inline(always)]
-    fn run<S, D>(self, kind: S::Kind) -> Self::Output
+    fn run<S, D>(self, token: S::Token) -> Self::Output
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         let Shade { shader, group, formula, band } = self.0;
-        shader.shade_in::<D::Narrow>(kind, group, formula, band)
+        shader.shade_in::<D::Narrow>(token, group, formula, band)
     }
 }
 
@@ -252,10 +252,10 @@ impl<'a> Shader<'a> {
 
     /// Finds out which lights the pixels see.
     #[inline(always)]
-    fn see_lights<S, D>(&mut self, kind: S::Kind, group: &mut Group<'_>)
+    fn see_lights<S, D>(&mut self, token: S::Token, group: &mut Group<'_>)
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         let Self { scene, order, places, shadows, lights, chosen, visible, doubtful, .. } = self;
         let stride = places.count.next_multiple_of(16);
@@ -267,7 +267,7 @@ impl<'a> Shader<'a> {
             let visible = &mut visible[chosen.len() * stride..][..stride];
             if !scene.scene().casts_shadows(group.primitive.shape, order[index]) {
                 visible.fill(1.0);
-            } else if !shadows.find::<S, D>(kind, scene, group, places, light.position, visible) {
+            } else if !shadows.find::<S, D>(token, scene, group, places, light.position, visible) {
                 continue;
             } else {
                 for (vector, doubtful) in doubtful[..vectors].iter_mut().enumerate() {
@@ -281,38 +281,38 @@ impl<'a> Shader<'a> {
     #[inline(always)]
     fn shade_in<V: Lane>(
         &self,
-        kind: V::Kind,
+        token: V::Token,
         group: &Group<'_>,
         formula: &BrightnessFormula,
         band: &mut Band<'_>,
     ) -> Result<(), RenderError> {
         match Power::new(formula.sharpness(), V::Element::PRECISION) {
-            Power::None => self.shade_with::<V, _>(kind, group, formula, &NoPower, band),
-            Power::Even(lobe) => self.shade_with::<V, _>(kind, group, formula, &lobe, band),
-            Power::Odd(lobe) => self.shade_with::<V, _>(kind, group, formula, &lobe, band),
-            Power::Any(lobe) => self.shade_with::<V, _>(kind, group, formula, &lobe, band),
+            Power::None => self.shade_with::<V, _>(token, group, formula, &NoPower, band),
+            Power::Even(lobe) => self.shade_with::<V, _>(token, group, formula, &lobe, band),
+            Power::Odd(lobe) => self.shade_with::<V, _>(token, group, formula, &lobe, band),
+            Power::Any(lobe) => self.shade_with::<V, _>(token, group, formula, &lobe, band),
         }
     }
 
     #[inline(always)]
     fn shade_with<V: Lane, L: Lobe<V>>(
         &self,
-        kind: V::Kind,
+        token: V::Token,
         group: &Group<'_>,
         formula: &BrightnessFormula,
         lobe: &L,
         band: &mut Band<'_>,
     ) -> Result<(), RenderError> {
-        kind.apart(
+        token.in_own_function(
             #[inline(always)]
-            || self.shade_places(kind, group, formula, lobe, band),
+            || self.shade_places(token, group, formula, lobe, band),
         )
     }
 
     #[inline(always)]
     fn shade_places<V: Lane, L: Lobe<V>>(
         &self,
-        kind: V::Kind,
+        token: V::Token,
         group: &Group<'_>,
         formula: &BrightnessFormula,
         lobe: &L,
@@ -321,19 +321,19 @@ impl<'a> Shader<'a> {
         let places = &self.places;
         let outline = group.seen.ellipse.map(
             #[inline(always)]
-            |number| V::splat(kind, V::Element::from_f64(number)),
+            |number| V::splat(token, V::Element::from_f64(number)),
         );
         for at in (0..places.count).step_by(V::COUNT) {
-            let column = V::load_doubles(kind, &places.column[at..]);
-            let row = outline.row_at(V::load_doubles(kind, &places.row[at..]));
+            let column = V::load_doubles(token, &places.column[at..]);
+            let row = outline.row_at(V::load_doubles(token, &places.row[at..]));
             let place = PlaceInRow {
                 column,
-                after_first: V::load_doubles(kind, &places.after_first[at..]),
-                after_last: V::load_doubles(kind, &places.after_last[at..]),
+                after_first: V::load_doubles(token, &places.after_first[at..]),
+                after_last: V::load_doubles(token, &places.after_last[at..]),
             };
             let point = row.point(places.sphere.center, &place).point;
-            let (irradiance, lobes) = self.sum(kind, &point, at, lobe);
-            let ambient = V::splat(kind, V::Element::from_f64(self.ambient));
+            let (irradiance, lobes) = self.sum(token, &point, at, lobe);
+            let ambient = V::splat(token, V::Element::from_f64(self.ambient));
             let irradiance = irradiance + ambient;
             let diffuse = irradiance * formula.diffuse_factor(point.cos_theta_o);
             let specular = lobes * formula.specular_factor(point.cos_theta_o);
@@ -344,9 +344,9 @@ impl<'a> Shader<'a> {
                     ScalarChannel::Irradiance => irradiance,
                     ScalarChannel::Diffuse => diffuse,
                     ScalarChannel::Specular => specular,
-                    ScalarChannel::Light(light) => self.irradiance_from(kind, &point, at, light),
+                    ScalarChannel::Light(light) => self.irradiance_from(token, &point, at, light),
                     ScalarChannel::Ambient => ambient,
-                    ScalarChannel::AmbientError => V::splat(kind, V::Element::default()),
+                    ScalarChannel::AmbientError => V::splat(token, V::Element::default()),
                     ScalarChannel::Depth => continue,
                 };
                 let overflow = match channel {
@@ -365,8 +365,8 @@ impl<'a> Shader<'a> {
     /// E and Σ E_j (N·H_j)ⁿ at a vector of pixels: blocks of lights are summed plainly, the blocks' sums with
     /// compensation. (What is not chosen would add zeros.)
     #[inline(always)]
-    fn sum<V: Lane, L: Lobe<V>>(&self, kind: V::Kind, point: &SurfacePoint<V>, at: usize, lobe: &L) -> (V, V) {
-        let zero = point.cos_theta_o.constant(0.0);
+    fn sum<V: Lane, L: Lobe<V>>(&self, token: V::Token, point: &SurfacePoint<V>, at: usize, lobe: &L) -> (V, V) {
+        let zero = point.cos_theta_o.splat_like(0.0);
         let (mut irradiance, mut lobes) = (Sum::starting_at(zero), Sum::starting_at(zero));
         let (mut of_block, mut lobes_of_block) = (zero, zero);
         let mut block = 0;
@@ -380,12 +380,12 @@ impl<'a> Shader<'a> {
             }
             let placed = self.lights[*light].map(
                 #[inline(always)]
-                |number| V::splat(kind, V::Element::from_f64(number)),
+                |number| V::splat(token, V::Element::from_f64(number)),
             );
-            let visible = V::load_doubles(kind, &self.visible[index * stride + at..]);
+            let visible = V::load_doubles(token, &self.visible[index * stride + at..]);
             let term = light_term(point, &placed, visible, lobe);
             of_block = of_block + term.irradiance;
-            lobes_of_block = term.irradiance.times_plus(term.lobe, lobes_of_block);
+            lobes_of_block = term.irradiance.mul_add(term.lobe, lobes_of_block);
         }
         irradiance.add(of_block);
         lobes.add(lobes_of_block);
@@ -394,15 +394,15 @@ impl<'a> Shader<'a> {
 
     /// E_j of one light of the scene.
     #[inline(always)]
-    fn irradiance_from<V: Lane>(&self, kind: V::Kind, point: &SurfacePoint<V>, at: usize, light: usize) -> V {
-        let zero = point.cos_theta_o.constant(0.0);
+    fn irradiance_from<V: Lane>(&self, token: V::Token, point: &SurfacePoint<V>, at: usize, light: usize) -> V {
+        let zero = point.cos_theta_o.splat_like(0.0);
         let stride = self.places.count.next_multiple_of(16);
         let Some(index) = self.chosen.iter().position(|chosen| self.order[*chosen] == light) else { return zero };
         let placed = self.lights[self.chosen[index]].map(
             #[inline(always)]
-            |number| V::splat(kind, V::Element::from_f64(number)),
+            |number| V::splat(token, V::Element::from_f64(number)),
         );
-        let visible = V::load_doubles(kind, &self.visible[index * stride + at..]);
+        let visible = V::load_doubles(token, &self.visible[index * stride + at..]);
         light_term(point, &placed, visible, &NoPower).irradiance
     }
 

@@ -39,7 +39,7 @@ impl Shadows {
     #[inline(always)]
     pub fn find<S, D>(
         &mut self,
-        kind: S::Kind,
+        token: S::Token,
         scene: &PreparedScene,
         group: &mut Group<'_>,
         places: &Places,
@@ -48,12 +48,12 @@ impl Shadows {
     ) -> bool
     where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         let vectors = places.count.div_ceil(D::COUNT);
-        let Some([least, greatest]) = self.horizon::<D>(kind, places, vectors, light) else { return false };
-        self.search::<S, D>(kind, scene, group, places, light, [least, greatest], vectors);
-        let (zero, one) = (D::splat(kind, 0.0), D::splat(kind, 1.0));
+        let Some([least, greatest]) = self.horizon::<D>(token, places, vectors, light) else { return false };
+        self.search::<S, D>(token, scene, group, places, light, [least, greatest], vectors);
+        let (zero, one) = (D::splat(token, 0.0), D::splat(token, 1.0));
         for vector in 0..vectors {
             let at = vector * D::COUNT;
             let out = &mut visible[at..at + D::COUNT];
@@ -81,18 +81,18 @@ impl Shadows {
     #[inline(always)]
     fn horizon<D: Lane<Element = f64>>(
         &mut self,
-        kind: D::Kind,
+        token: D::Token,
         places: &Places,
         vectors: usize,
         light: Vector,
     ) -> Option<[Vector; 2]> {
-        let light = splat::<D>(kind, light);
-        let zero = D::splat(kind, 0.0);
-        let far = D::splat(kind, 2.0);
+        let light = splat::<D>(token, light);
+        let zero = D::splat(token, 0.0);
+        let far = D::splat(token, 2.0);
         let (mut x_range, mut y_range, mut z_range) = ([far, -far], [far, -far], [far, -far]);
         let mut any = 0;
         for vector in 0..vectors {
-            let normal = places.normal_at::<D>(kind, vector);
+            let normal = places.normal_at::<D>(token, vector);
             let is_lit = zero.is_less(normal.dot(light - normal));
             let lit = D::bits(is_lit);
             (self.lit[vector], self.blocked[vector], self.possible[vector]) = (lit, 0, 0);
@@ -114,7 +114,7 @@ impl Shadows {
     #[expect(clippy::too_many_arguments, reason = "none of them belongs to another")]
     fn search<S, D>(
         &mut self,
-        kind: S::Kind,
+        token: S::Token,
         scene: &PreparedScene,
         group: &mut Group<'_>,
         places: &Places,
@@ -123,7 +123,7 @@ impl Shadows {
         vectors: usize,
     ) where
         S: Lane<Element = f32>,
-        D: Lane<Element = f64, Kind = S::Kind>,
+        D: Lane<Element = f64, Token = S::Token>,
     {
         let Sphere { center, radius } = places.sphere;
         let middle = (least + greatest) * 0.5;
@@ -135,7 +135,7 @@ impl Shadows {
         let (reach, per_radius) = (half.length(), 1.0 / radius);
         let per_squared = 1.0 / axis.dot(axis);
         group.walk.start(tree);
-        while let Some(number) = group.walk.next::<S>(kind, tree, &tube, tube.depth_of(1.0)) {
+        while let Some(number) = group.walk.next::<S>(token, tree, &tube, tube.depth_of(1.0)) {
             let primitive = scene.primitive(number);
             if number == group.seen.primitive || !scene.scene().shapes()[primitive.shape].casts_shadow {
                 continue;
@@ -156,7 +156,7 @@ impl Shadows {
                 self.possible.fill(u32::MAX);
                 return;
             }
-            if self.block::<D>(kind, places, light, &blocker, vectors) {
+            if self.block::<D>(token, places, light, &blocker, vectors) {
                 return;
             }
         }
@@ -166,34 +166,34 @@ impl Shadows {
     #[inline(always)]
     fn block<D: Lane<Element = f64>>(
         &mut self,
-        kind: D::Kind,
+        token: D::Token,
         places: &Places,
         light: Vector,
         blocker: &Blocker,
         vectors: usize,
     ) -> bool {
-        let light = splat::<D>(kind, light);
-        let center = splat::<D>(kind, blocker.center);
+        let light = splat::<D>(token, light);
+        let center = splat::<D>(token, blocker.center);
         let squared = blocker.radius * blocker.radius;
-        let margin = D::splat(kind, DOUBTFUL * squared + ROUNDING * blocker.radius);
-        let squared = D::splat(kind, squared);
-        let (zero, rounding) = (D::splat(kind, 0.0), D::splat(kind, ROUNDING));
+        let margin = D::splat(token, DOUBTFUL * squared + ROUNDING * blocker.radius);
+        let squared = D::splat(token, squared);
+        let (zero, rounding) = (D::splat(token, 0.0), D::splat(token, ROUNDING));
         let mut rest = 0;
         for vector in 0..vectors {
             if self.lit[vector] & !self.blocked[vector] == 0 {
                 continue;
             }
-            let normal = places.normal_at::<D>(kind, vector);
+            let normal = places.normal_at::<D>(token, vector);
             let (to_light, to_blocker) = (light - normal, center - normal);
             let length = to_light.dot(to_light);
             let along = to_blocker.dot(to_light);
             let distance = to_blocker.dot(to_blocker);
-            let margin = rounding.times_plus(distance, margin);
+            let margin = rounding.mul_add(distance, margin);
             // The squared distance of the blocker's centre from the ray, times that of the light.
-            let across = (-along).times_plus(along, distance * length);
+            let across = (-along).mul_add(along, distance * length);
             let between = along.min(length - along);
-            let certain = (squared - margin).times_plus(length, -across).min(between);
-            let possible = (squared + margin).times_plus(length, -across).min(between);
+            let certain = (squared - margin).mul_add(length, -across).min(between);
+            let possible = (squared + margin).mul_add(length, -across).min(between);
             let touching = squared + margin - distance;
             self.blocked[vector] |= D::bits(zero.is_less(certain)) & !D::bits(zero.is_less(touching));
             self.possible[vector] |= D::bits(zero.is_less(possible.max(touching)));
@@ -204,10 +204,10 @@ impl Shadows {
 }
 
 #[inline(always)]
-fn splat<D: Lane<Element = f64>>(kind: D::Kind, vector: Vector) -> Vector<D> {
+fn splat<D: Lane<Element = f64>>(token: D::Token, vector: Vector) -> Vector<D> {
     vector.map(
         #[inline(always)]
-        |x| D::splat(kind, x),
+        |x| D::splat(token, x),
     )
 }
 

@@ -5,18 +5,18 @@ use crate::color::{ColorSpace, Component, Lighting, Rgb, SceneColor};
 use crate::scene::document::Path;
 use crate::scene::read::Problems;
 use crate::scene::source::{Amount, SceneSource};
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// Which one number an amount of three becomes.
 #[derive(Clone, Copy)]
-pub(super) enum Collapse {
+pub(super) enum ComponentSelector {
     /// Its luminance (3.10), for listings.
     Luminance(ColorSpace),
     /// What it has of a component.
     Component(Component),
 }
 
-impl Collapse {
+impl ComponentSelector {
     pub(super) fn one(self, amount: Amount) -> f64 {
         match (amount, self) {
             (Amount::Number(number), _) => number,
@@ -48,11 +48,11 @@ impl Validator {
 
     fn lighting(&self, source: &SceneSource, component: Component) -> Lighting {
         let mut validator = Self {
-            kept: super::files::Kept::default(),
+            kept: super::files::GeometryCache::default(),
             length: self.length,
             convention: self.convention,
             shadows: self.shadows,
-            collapse: Collapse::Component(component),
+            collapse: ComponentSelector::Component(component),
             directory: self.directory.clone(),
             materials: Vec::new(),
             problems: Problems::default(),

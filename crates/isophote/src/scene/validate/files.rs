@@ -3,7 +3,7 @@
 use std::path::Path as FilePath;
 use std::sync::Arc;
 
-use super::shapes::{Written, written_head};
+use super::shapes::{ShapeSource, shape_head};
 use super::{Validator, limits};
 use crate::import::{self, ImportError, MaterialSlots, TriangleMesh};
 use crate::reflectance::Convention;
@@ -14,8 +14,8 @@ use crate::scene::source::{MeshSource, RotationSource, SceneSource, ShadowSource
 use crate::shape::{Geometry, Mesh, MeshData, MeshPlacing, Sphere, Spheres};
 use crate::vector::Vector;
 
-impl Written for MeshSource {
-    written_head!();
+impl ShapeSource for MeshSource {
+    shape_head!();
 
     fn is_from_file(&self) -> bool {
         true
@@ -52,8 +52,8 @@ impl Written for MeshSource {
     }
 }
 
-impl Written for SpheresSource {
-    written_head!();
+impl ShapeSource for SpheresSource {
+    shape_head!();
 
     fn is_from_file(&self) -> bool {
         true
@@ -89,7 +89,7 @@ impl Written for SpheresSource {
 
 /// Shapes that an earlier scene has read from files, with what was written of them.
 #[derive(Default)]
-pub(super) struct Kept {
+pub(super) struct GeometryCache {
     meshes: Vec<(MeshForm, Geometry)>,
     clouds: Vec<(CloudForm, Geometry)>,
 }
@@ -131,7 +131,7 @@ impl CloudForm {
     }
 }
 
-impl Kept {
+impl GeometryCache {
     /// Those that would be read alike in another scene.
     pub(super) fn of(earlier: &Scene, source: &SceneSource) -> Self {
         let before = &earlier.source;

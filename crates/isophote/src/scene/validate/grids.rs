@@ -1,6 +1,6 @@
 //! Grids, each for itself.
 
-use super::things::Names;
+use super::names::Names;
 use super::{Checked, Validator, limits};
 use crate::map::Resolution;
 use crate::scene::Grid;

@@ -1,11 +1,11 @@
 //! Lights, each for itself.
 
-use super::things::Names;
+use super::names::Names;
 use super::{Checked, Validator, limits};
 use crate::light::{Ambient, Emission, Light, LightKind, ParallelLight, PointLight, Spot};
 use crate::scene::document::Path;
 use crate::scene::source::{EmissionName, LightSource, SceneSource};
-use crate::units::Choice;
+use crate::units::Keyword;
 use crate::vector::Vector;
 
 impl Validator {

@@ -5,16 +5,18 @@ mod color;
 mod files;
 mod grids;
 mod lights;
+mod materials;
+mod names;
 mod numbers;
 mod places;
+mod probes;
 mod projection;
 mod shapes;
-mod things;
 
 use std::collections::HashSet;
 use std::path::PathBuf;
 
-use self::color::Collapse;
+use self::color::ComponentSelector;
 use super::document::Path;
 use super::error::{Problem, ProblemKind};
 use super::read::{Problems, short};
@@ -23,7 +25,7 @@ use super::{Scene, Shape};
 use crate::camera::{Camera, Extent, Projection};
 use crate::reflectance::Convention;
 use crate::render::Sampling;
-use crate::units::{LengthUnit, Quantities, ScreenUnit};
+use crate::units::{LengthUnit, ScreenUnit, UnitSystem};
 
 /// What a scene may hold. The bounds on numbers keep every formula far from overflow.
 pub mod limits {
@@ -46,7 +48,7 @@ pub mod limits {
     /// The largest intensity, power, irradiance and radiance.
     pub const INTENSITY: f64 = 1e30;
     /// How many sizes of a shape the eye may be away before a warning says that the promised digits are not kept.
-    pub const REMOTENESS: f64 = 1e9;
+    pub const RELATIVE_DISTANCE: f64 = 1e9;
     /// Rays for a pixel, and directions in which ambient light is looked for.
     pub const SAMPLES: u32 = 4096;
     /// The allowed error of a pixel, as a part of the largest brightness.
@@ -62,11 +64,11 @@ pub(super) fn validate(
     earlier: Option<&Scene>,
 ) -> Result<Scene, Vec<Problem>> {
     let mut validator = Validator {
-        kept: earlier.map(|earlier| files::Kept::of(earlier, &source)).unwrap_or_default(),
+        kept: earlier.map(|earlier| files::GeometryCache::of(earlier, &source)).unwrap_or_default(),
         length: source.length.unwrap_or(LengthUnit::Metre),
         convention: source.convention.unwrap_or(Convention::Radiance),
         shadows: source.shadows.unwrap_or(false),
-        collapse: Collapse::Luminance(source.color_space.unwrap_or_default()),
+        collapse: ComponentSelector::Luminance(source.color_space.unwrap_or_default()),
         directory: source.directory.clone(),
         materials: source.material.keys().cloned().collect(),
         problems,
@@ -94,7 +96,7 @@ pub(super) fn validate(
             convention,
             sampling,
             shadows,
-            quantities: source.quantities.unwrap_or(Quantities::Radiometric),
+            unit_system: source.quantities.unwrap_or(UnitSystem::Radiometric),
             camera,
             materials: materials.into_iter().flatten().collect(),
             shapes: shapes.into_iter().flatten().collect(),
@@ -118,13 +120,13 @@ struct Validator {
     convention: Convention,
     shadows: bool,
     /// Which one number three become.
-    collapse: Collapse,
+    collapse: ComponentSelector,
     /// Where relative paths start.
     directory: PathBuf,
     /// The names of the materials, in their order.
     materials: Vec<String>,
     /// What need not be read again.
-    kept: files::Kept,
+    kept: files::GeometryCache,
     problems: Problems,
     warnings: Problems,
 }
@@ -243,7 +245,7 @@ impl Validator {
     }
 
     fn unit(&self) -> &'static str {
-        crate::units::Choice::name(self.length)
+        crate::units::Keyword::name(self.length)
     }
 
     fn length_text(&self, metres: f64) -> String {

@@ -19,7 +19,7 @@ impl Validator {
                 let path = Path::root().key("camera").key("eye");
                 self.wrong(&path, message, "allowed: outside or inside a shape, not on its surface");
             }
-            if shape.geometry.remoteness(camera.eye) > limits::REMOTENESS {
+            if shape.geometry.relative_distance(camera.eye) > limits::RELATIVE_DISTANCE {
                 let message = format!("\"{}\" is too far from the eye for the promised digits", shape.name);
                 let path = Path::root().key("camera").key("eye");
                 self.warn(&path, message, "they are kept up to a billion times the shape's size");

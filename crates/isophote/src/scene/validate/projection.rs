@@ -5,7 +5,7 @@ use crate::camera::{Extent, Fisheye, Mapping, Projection, Screen};
 use crate::map::Resolution;
 use crate::scene::document::Path;
 use crate::scene::source::{CameraSource, ProjectionName, ScreenSource, WindowSource};
-use crate::units::Choice;
+use crate::units::Keyword;
 
 /// The fields of view of a perspective camera, in degrees: beyond, the screen is a point or has no end.
 const PERSPECTIVE: std::ops::RangeInclusive<f64> = 1e-6..=179.9999;

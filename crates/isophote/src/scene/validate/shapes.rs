@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use super::names::Names;
 use super::numbers::vector_text;
-use super::things::Names;
 use super::{Checked, Validator, limits};
 use crate::scene::Shape;
 use crate::scene::document::Path;
@@ -19,7 +19,7 @@ pub(super) const KINDS: [&str; 10] =
     ["sphere", "ellipsoid", "box", "cylinder", "cone", "plane", "rectangle", "disk", "mesh", "spheres"];
 
 /// A shape as it is written, of any kind.
-pub(super) trait Written {
+pub(super) trait ShapeSource {
     /// Its name, its material's, and what it has to do with shadows.
     fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource);
 
@@ -32,21 +32,24 @@ pub(super) trait Written {
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry>;
 }
 
-/// [`Written::head`], of the fields that all have.
-macro_rules! written_head {
+/// [`ShapeSource::head`], of the fields that all have.
+macro_rules! shape_head {
     () => {
         fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
             (self.name.as_deref(), self.material.as_deref(), self.shadow)
         }
     };
 }
-pub(super) use written_head;
+pub(super) use shape_head;
 
 /// All shapes that are written, with their paths.
-fn written(source: &SceneSource) -> impl Iterator<Item = (Path, &dyn Written)> {
-    fn of_kind<'s, S: Written + 's>(kind: &str, shapes: &'s [S]) -> impl Iterator<Item = (Path, &'s dyn Written)> {
+fn written(source: &SceneSource) -> impl Iterator<Item = (Path, &dyn ShapeSource)> {
+    fn of_kind<'s, S: ShapeSource + 's>(
+        kind: &str,
+        shapes: &'s [S],
+    ) -> impl Iterator<Item = (Path, &'s dyn ShapeSource)> {
         let table = Path::root().key(kind);
-        shapes.iter().enumerate().map(move |(index, shape)| (table.index(index), shape as &dyn Written))
+        shapes.iter().enumerate().map(move |(index, shape)| (table.index(index), shape as &dyn ShapeSource))
     }
     let [sphere, ellipsoid, cuboid, cylinder, cone, plane, rectangle, disk, mesh, spheres] = KINDS;
     of_kind(sphere, &source.sphere)
@@ -80,7 +83,7 @@ impl Validator {
         }
         let mut names = Names::new("shape");
         let known: Vec<&str> = source.material.keys().map(String::as_str).collect();
-        let check = |(path, shape): (Path, &dyn Written)| {
+        let check = |(path, shape): (Path, &dyn ShapeSource)| {
             let (name, material, shadow) = shape.head();
             let name = names.check(self, &path, name);
             let geometry = shape.geometry(self, &path);
@@ -134,8 +137,8 @@ impl Validator {
     }
 }
 
-impl Written for SphereSource {
-    written_head!();
+impl ShapeSource for SphereSource {
+    shape_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
@@ -144,8 +147,8 @@ impl Written for SphereSource {
     }
 }
 
-impl Written for EllipsoidSource {
-    written_head!();
+impl ShapeSource for EllipsoidSource {
+    shape_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
@@ -155,8 +158,8 @@ impl Written for EllipsoidSource {
     }
 }
 
-impl Written for CuboidSource {
-    written_head!();
+impl ShapeSource for CuboidSource {
+    shape_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
@@ -166,8 +169,8 @@ impl Written for CuboidSource {
     }
 }
 
-impl Written for CylinderSource {
-    written_head!();
+impl ShapeSource for CylinderSource {
+    shape_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let ends = validator.ends(path, ["from", "to"], [self.from, self.to]);
@@ -177,8 +180,8 @@ impl Written for CylinderSource {
     }
 }
 
-impl Written for ConeSource {
-    written_head!();
+impl ShapeSource for ConeSource {
+    shape_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let ends = validator.ends(path, ["base", "apex"], [self.base, self.apex]);
@@ -197,8 +200,8 @@ impl Written for ConeSource {
     }
 }
 
-impl Written for PlaneSource {
-    written_head!();
+impl ShapeSource for PlaneSource {
+    shape_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let point = validator.required_point(path, "point", self.point);
@@ -207,8 +210,8 @@ impl Written for PlaneSource {
     }
 }
 
-impl Written for RectangleSource {
-    written_head!();
+impl ShapeSource for RectangleSource {
+    shape_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
@@ -220,8 +223,8 @@ impl Written for RectangleSource {
     }
 }
 
-impl Written for DiskSource {
-    written_head!();
+impl ShapeSource for DiskSource {
+    shape_head!();
 
     fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);

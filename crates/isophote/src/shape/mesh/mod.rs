@@ -5,7 +5,7 @@ mod build;
 mod tests;
 mod triangle;
 
-use super::{Accuracy, Bounds, Measure, Meeting, NearestPoint, Ray};
+use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, Ray};
 use crate::import::CornerNormals;
 use crate::real::Scalar;
 use crate::vector::Vector;
@@ -30,8 +30,8 @@ pub struct Mesh {
 
 impl Mesh {
     /// How a ray meets one of its triangles; see `Triangle::meet`.
-    pub fn meet<T: Scalar>(&self, part: u32, ray: &Ray<T>, accuracy: Accuracy) -> Meeting<T> {
-        self.triangle(part).meet(ray, accuracy, self.size())
+    pub fn intersect<T: Scalar>(&self, part: u32, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
+        self.triangle(part).intersect(ray, accuracy, self.size())
     }
 
     fn triangle(&self, part: u32) -> Triangle {
@@ -98,7 +98,7 @@ impl Mesh {
 
     /// How far away a point is, in sizes.
     #[must_use]
-    pub fn remoteness(&self, point: Vector) -> f64 {
+    pub fn relative_distance(&self, point: Vector) -> f64 {
         let middle = self.bounds.least * 0.5 + self.bounds.greatest * 0.5;
         (point - middle).length() / self.size()
     }

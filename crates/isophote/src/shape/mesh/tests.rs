@@ -7,7 +7,7 @@ use crate::conformance::conforms;
 use crate::import::CornerNormals;
 use crate::map::Quantity;
 use crate::prepare::PreparedScene;
-use crate::render::{Reference, RenderSettings, Renderer};
+use crate::render::{ReferenceRenderer, RenderSettings, Renderer};
 use crate::scene::{Scene, Syntax};
 use crate::shape::{Geometry, Rotation};
 use crate::tolerance::DOUBLE;
@@ -67,14 +67,15 @@ const GROUND: &str = r#"plane = [{ point = [0, -1.1, 0], normal = [0, 1, 0], mat
 fn meshes_are_rendered_within_tolerance() {
     for is_smooth in [false, true] {
         let scene = scene(ball(is_smooth), true, GROUND);
-        let deviation = conforms(&Reference, &scene, &DOUBLE).unwrap_or_else(|error| panic!("{is_smooth}: {error}"));
+        let deviation =
+            conforms(&ReferenceRenderer, &scene, &DOUBLE).unwrap_or_else(|error| panic!("{is_smooth}: {error}"));
         assert!(deviation.visible > 700, "{deviation:?}");
     }
 }
 
 fn irradiance(scene: &PreparedScene) -> Vec<f64> {
     let settings = RenderSettings { quantities: vec![Quantity::Irradiance], ..RenderSettings::default() };
-    let map = Reference.render(scene, &settings).expect("it renders");
+    let map = ReferenceRenderer.render(scene, &settings).expect("it renders");
     let values = map.scalar(&Quantity::Irradiance).expect("it was asked for");
     (0..map.region.size.pixels()).map(|index| values.at(index)).collect()
 }

@@ -1,7 +1,7 @@
 //! One triangle of a mesh (2.5).
 
 use crate::real::Scalar;
-use crate::shape::{Accuracy, Intersection, Meeting, NearestPoint, PLACE_ERROR, Ray, SurfacePoint};
+use crate::shape::{Accuracy, Intersection, NearestPoint, PLACE_ERROR, Ray, ShapeHit, SurfacePoint};
 use crate::vector::Vector;
 
 /// Three corners and, for smooth shading, a normal at each.
@@ -30,10 +30,10 @@ impl Triangle {
     /// What an edge says depends on nothing but its two corners and the ray, and the neighbour that shares it computes the
     /// same number with the other sign: with ties counting as hits, a ray cannot slip between the two (Woop, Benthin and
     /// Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013).
-    pub fn meet<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy, mesh_size: f64) -> Meeting<T> {
+    pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy, mesh_size: f64) -> Intersection<T> {
         let (crossing, doubtful_from) = self.cross(ray);
         let Some(crossing) = crossing else {
-            return Meeting { hit: None, doubtful_from: doubtful_from.map(T::from_f64) };
+            return Intersection { hit: None, doubtful_from: doubtful_from.map(T::from_f64) };
         };
         let sides = self.sides::<T>();
         let weights = crossing.weights;
@@ -43,13 +43,13 @@ impl Triangle {
         let is_back = T::zero().is_less(face.dot(ray.direction));
         let longest = sides[0].length().rounded().max(sides[1].length().rounded());
         let mut normal_error = 3.0 * f64::EPSILON * longest * longest / across.length().rounded();
-        let (normal, lift) = match self.normals {
+        let (normal, shadow_ray_offset) = match self.normals {
             None => (if is_back { -face } else { face }, Vector::zero()),
             Some(normals) => {
                 let spread = (normals[1] - normals[0]).length().max((normals[2] - normals[0]).length());
                 normal_error = normal_error.min(4.0 * f64::EPSILON) + crossing.error * spread;
                 let smooth = self.smooth(face, &weights, is_back);
-                (smooth.normal, self.lift(&smooth, &weights, offset))
+                (smooth.normal, self.shadow_ray_offset(&smooth, &weights, offset))
             }
         };
         let cos_theta_o = -normal.dot(ray.direction);
@@ -58,8 +58,8 @@ impl Triangle {
         let is_inexact = accuracy.is_exceeded_by(place_error, normal_error) || faces_away_by_rounding;
         let point = SurfacePoint { anchor: self.corners[0], offset, normal, view: -ray.direction, cos_theta_o };
         let doubtful_from = doubtful_from.map(T::from_f64).or(is_inexact.then_some(crossing.distance));
-        let hit = Intersection { distance: crossing.distance, point, from_inside: false, lift };
-        Meeting { hit: Some(hit), doubtful_from }
+        let hit = ShapeHit { distance: crossing.distance, point, from_inside: false, shadow_ray_offset };
+        Intersection { hit: Some(hit), doubtful_from }
     }
 
     /// Where the ray crosses the triangle, and from where on that is doubtful.
@@ -127,14 +127,14 @@ impl Triangle {
     /// The way out of the triangle up to the smooth surface that its normals pretend: above the tangent planes of all
     /// three corners. Shadow rays start there, or the triangles themselves would show at the terminator (Hanika, "Hacking
     /// the shadow terminator", Ray Tracing Gems II, 2021).
-    fn lift<T: Scalar>(&self, smooth: &Smooth<T>, weights: &[T; 3], offset: Vector<T>) -> Vector<T> {
+    fn shadow_ray_offset<T: Scalar>(&self, smooth: &Smooth<T>, weights: &[T; 3], offset: Vector<T>) -> Vector<T> {
         let [second, third] = self.sides();
-        let mut lift = Vector::zero();
+        let mut shadow_ray_offset = Vector::zero();
         for ((corner, normal), weight) in [Vector::zero(), second, third].into_iter().zip(smooth.corners).zip(weights) {
             let below = (-(offset - corner).dot(normal)).max(T::zero());
-            lift = lift + normal * (below * *weight);
+            shadow_ray_offset = shadow_ray_offset + normal * (below * *weight);
         }
-        lift
+        shadow_ray_offset
     }
 
     /// The distance of a point.
@@ -149,13 +149,21 @@ impl Triangle {
         let [second, third] = self.sides::<f64>();
         let face = second.cross(third).normalized();
         let [front, back] = [false, true].map(|is_back| self.smooth(face, &weights, is_back));
-        let [lift, lift_behind] = if self.normals.is_some() {
-            [&front, &back].map(|smooth| self.lift(smooth, &weights, offset))
+        let [shadow_ray_offset, shadow_ray_offset_behind] = if self.normals.is_some() {
+            [&front, &back].map(|smooth| self.shadow_ray_offset(smooth, &weights, offset))
         } else {
             [Vector::default(); 2]
         };
         let outward_normal = front.normal;
-        NearestPoint { part: 0, anchor: self.corners[0], offset, outward_normal, face_normal: face, lift, lift_behind }
+        NearestPoint {
+            part: 0,
+            anchor: self.corners[0],
+            offset,
+            outward_normal,
+            face_normal: face,
+            shadow_ray_offset,
+            shadow_ray_offset_behind,
+        }
     }
 
     /// The weights of the nearest point and its place, from the first corner: by the region in which the point lies

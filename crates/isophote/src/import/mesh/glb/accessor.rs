@@ -5,7 +5,7 @@ use super::{
     follow,
 };
 use crate::import::{
-    Fault, Place, Problem,
+    Fault, FilePosition, FileProblem,
     text::{finite, shown},
 };
 
@@ -19,7 +19,7 @@ impl Buffers<'_> {
     /// Positions or normals: three numbers of single precision each, all finite.
     pub fn vectors(&self, index: usize) -> Result<Vec<[f64; 3]>, Fault> {
         let (accessor, place) = self.accessor(index)?;
-        let at = |problem: Problem| problem.at(Place::Json(place.clone()));
+        let at = |problem: FileProblem| problem.at(FilePosition::Json(place.clone()));
         check_kind(accessor, "VEC3", &[FLOAT]).map_err(at)?;
         let rows = self.rows(accessor, 12, &place)?;
         let mut vectors = Vec::with_capacity(rows.len());
@@ -27,7 +27,7 @@ impl Buffers<'_> {
             let component = |first: usize, field| {
                 let bytes = row[first..first + 4].try_into().expect("four bytes");
                 let value = finite(f32::from_le_bytes(bytes).into(), field);
-                value.map_err(|problem| problem.at(Place::Json(format!("{place}, vector {number}"))))
+                value.map_err(|problem| problem.at(FilePosition::Json(format!("{place}, vector {number}"))))
             };
             vectors.push([component(0, "x")?, component(4, "y")?, component(8, "z")?]);
         }
@@ -38,7 +38,7 @@ impl Buffers<'_> {
     pub fn indices(&self, index: usize, vertices: usize) -> Result<Vec<usize>, Fault> {
         let (accessor, place) = self.accessor(index)?;
         let allowed = [UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT];
-        check_kind(accessor, "SCALAR", &allowed).map_err(|problem| problem.at(Place::Json(place.clone())))?;
+        check_kind(accessor, "SCALAR", &allowed).map_err(|problem| problem.at(FilePosition::Json(place.clone())))?;
         let size = match accessor.component_type {
             UNSIGNED_BYTE => 1,
             UNSIGNED_SHORT => 2,
@@ -50,8 +50,8 @@ impl Buffers<'_> {
             let index = row.iter().rev().fold(0_u32, |index, byte| (index << 8) | u32::from(*byte));
             if index as usize >= vertices {
                 let (field, index, count) = ("a vertex index", index.into(), vertices as u64);
-                let place = Place::Json(format!("{place}, number {number}"));
-                return Err(Problem::Index { field, index, first: 0, count, backwards: 0 }.at(place));
+                let place = FilePosition::Json(format!("{place}, number {number}"));
+                return Err(FileProblem::Index { field, index, first: 0, count, backwards: 0 }.at(place));
             }
             indices.push(index as usize);
         }
@@ -70,16 +70,16 @@ impl Buffers<'_> {
         size: usize,
         place: &str,
     ) -> Result<impl ExactSizeIterator<Item = &[u8]>, Fault> {
-        let at = |problem: Problem| problem.at(Place::Json(place.into()));
+        let at = |problem: FileProblem| problem.at(FilePosition::Json(place.into()));
         let Some(view) = accessor.buffer_view.filter(|_| accessor.sparse.is_none()) else {
             let (what, instead) = ("sparse numbers".into(), "export without sparse accessors");
-            return Err(at(Problem::Unsupported { what, instead }));
+            return Err(at(FileProblem::Unsupported { what, instead }));
         };
         let view = follow(&self.document.buffer_views, view, place, "bufferView")?;
         let buffer = follow(&self.document.buffers, view.buffer, place, "buffer")?;
         if view.buffer != 0 || buffer.uri.is_some() {
             let (what, instead) = ("a buffer outside of the file".into(), "export all into one .glb");
-            return Err(at(Problem::Unsupported { what, instead }));
+            return Err(at(FileProblem::Unsupported { what, instead }));
         }
         let buffer = within(self.binary, 0, buffer.byte_length.into(), "the buffer").map_err(at)?;
         let view_bytes = within(buffer, view.byte_offset, view.byte_length.into(), "the view").map_err(at)?;
@@ -87,7 +87,7 @@ impl Buffers<'_> {
         let allowed = size as u64..=252;
         if !allowed.contains(&stride) {
             let (what, allowed) = ("byteStride".into(), format!("{size} to 252"));
-            return Err(at(Problem::Unexpected { what, found: stride.to_string(), allowed }));
+            return Err(at(FileProblem::Unexpected { what, found: stride.to_string(), allowed }));
         }
         // After the last element no gap is needed.
         let needed = match accessor.count {
@@ -105,22 +105,22 @@ const UNSIGNED_SHORT: u64 = 5123;
 const UNSIGNED_INT: u64 = 5125;
 const FLOAT: u64 = 5126;
 
-fn check_kind(accessor: &Accessor, kind: &str, components: &[u64]) -> Result<(), Problem> {
+fn check_kind(accessor: &Accessor, kind: &str, components: &[u64]) -> Result<(), FileProblem> {
     if accessor.kind == kind && components.contains(&accessor.component_type) {
         return Ok(());
     }
     let components: Vec<String> = components.iter().map(u64::to_string).collect();
-    Err(Problem::Unexpected {
+    Err(FileProblem::Unexpected {
         what: "the kind of its elements".into(),
         found: format!("{} of {}", shown(accessor.kind.as_bytes()), accessor.component_type),
         allowed: format!("{kind} of component type {}", components.join(", ")),
     })
 }
 
-fn within<'a>(bytes: &'a [u8], offset: u64, length: u128, what: &str) -> Result<&'a [u8], Problem> {
+fn within<'a>(bytes: &'a [u8], offset: u64, length: u128, what: &str) -> Result<&'a [u8], FileProblem> {
     let left = (bytes.len() as u64).saturating_sub(offset);
     let start = usize::try_from(offset).ok().filter(|start| *start <= bytes.len());
     let end = start.and_then(|start| start.checked_add(usize::try_from(length).ok()?));
     let found = start.zip(end).and_then(|(start, end)| bytes.get(start..end));
-    found.ok_or_else(|| Problem::Truncated { what: what.into(), needed: length, left })
+    found.ok_or_else(|| FileProblem::Truncated { what: what.into(), needed: length, left })
 }

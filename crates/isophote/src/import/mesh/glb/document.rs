@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::{follow, transform::Transform};
-use crate::import::{Fault, Place, Problem, text::shown};
+use crate::import::{Fault, FilePosition, FileProblem, text::shown};
 
 /// The root of the JSON. Keys that are not here say nothing about shape.
 #[derive(Debug, Deserialize)]
@@ -121,14 +121,15 @@ impl Document {
     pub fn parse(json: &[u8]) -> Result<Self, Fault> {
         serde_json::from_slice(json).map_err(|error| {
             let (what, allowed) = ("the JSON chunk".into(), "a document of glTF 2.0".into());
-            Problem::Unexpected { what, found: error.to_string(), allowed }.at(Place::Json("JSON".into()))
+            FileProblem::Unexpected { what, found: error.to_string(), allowed }.at(FilePosition::Json("JSON".into()))
         })
     }
 
     /// Whether the shape is what its numbers say: nothing of it is compressed, and no pose or morph changes it.
     pub fn check_supported(&self) -> Result<(), Fault> {
-        let unsupported =
-            |place: String, what: String, instead| Err(Problem::Unsupported { what, instead }.at(Place::Json(place)));
+        let unsupported = |place: String, what: String, instead| {
+            Err(FileProblem::Unsupported { what, instead }.at(FilePosition::Json(place)))
+        };
         if !self.asset.version.starts_with("2.") {
             let what = format!("version {}", shown(self.asset.version.as_bytes()));
             return unsupported("asset".into(), what, "export glTF 2.0");
@@ -170,9 +171,11 @@ impl Document {
             let node = follow(&self.nodes, index, "a scene or node", "a node")?;
             if std::mem::replace(&mut is_placed[index], true) {
                 let (what, allowed) = ("the node's parents".into(), "one parent, and no circle".into());
-                return Err(Problem::Unexpected { what, found: "two".into(), allowed }.at(Place::Json(place)));
+                return Err(
+                    FileProblem::Unexpected { what, found: "two".into(), allowed }.at(FilePosition::Json(place))
+                );
             }
-            let transform = Transform::of(node).map_err(|problem| problem.at(Place::Json(place)))?;
+            let transform = Transform::of(node).map_err(|problem| problem.at(FilePosition::Json(place)))?;
             let transform = parent.after(&transform);
             placed.push((index, transform));
             waiting.extend(below(&node.children, transform));

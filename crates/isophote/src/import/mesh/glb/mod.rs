@@ -12,11 +12,11 @@ use transform::Transform;
 
 use self::accessor::Buffers;
 use super::{MeshBuilder, TriangleMesh};
-use crate::import::{Fault, Place, Problem};
+use crate::import::{Fault, FilePosition, FileProblem};
 
 /// The mesh of a glTF binary file.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
-    let (json, binary) = chunks(bytes).map_err(|problem| problem.at(Place::Header))?;
+    let (json, binary) = chunks(bytes).map_err(|problem| problem.at(FilePosition::Header))?;
     let document = Document::parse(json)?;
     document.check_supported()?;
     let buffers = Buffers { document: &document, binary };
@@ -30,17 +30,20 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
 }
 
 /// The JSON and the binary chunk; others mean nothing.
-fn chunks(bytes: &[u8]) -> Result<(&[u8], &[u8]), Problem> {
+fn chunks(bytes: &[u8]) -> Result<(&[u8], &[u8]), FileProblem> {
     let word = |at: usize| bytes.get(at..at + 4).map(|word| u32::from_le_bytes(word.try_into().expect("four bytes")));
     let left = bytes.len() as u64;
-    let truncated = |what: &str, needed: u128| Problem::Truncated { what: what.into(), needed, left };
+    let truncated = |what: &str, needed: u128| FileProblem::Truncated { what: what.into(), needed, left };
     let (Some(version), Some(length)) = (word(4), word(8)) else { return Err(truncated("magic, version, length", 12)) };
     if version != 2 {
         let (what, allowed) = ("the version of glTF".into(), "2".into());
-        return Err(Problem::Unexpected { what, found: version.to_string(), allowed });
+        return Err(FileProblem::Unexpected { what, found: version.to_string(), allowed });
     }
     if u64::from(length) < left {
-        return Err(Problem::Leftover { what: format!("{length} announced bytes"), left: left - u64::from(length) });
+        return Err(FileProblem::Leftover {
+            what: format!("{length} announced bytes"),
+            left: left - u64::from(length),
+        });
     }
     let (mut json, mut binary) = (None, None);
     let mut at = 12;
@@ -61,7 +64,7 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], &[u8]), Problem> {
     if u64::from(length) > left {
         return Err(truncated("the announced contents", length.into()));
     }
-    let json = json.ok_or(Problem::Missing { what: "the JSON chunk".into(), needed: "it describes the scene" })?;
+    let json = json.ok_or(FileProblem::Missing { what: "the JSON chunk".into(), needed: "it describes the scene" })?;
     Ok((json, binary.unwrap_or_default()))
 }
 
@@ -85,8 +88,8 @@ fn check_corners(document: &Document, nodes: &[(usize, Transform)], bytes: u64) 
         let mesh = document.nodes[*index].mesh.and_then(|mesh| of_meshes.get(mesh));
         all = all.saturating_add(mesh.copied().unwrap_or(0));
         if all > MOST_CORNERS {
-            let problem = Problem::TooMany { what: "corners, with all repetitions", most: MOST_CORNERS };
-            return Err(problem.at(Place::Json(format!("nodes[{index}]"))));
+            let problem = FileProblem::TooMany { what: "corners, with all repetitions", most: MOST_CORNERS };
+            return Err(problem.at(FilePosition::Json(format!("nodes[{index}]"))));
         }
     }
     Ok(())
@@ -102,7 +105,7 @@ impl Reader<'_> {
     fn node(&mut self, index: usize, transform: &Transform) -> Result<(), Fault> {
         let Node { mesh: Some(mesh), .. } = &self.document.nodes[index] else { return Ok(()) };
         let place = format!("nodes[{index}]");
-        transform.check().map_err(|problem| problem.at(Place::Json(place.clone())))?;
+        transform.check().map_err(|problem| problem.at(FilePosition::Json(place.clone())))?;
         let primitives = &follow(&self.document.meshes, *mesh, &place, "mesh")?.primitives;
         for (number, primitive) in primitives.iter().enumerate() {
             self.primitive(primitive, transform, &format!("meshes[{mesh}].primitives[{number}]"))?;
@@ -111,16 +114,16 @@ impl Reader<'_> {
     }
 
     fn primitive(&mut self, primitive: &Primitive, transform: &Transform, place: &str) -> Result<(), Fault> {
-        let at = |problem: Problem| problem.at(Place::Json(place.into()));
+        let at = |problem: FileProblem| problem.at(FilePosition::Json(place.into()));
         let Some(mode) = Mode::of(primitive.mode).map_err(at)? else { return Ok(()) };
         let Some(position) = primitive.attributes.position else {
-            return Err(at(Problem::Missing { what: "POSITION".into(), needed: "a surface needs vertices" }));
+            return Err(at(FileProblem::Missing { what: "POSITION".into(), needed: "a surface needs vertices" }));
         };
         let positions = self.buffers.vectors(position)?;
         let normals = primitive.attributes.normal.map(|normal| self.buffers.vectors(normal)).transpose()?;
         if let Some(normals) = normals.as_ref().filter(|normals| normals.len() != positions.len()) {
             let allowed = format!("POSITION has {}", positions.len());
-            return Err(at(Problem::Parts { what: "NORMAL".into(), found: normals.len() as u64, allowed }));
+            return Err(at(FileProblem::Parts { what: "NORMAL".into(), found: normals.len() as u64, allowed }));
         }
         let indices = match primitive.indices {
             Some(indices) => self.buffers.indices(indices, positions.len())?,
@@ -151,20 +154,24 @@ enum Mode {
 
 impl Mode {
     /// None for points and lines, which have no surface.
-    fn of(number: u64) -> Result<Option<Self>, Problem> {
+    fn of(number: u64) -> Result<Option<Self>, FileProblem> {
         match number {
             0..=3 => Ok(None),
             4 => Ok(Some(Self::List)),
             5 => Ok(Some(Self::Strip)),
             6 => Ok(Some(Self::Fan)),
-            _ => Err(Problem::Unexpected { what: "mode".into(), found: number.to_string(), allowed: "0 to 6".into() }),
+            _ => Err(FileProblem::Unexpected {
+                what: "mode".into(),
+                found: number.to_string(),
+                allowed: "0 to 6".into(),
+            }),
         }
     }
 
-    fn triangles(self, indices: &[usize]) -> Result<Box<dyn Iterator<Item = [usize; 3]> + '_>, Problem> {
+    fn triangles(self, indices: &[usize]) -> Result<Box<dyn Iterator<Item = [usize; 3]> + '_>, FileProblem> {
         let wrong = |allowed: &str| {
             let what = "the list of corners".into();
-            Err(Problem::Parts { what, found: indices.len() as u64, allowed: allowed.into() })
+            Err(FileProblem::Parts { what, found: indices.len() as u64, allowed: allowed.into() })
         };
         match self {
             Self::List if !indices.len().is_multiple_of(3) => wrong("a multiple of 3 is needed"),
@@ -183,6 +190,6 @@ impl Mode {
 fn follow<'a, T>(elements: &'a [T], index: usize, place: &str, field: &'static str) -> Result<&'a T, Fault> {
     elements.get(index).ok_or_else(|| {
         let (index, count) = (i64::try_from(index).unwrap_or(i64::MAX), elements.len() as u64);
-        Problem::Index { field, index, first: 0, count, backwards: 0 }.at(Place::Json(place.into()))
+        FileProblem::Index { field, index, first: 0, count, backwards: 0 }.at(FilePosition::Json(place.into()))
     })
 }

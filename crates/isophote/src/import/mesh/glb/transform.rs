@@ -1,7 +1,7 @@
 //! Where a node of glTF puts its mesh.
 
 use super::document::Node;
-use crate::import::{Problem, text::finite};
+use crate::import::{FileProblem, text::finite};
 use crate::vector::Vector;
 
 /// x ↦ Ax + t.
@@ -21,12 +21,12 @@ impl Transform {
     };
 
     /// A node's own: a matrix, or first scale, then rotation, then translation.
-    pub fn of(node: &Node) -> Result<Self, Problem> {
+    pub fn of(node: &Node) -> Result<Self, FileProblem> {
         if let Some(m) = node.matrix {
             if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
                 let found = format!("{}, {}, {}, {}", m[3], m[7], m[11], m[15]);
                 let (what, allowed) = ("the last row of the matrix".into(), "0, 0, 0, 1".into());
-                return Err(Problem::Unexpected { what, found, allowed });
+                return Err(FileProblem::Unexpected { what, found, allowed });
             }
             let rows = [0, 1, 2].map(|i| Vector::new(m[i], m[i + 4], m[i + 8]));
             return Ok(Self::new(rows, Vector::new(m[12], m[13], m[14])));
@@ -45,16 +45,16 @@ impl Transform {
     }
 
     /// That it leaves a triangle its area.
-    pub fn check(&self) -> Result<(), Problem> {
+    pub fn check(&self) -> Result<(), FileProblem> {
         let determinant = determinant(self.rows);
         if determinant != 0.0 && determinant.is_finite() {
             return Ok(());
         }
         let (what, allowed) = ("the determinant of its transform".into(), "a finite number other than 0".into());
-        Err(Problem::Unexpected { what, found: determinant.to_string(), allowed })
+        Err(FileProblem::Unexpected { what, found: determinant.to_string(), allowed })
     }
 
-    pub fn points(&self, points: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, Problem> {
+    pub fn points(&self, points: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, FileProblem> {
         let place = |point: &[f64; 3]| {
             let [x, y, z] = self.point((*point).into()).to_array();
             Ok([finite(x, "x")?, finite(y, "y")?, finite(z, "z")?])
@@ -85,11 +85,11 @@ impl Transform {
 }
 
 /// By the quaternion (x, y, z, w), brought to length 1: files have it in single precision.
-fn rotation(quaternion: [f64; 4]) -> Result<[Vector; 3], Problem> {
+fn rotation(quaternion: [f64; 4]) -> Result<[Vector; 3], FileProblem> {
     let length = quaternion.iter().map(|part| part * part).sum::<f64>().sqrt();
     if !((length - 1.0).abs() < 1e-3) {
         let (what, allowed) = ("the length of the rotation".into(), "1".into());
-        return Err(Problem::Unexpected { what, found: length.to_string(), allowed });
+        return Err(FileProblem::Unexpected { what, found: length.to_string(), allowed });
     }
     let [x, y, z, w] = quaternion.map(|part| part / length);
     Ok([

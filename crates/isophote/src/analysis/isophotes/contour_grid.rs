@@ -1,11 +1,11 @@
 //! The grid of pixel centres that contours are drawn on, and the segments inside its cells.
 
-use crate::analysis::isophotes::ScreenPoint;
+use super::ScreenPoint;
 use crate::map::{Map, Scalars};
 
 /// A scalar channel with its mask. An edge between neighbouring centres has the number 2·index for the one from pixel
 /// `index` to its right neighbour and 2·index + 1 for the one to its lower neighbour.
-pub(super) struct Grid<'map> {
+pub(super) struct ContourGrid<'map> {
     map: &'map Map,
     values: Scalars<'map>,
     width: usize,
@@ -18,7 +18,7 @@ pub(super) struct Segment {
     pub(super) end: usize,
 }
 
-impl<'map> Grid<'map> {
+impl<'map> ContourGrid<'map> {
     pub(super) fn new(map: &'map Map, values: Scalars<'map>) -> Self {
         let size = map.region.size;
         Self { map, values, width: size.width as usize, height: size.height as usize }

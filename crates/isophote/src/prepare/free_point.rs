@@ -10,7 +10,7 @@ use crate::shade::{LightTerm, Shading, shade};
 use crate::shape::{NearestPoint, Primitive, Ray, SurfacePoint};
 use crate::vector::Vector;
 
-/// The surfaces on which a bare point happens to lie: a grid may lie on a floor. They do not stand in its light, but for
+/// The surfaces on which a free point happens to lie: a grid may lie on a floor. They do not stand in its light, but for
 /// closed ones, which hide what is behind their surface and not inside them.
 struct Touched {
     own: Vec<Primitive>,
@@ -26,19 +26,19 @@ impl PreparedScene {
         let touched = self.touched(point.position());
         let precise = OnceCell::new();
         let visibility = |light| {
-            let Blocking { mut blocker, is_doubtful } = self.blocking_of_bare(&touched, point, light);
+            let Blocking { mut blocker, is_doubtful } = self.free_point_blocking(&touched, point, light);
             if is_doubtful {
                 let precise = precise.get_or_init(|| point.map(DoubleDouble::from_f64));
-                blocker = self.blocking_of_bare(&touched, precise, light).blocker;
+                blocker = self.free_point_blocking(&touched, precise, light).blocker;
             }
             if blocker.is_some() { 0.0 } else { 1.0 }
         };
-        let ambient = self.ambient_of_bare(&touched, point);
+        let ambient = self.free_point_ambient(&touched, point);
         let without_material = &self.formulas[self.scene.materials.len()].formula;
         shade(point, &self.scene.lights, without_material, ambient, visibility, each)
     }
 
-    fn blocking_of_bare<T: Scalar>(&self, touched: &Touched, point: &SurfacePoint<T>, light: usize) -> Blocking {
+    fn free_point_blocking<T: Scalar>(&self, touched: &Touched, point: &SurfacePoint<T>, light: usize) -> Blocking {
         let source = &self.scene.lights[light];
         if !self.scene.shadows || !source.casts_shadows {
             return Blocking::NONE;
@@ -50,7 +50,7 @@ impl PreparedScene {
         self.blocking_from(&touched.own, point, Vector::zero(), light)
     }
 
-    fn ambient_of_bare(&self, touched: &Touched, point: &SurfacePoint) -> f64 {
+    fn free_point_ambient(&self, touched: &Touched, point: &SurfacePoint) -> f64 {
         let Some(ambient) = &self.scene.ambient else { return 0.0 };
         let hemisphere = self.hemisphere.as_deref().filter(|_| !self.shapes.is_empty());
         let sees_the_environment = |direction: Vector| {

@@ -1,14 +1,12 @@
-//! Materials and probes, each for itself.
-
-use std::collections::HashMap;
+//! Materials.
 
 use super::{Checked, Validator, limits};
 use crate::reflectance::{Convention, Reflectance};
+use crate::scene::Material;
 use crate::scene::document::Path;
 use crate::scene::read::{closest, short, suggestion};
-use crate::scene::source::{Amount, MaterialSource, ProbeSource, SceneSource};
-use crate::scene::{Material, Probe};
-use crate::units::Choice;
+use crate::scene::source::{Amount, MaterialSource, SceneSource};
+use crate::units::Keyword;
 
 impl Validator {
     pub(super) fn materials(&mut self, source: &SceneSource) -> Checked<Material> {
@@ -70,52 +68,10 @@ impl Validator {
         }
         Ok(index)
     }
-
-    pub(super) fn probes(&mut self, source: &SceneSource) -> Checked<Probe> {
-        if !self.few_enough("probe", source.probe.len(), limits::PROBES) {
-            return Vec::new();
-        }
-        let mut names = Names::new("probe");
-        let check = |(index, probe): (usize, &ProbeSource)| {
-            let path = Path::root().key("probe").index(index);
-            let name = names.check(self, &path, probe.name.as_deref());
-            let at = self.required_point(&path, "at", probe.at);
-            Some(Probe { name: name?, at: at?, published: probe.published })
-        };
-        source.probe.iter().enumerate().map(check).collect()
-    }
 }
 
 /// What is wrong has been noted already.
 pub(super) struct Reported;
-
-/// Names of one kind of thing, which must differ.
-pub(super) struct Names {
-    kind: &'static str,
-    seen: HashMap<String, Path>,
-}
-
-impl Names {
-    pub(super) fn new(kind: &'static str) -> Self {
-        Self { kind, seen: HashMap::new() }
-    }
-
-    /// The name of the thing at a path, or the default one, which is that path.
-    pub(super) fn check(&mut self, validator: &mut Validator, thing: &Path, name: Option<&str>) -> Option<String> {
-        let name = name.map_or_else(|| thing.to_string(), str::to_owned);
-        let path = thing.key("name");
-        if name.is_empty() || name.chars().any(char::is_control) {
-            validator.wrong(&path, format!("the name \"{}\" is not usable", short(&name)), "allowed: any line of text");
-            return None;
-        }
-        if let Some(first) = self.seen.insert(name.clone(), thing.clone()) {
-            let message = format!("there are two {}s named \"{}\"", self.kind, short(&name));
-            validator.wrong(&path, message, &format!("the other is {first}; names must differ"));
-            return None;
-        }
-        Some(name)
-    }
-}
 
 fn listed(known: &[&str]) -> String {
     if known.is_empty() { ", and a table [material.NAME] for it".into() } else { format!(": {}", known.join(", ")) }

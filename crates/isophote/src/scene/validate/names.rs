@@ -1,0 +1,35 @@
+//! Names, which must differ among things of one kind.
+
+use std::collections::HashMap;
+
+use super::Validator;
+use crate::scene::document::Path;
+use crate::scene::read::short;
+
+/// Names of one kind of thing, which must differ.
+pub(super) struct Names {
+    kind: &'static str,
+    seen: HashMap<String, Path>,
+}
+
+impl Names {
+    pub(super) fn new(kind: &'static str) -> Self {
+        Self { kind, seen: HashMap::new() }
+    }
+
+    /// The name of the thing at a path, or the default one, which is that path.
+    pub(super) fn check(&mut self, validator: &mut Validator, thing: &Path, name: Option<&str>) -> Option<String> {
+        let name = name.map_or_else(|| thing.to_string(), str::to_owned);
+        let path = thing.key("name");
+        if name.is_empty() || name.chars().any(char::is_control) {
+            validator.wrong(&path, format!("the name \"{}\" is not usable", short(&name)), "allowed: any line of text");
+            return None;
+        }
+        if let Some(first) = self.seen.insert(name.clone(), thing.clone()) {
+            let message = format!("there are two {}s named \"{}\"", self.kind, short(&name));
+            validator.wrong(&path, message, &format!("the other is {first}; names must differ"));
+            return None;
+        }
+        Some(name)
+    }
+}
