@@ -9,7 +9,7 @@ use isophote::analysis::surface::SurfaceProjection;
 use isophote::export::colormap::Colormap;
 use isophote::lanes::Precision;
 use isophote::map::{Pixel, Region, Resolution};
-use isophote::render::Filter;
+use isophote::scene::Filter;
 use isophote::scene::library::Starter;
 use isophote::scene::source::SamplingSource;
 use isophote::shape::Side;

@@ -2,7 +2,7 @@
 
 use isophote::analysis::statistics::{Counts, Extreme, Statistics, Totals, counts, totals};
 use isophote::map::{Map, Pixel, Quantity};
-use isophote::real::Sum;
+use isophote::sum::Sum;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 

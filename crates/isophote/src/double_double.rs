@@ -7,8 +7,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::lanes::Lane;
-use crate::real::{Real, Scalar};
+use crate::real::Real;
 
 /// A number of about 106 bits: `high + low`, with |low| at most half a unit in the last place of `high`. Or a vector of
 /// such numbers, in two vectors of doubles.
@@ -40,7 +39,8 @@ pub trait ExactProduct: Real {
     fn quotient_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self>;
 }
 
-macro_rules! operations {
+/// The operations of [`ExactProduct`] on pairs, with how they are called.
+macro_rules! operations_on_pairs {
     ($inline:meta) => {
         #[$inline]
         fn sum_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self> {
@@ -59,22 +59,15 @@ macro_rules! operations {
     };
 }
 
+pub(crate) use operations_on_pairs;
+
 impl ExactProduct for f64 {
     #[inline(always)]
     fn product_rest(self, factor: Self, product: Self) -> Self {
         self.mul_add(factor, -product)
     }
 
-    operations!(inline);
-}
-
-impl<V: Lane<Element = f64>> ExactProduct for V {
-    #[inline(always)]
-    fn product_rest(self, factor: Self, product: Self) -> Self {
-        Lane::product_rest(self, factor, product)
-    }
-
-    operations!(inline(always));
+    operations_on_pairs!(inline);
 }
 
 impl<T> DoubleDouble<T> {
@@ -127,6 +120,20 @@ impl<T: ExactProduct> DoubleDouble<T> {
 }
 
 impl DoubleDouble {
+    /// A double, exactly.
+    #[must_use]
+    #[inline(always)]
+    pub const fn from_f64(value: f64) -> Self {
+        Self { high: value, low: 0.0 }
+    }
+
+    /// The nearest double.
+    #[must_use]
+    #[inline(always)]
+    pub const fn rounded(self) -> f64 {
+        self.high
+    }
+
     /// π.
     pub const PI: Self = Self { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
 
@@ -143,7 +150,7 @@ impl DoubleDouble {
         let small = Self { high: self.high * scale, low: self.low * scale };
         let one = Self::from_f64(1.0);
         let mut term = one;
-        let mut minus_one = Self::zero();
+        let mut minus_one = Self::from_f64(0.0);
         for n in 1..=20 {
             term = term * small / Self::from_f64(f64::from(n));
             minus_one = minus_one + term;
@@ -210,7 +217,7 @@ impl DoubleDouble {
         } else if self.high > 0.0 {
             result * (self.ln() * Self::from_f64(fraction)).exp()
         } else {
-            Self::zero()
+            Self::from_f64(0.0)
         }
     }
 }
@@ -247,35 +254,9 @@ impl<T: ExactProduct> Real for DoubleDouble<T> {
     }
 }
 
-impl Scalar for DoubleDouble {
-    fn from_f64(value: f64) -> Self {
-        Self { high: value, low: 0.0 }
-    }
-
-    fn from_precise(value: Self) -> Self {
-        value
-    }
-
-    fn rounded(self) -> f64 {
-        self.high
-    }
-
-    fn precise(self) -> DoubleDouble {
-        self
-    }
-
-    fn sine_and_cosine_of(angle: DoubleDouble) -> (Self, Self) {
-        angle.sine_and_cosine()
-    }
-
-    fn cosine_power(cos_squared: Self, _: Self, exponent: f64) -> Self {
-        cos_squared.sqrt().power(exponent)
-    }
-}
-
 impl<T: ExactProduct> DoubleDouble<T> {
     #[inline(always)]
-    fn plus(self, other: Self) -> Self {
+    pub(crate) fn plus(self, other: Self) -> Self {
         let high = Self::sum_of(self.high, other.high);
         let low = Self::sum_of(self.low, other.low);
         let carried = Self::normalized(high.high, high.low + low.high);
@@ -283,7 +264,7 @@ impl<T: ExactProduct> DoubleDouble<T> {
     }
 
     #[inline(always)]
-    fn times(self, other: Self) -> Self {
+    pub(crate) fn times(self, other: Self) -> Self {
         let product = Self::product_of(self.high, other.high);
         let across = self.high * other.low + self.low * other.high;
         Self::normalized(product.high, product.low + across)
@@ -291,7 +272,7 @@ impl<T: ExactProduct> DoubleDouble<T> {
 
     /// Long division, three digits of 53 bits.
     #[inline(always)]
-    fn over(self, other: Self) -> Self {
+    pub(crate) fn over(self, other: Self) -> Self {
         let first = self.high / other.high;
         let rest = self - other * Self::exactly(first);
         let second = rest.high / other.high;
@@ -349,6 +330,7 @@ impl<T: ExactProduct> Div for DoubleDouble<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scalar::Scalar;
     use proptest::prelude::*;
 
     fn number(high: f64, low: f64) -> DoubleDouble {

@@ -12,6 +12,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16, f64x8, mask32x16, mask64x8, u32x16, u64x8};
 
+use crate::double_double::{DoubleDouble, ExactProduct, operations_on_pairs};
 use crate::real::Real;
 
 /// What vectors are computed by.
@@ -76,6 +77,15 @@ pub trait Lane: Real {
     /// 2ᵏ of a whole number k within the range of exponents of normal numbers.
     #[must_use]
     fn power_of_two(self) -> Self;
+}
+
+impl<V: Lane<Element = f64>> ExactProduct for V {
+    #[inline(always)]
+    fn product_rest(self, factor: Self, product: Self) -> Self {
+        Lane::product_rest(self, factor, product)
+    }
+
+    operations_on_pairs!(inline(always));
 }
 
 /// A number of a lane.

@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::real::{Real, Scalar};
+use crate::real::Real;
+use crate::scalar::Scalar;
 use crate::units::{Keyword, UnitSystem};
 
 /// Which formula turns irradiance into brightness. People publish several that disagree by constant factors or by

@@ -1,9 +1,12 @@
 //! The formula: from light to brightness (3.1) to (3.9). It stands here once, for every number type.
 
+use crate::color::Rgb;
 use crate::light::{Light, PlacedLight};
-use crate::real::{Real, Scalar, Sum};
+use crate::real::Real;
 use crate::reflectance::{BrightnessFormula, Lobe};
+use crate::scalar::Scalar;
 use crate::shape::SurfacePoint;
+use crate::sum::Sum;
 use crate::vector::Vector;
 
 /// What a surface point sends to the eye, summed over all lights.
@@ -25,6 +28,20 @@ impl<T: Real> Shading<T> {
     #[inline(always)]
     pub fn brightness(&self) -> T {
         self.diffuse + self.specular
+    }
+}
+
+impl Shading {
+    /// The shading of a scene with colours, from that of its components: every number is their luminance (3.10).
+    #[must_use]
+    pub fn luminance(components: &Rgb<Self>, weights: Rgb) -> Self {
+        let of = |number: fn(&Self) -> f64| components.map(number).weighted_by(weights);
+        Self {
+            irradiance: of(|shading| shading.irradiance),
+            ambient: of(|shading| shading.ambient),
+            diffuse: of(|shading| shading.diffuse),
+            specular: of(|shading| shading.specular),
+        }
     }
 }
 

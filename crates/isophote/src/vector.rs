@@ -2,7 +2,8 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::real::{Real, Scalar};
+use crate::real::Real;
+use crate::scalar::Scalar;
 
 /// A vector or a point: x, y, z.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]

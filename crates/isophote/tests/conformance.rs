@@ -8,7 +8,6 @@ use isophote::double_double::DoubleDouble;
 use isophote::lanes::{Instructions, Precision};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::{Hit, PreparedScene};
-use isophote::real::Scalar;
 use isophote::render::{ReferenceRenderer, RenderError, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::source::{EmissionName, LightSource, MaterialSource, ProjectionName, WindowSource};
 use isophote::scene::{Scene, SceneSource, Syntax};

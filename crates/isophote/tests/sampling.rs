@@ -3,7 +3,8 @@
 use isophote::lanes::Precision;
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::PreparedScene;
-use isophote::render::{Filter, ReferenceRenderer, RenderSettings, Renderer, SimdRenderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer, SimdRenderer};
+use isophote::scene::Filter;
 use isophote::scene::{Scene, Syntax};
 use isophote::units::Keyword;
 

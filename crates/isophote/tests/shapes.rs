@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use isophote::double_double::DoubleDouble;
-use isophote::import::CornerNormals;
-use isophote::real::Scalar;
+use isophote::ray::Ray;
+use isophote::scalar::Scalar;
 use isophote::shape::{
-    Accuracy, Cone, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Mesh, MeshData, MeshError, MeshPlacing, Plane, Ray,
-    Rectangle, Rotation, ShapeHit, Sphere, SurfacePoint,
+    Accuracy, Cone, CornerNormals, Cuboid, Cylinder, Disk, Ellipsoid, Geometry, Mesh, MeshData, MeshError, MeshPlacing,
+    Plane, Rectangle, Rotation, ShapeHit, Sphere, SurfacePoint,
 };
 use isophote::vector::Vector;
 

@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use anyhow::Result;
 use isophote::camera::{Camera, CameraFrame, Extent, Fisheye, Mapping, Projection, Screen};
-use isophote::color::Lighting;
 use isophote::light::{Ambient, Emission, Light, LightKind};
 use isophote::reflectance::Reflectance;
-use isophote::render::Sampling;
+use isophote::scene::Lighting;
+use isophote::scene::Sampling;
 use isophote::scene::{Material, Probe, Problem, Scene, Shape};
 use isophote::shape::Measure;
 use isophote::text::significant;

@@ -4,7 +4,6 @@ use crate::camera::ScreenPosition;
 use crate::color::Rgb;
 use crate::map::Pixel;
 use crate::prepare::{Hit, PreparedScene};
-use crate::render::color::luminance;
 use crate::shade::{LightTerm, Shading};
 use crate::shape::{Located, Miss, Primitive, surface_at};
 use crate::units::LengthUnit;
@@ -72,7 +71,7 @@ impl ProbeReading {
 
     /// The luminances of a scene with colours.
     fn of_components(readings: Rgb<Self>, weights: Rgb) -> Self {
-        let shading = luminance(&readings.map(|reading| reading.shading), weights);
+        let shading = Shading::luminance(&readings.map(|reading| reading.shading), weights);
         let term = |(index, term): (usize, &LightTerm)| {
             let of = |number: fn(&LightTerm) -> f64| readings.map(|reading| number(&reading.terms[index]));
             LightTerm {

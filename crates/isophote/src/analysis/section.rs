@@ -3,7 +3,6 @@
 use crate::camera::ScreenPosition;
 use crate::map::Pixel;
 use crate::prepare::{Hit, PreparedScene};
-use crate::render::color::luminance;
 use crate::shade::Shading;
 
 /// A line on the screen.
@@ -77,7 +76,7 @@ impl PreparedScene {
         let Some(components) = self.components() else { return shade(self, hit) };
         // Each component traces for itself: how exactly depends on its highlights.
         let shading = |scene: &Self| scene.trace(position).map_or_else(|| shade(scene, hit), |hit| shade(scene, &hit));
-        luminance(&components.scenes().map(shading), components.space.luminance_weights())
+        Shading::luminance(&components.scenes().map(shading), components.space.luminance_weights())
     }
 
     fn positions(&self, line: SectionLine) -> Result<Vec<ScreenPosition>, SectionError> {

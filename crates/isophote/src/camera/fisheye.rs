@@ -1,7 +1,8 @@
 //! A cone of directions in a circle.
 
 use crate::double_double::DoubleDouble;
-use crate::real::{Real, Scalar};
+use crate::real::Real;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// All directions within half the field of view of the direction of view, in a circle that touches the shorter sides of the

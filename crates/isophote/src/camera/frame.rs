@@ -3,8 +3,8 @@
 use super::{Camera, Extent, Handedness, Projection, ScreenPosition, panorama};
 use crate::double_double::DoubleDouble;
 use crate::map::Resolution;
-use crate::real::Scalar;
-use crate::shape::Ray;
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// The camera's axes, computed once for a number type.

@@ -3,7 +3,7 @@
 
 use super::Extent;
 use crate::double_double::DoubleDouble;
-use crate::real::Scalar;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// The unit vector (right, up, forward) that is seen at a place; nothing beyond the poles.

@@ -113,7 +113,6 @@ fn every_projection_undoes_its_rays() {
 #[test]
 fn rays_of_doubles_agree_with_rays_of_32_digits() {
     use crate::double_double::DoubleDouble;
-    use crate::real::Scalar;
     for projection in all_projections() {
         let camera = seeing(projection);
         let (frame, precise) = (CameraFrame::<f64>::new(&camera), CameraFrame::<DoubleDouble>::new(&camera));

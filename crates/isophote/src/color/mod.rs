@@ -8,8 +8,6 @@ mod space;
 pub(crate) use space::Matrix;
 pub use space::{Chromaticity, ColorSpace};
 
-use crate::light::{Ambient, Light};
-use crate::scene::Material;
 use crate::units::Keyword;
 
 /// One thing for each component of a colour.
@@ -94,26 +92,6 @@ impl Rgb {
     pub fn is_even(self) -> bool {
         self.red == self.green && self.green == self.blue
     }
-}
-
-/// What a coloured scene has three of.
-#[derive(Clone, Debug)]
-pub struct SceneColor {
-    /// Which primaries the components are amounts of.
-    pub space: ColorSpace,
-    /// The materials and lights of each component.
-    pub lighting: Rgb<Lighting>,
-}
-
-/// What depends on the component: names, places and the order of lights and materials are the scene's.
-#[derive(Clone, Debug)]
-pub struct Lighting {
-    /// The materials.
-    pub materials: Vec<Material>,
-    /// The lights.
-    pub lights: Vec<Light>,
-    /// The light from all around.
-    pub ambient: Option<Ambient>,
 }
 
 #[cfg(test)]

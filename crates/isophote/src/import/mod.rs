@@ -19,7 +19,7 @@ use std::path::Path;
 pub use error::{Fault, FilePosition, FileProblem, ImportError};
 pub use format::{MeshFormat, SpheresFormat};
 pub use materials::MaterialSlots;
-pub use mesh::{CornerNormals, TriangleMesh};
+pub use mesh::TriangleMesh;
 pub use spheres::SphereList;
 
 /// The triangles of a file whose suffix is `.obj`, `.ply`, `.stl` or `.glb`.

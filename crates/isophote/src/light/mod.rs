@@ -14,7 +14,7 @@ pub use placed::{PlacedLight, Rays};
 pub use point::PointLight;
 pub use spot::Spot;
 
-use crate::real::Scalar;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// A light with its name.

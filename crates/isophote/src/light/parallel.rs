@@ -1,7 +1,7 @@
 //! Light that comes from one direction: the sun.
 
 use super::{PlacedLight, Rays};
-use crate::real::Scalar;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// A light so far away that all of it travels in one direction and none of it is lost on the way (3.8):

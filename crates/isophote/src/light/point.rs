@@ -1,7 +1,7 @@
 //! Lights that stand at a point.
 
 use super::{Emission, PlacedLight, Rays};
-use crate::real::Scalar;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// A light whose irradiance falls with the square of the distance (3.1).

@@ -2,10 +2,12 @@
 
 mod coordinates;
 mod mask;
+mod totals;
 mod values;
 
 pub use coordinates::{CoordinateAxis, Coordinates};
 pub use mask::{Mask, Run};
+pub use totals::{Extreme, Totals, totals};
 pub use values::{Scalars, Values};
 
 use serde::{Deserialize, Serialize};

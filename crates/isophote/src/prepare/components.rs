@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::PreparedScene;
-use crate::color::{ColorSpace, Component, Lighting, Rgb};
+use crate::color::{ColorSpace, Component, Rgb};
+use crate::scene::Lighting;
 use crate::scene::Scene;
 
 /// The components of a scene with colours, each a scene of single numbers. They share the geometry and its tree.

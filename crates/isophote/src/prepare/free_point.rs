@@ -5,9 +5,10 @@ use std::cell::OnceCell;
 use super::obstruction::sampled;
 use super::{Blocking, PreparedScene};
 use crate::double_double::DoubleDouble;
-use crate::real::Scalar;
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::shade::{LightTerm, Shading, shade};
-use crate::shape::{NearestPoint, Primitive, Ray, SurfacePoint};
+use crate::shape::{NearestPoint, Primitive, SurfacePoint};
 use crate::vector::Vector;
 
 /// The surfaces on which a free point happens to lie: a grid may lie on a floor. They do not stand in its light, but for

@@ -19,11 +19,13 @@ use crate::camera::{CameraFrame, ScreenPosition, Sight};
 use crate::double_double::DoubleDouble;
 use crate::light::Light;
 use crate::map::{Pixel, Resolution};
-use crate::real::Scalar;
+use crate::outline::Outline;
+use crate::ray::Ray;
 use crate::reflectance::{BrightnessFormula, Reflectance};
+use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::shade::{LightTerm, Shading, shade};
-use crate::shape::{Accuracy, Geometry, Located, Outline, Primitive, Ray, Sphere, SurfacePoint, TracingError};
+use crate::shape::{Accuracy, Geometry, Located, Primitive, Sphere, SurfacePoint, TracingError};
 use crate::vector::Vector;
 
 /// A scene with everything computed that does not depend on the pixel.
@@ -225,7 +227,7 @@ impl PreparedScene {
     #[must_use]
     pub fn outline(&self, shape: usize) -> &Outline {
         let shape = &self.shapes[shape];
-        shape.outline.get_or_init(|| shape.geometry.outline(&self.precise_frame))
+        shape.outline.get_or_init(|| Outline::of(&shape.geometry, &self.precise_frame))
     }
 
     /// For which clearances in its outline a primitive has to be traced with 32 digits.

@@ -3,7 +3,7 @@
 use super::{Hit, PreparedScene};
 use crate::hammersley::points;
 use crate::light::Ambient;
-use crate::shape::Ray;
+use crate::ray::Ray;
 use crate::vector::Vector;
 
 /// The irradiance of a surface point by the ambient light.

@@ -1,8 +1,9 @@
 //! Shadows: which lights a surface point sees.
 
 use super::{ERROR_OF_DISTANCE, Hit, PreparedScene};
-use crate::real::Scalar;
-use crate::shape::{Accuracy, Primitive, Ray, SurfacePoint};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
+use crate::shape::{Accuracy, Primitive, SurfacePoint};
 use crate::vector::Vector;
 
 /// What stands between a surface point and a light.

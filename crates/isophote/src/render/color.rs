@@ -5,7 +5,6 @@ use super::{Observer, RenderError, RenderSettings, band};
 use crate::color::{Component, Rgb};
 use crate::map::{Channel, Map, Mask, Quantity, Scalars, Values};
 use crate::prepare::PreparedScene;
-use crate::shade::Shading;
 use crate::units::Keyword;
 
 /// The map of a scene whose components `compute` makes maps of; of a scene without colours its only map.
@@ -43,17 +42,6 @@ pub fn render(
     map_of_components(scene, &settings.quantities, sees_the_same, |scene, quantities| {
         render(scene, &RenderSettings { region: settings.region, quantities: quantities.to_vec(), observer })
     })
-}
-
-/// The shading of a point, from that of the components: every number is their luminance.
-pub fn luminance(shadings: &Rgb<Shading>, weights: Rgb) -> Shading {
-    let of = |number: fn(&Shading) -> f64| shadings.map(number).weighted_by(weights);
-    Shading {
-        irradiance: of(|shading| shading.irradiance),
-        ambient: of(|shading| shading.ambient),
-        diffuse: of(|shading| shading.diffuse),
-        specular: of(|shading| shading.specular),
-    }
 }
 
 /// What a component's map has to hold for these quantities.

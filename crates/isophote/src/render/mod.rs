@@ -13,7 +13,6 @@ use std::ops::ControlFlow;
 pub(crate) use band::provenance;
 pub use lanes::{PointKernel, PointValues, SimdRenderer};
 pub use reference::ReferenceRenderer;
-pub use sampling::{Filter, Sampling};
 
 use crate::map::{Map, Pixel, Quantity, Region, Resolution};
 use crate::prepare::PreparedScene;

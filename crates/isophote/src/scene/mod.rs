@@ -1,27 +1,31 @@
 //! Scenes: read once, checked once, valid from then on.
 
+mod color;
 pub mod document;
 pub mod error;
+mod filter;
 pub mod library;
 mod read;
+mod sampling;
 pub mod source;
 mod validate;
 
 use std::io::Read;
 use std::path::Path as FilePath;
 
+pub use color::{Lighting, SceneColor};
 pub use document::Syntax;
 pub use error::{Problem, ProblemKind, SceneError, TextPosition};
+pub use filter::Filter;
+pub use sampling::Sampling;
 pub use source::SceneSource;
 use source::{GridSource, SamplingSource, ShadowSource};
 pub use validate::limits;
 
 use crate::camera::Camera;
-use crate::color::SceneColor;
 use crate::light::{Ambient, Light};
 use crate::map::Resolution;
 use crate::reflectance::{Convention, Reflectance};
-use crate::render::Sampling;
 use crate::shape::{Geometry, Primitive, Side};
 use crate::units::{LengthUnit, ScreenUnit, UnitSystem};
 use crate::vector::Vector;

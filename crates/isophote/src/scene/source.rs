@@ -20,7 +20,7 @@ pub use shapes::{
 use crate::camera::Handedness;
 use crate::color::ColorSpace;
 use crate::reflectance::Convention;
-use crate::render::Filter;
+use crate::scene::Filter;
 use crate::units::{LengthUnit, UnitSystem};
 
 /// A scene of surfaces lit by point lights, for the program isophote.

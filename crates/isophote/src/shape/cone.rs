@@ -2,11 +2,10 @@
 
 use super::placement::{LocalRay, Placement};
 use super::span::{Crossing, NEVER, Span, pass};
-use super::{
-    Accuracy, Bounds, Intersection, Measure, NearestPoint, PLACE_ERROR, Ray, ShapeHit, SurfacePoint, TracingError,
-};
+use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, PLACE_ERROR, ShapeHit, SurfacePoint, TracingError};
 use crate::double_double::DoubleDouble;
-use crate::real::Scalar;
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// x² + y² ≤ R(z)², 0 ≤ z ≤ h in its own axes, with R(z) = R₀ + kz, k = (R₁ − R₀)/h.

@@ -2,8 +2,9 @@
 
 use super::placement::{Placement, Rotation};
 use super::span::{Span, pass};
-use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, PLACE_ERROR, Ray, ShapeHit, SurfacePoint};
-use crate::real::Scalar;
+use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, PLACE_ERROR, ShapeHit, SurfacePoint};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// A box: |x| ≤ a, |y| ≤ b, |z| ≤ c in its own axes.

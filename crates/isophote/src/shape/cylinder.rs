@@ -1,7 +1,8 @@
 //! The cylinder with both its ends (2.4).
 
-use super::{Accuracy, Bounds, Cone, Intersection, Measure, NearestPoint, Ray};
-use crate::real::Scalar;
+use super::{Accuracy, Bounds, Cone, Intersection, Measure, NearestPoint};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// The points within a radius of the straight way between two points, its flat ends included: a [`Cone`] that does not

@@ -1,8 +1,9 @@
 //! The disk (2.4).
 
 use super::placement::Placement;
-use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, Ray, flat};
-use crate::real::Scalar;
+use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, flat};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// x² + y² ≤ R², z = 0 in its own axes.

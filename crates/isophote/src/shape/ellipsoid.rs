@@ -1,8 +1,9 @@
 //! The ellipsoid (2.4).
 
 use super::placement::{Placement, Rotation};
-use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, Ray, ShapeHit, SurfacePoint, TracingError};
-use crate::real::Scalar;
+use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, ShapeHit, SurfacePoint, TracingError};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// (x/a)² + (y/b)² + (z/c)² = 1 in its own axes.

@@ -1,8 +1,9 @@
 //! What flat shapes share: the plane z = 0 of their own axes (2.4).
 
 use super::placement::Placement;
-use super::{Accuracy, Intersection, NearestPoint, PLACE_ERROR, Ray, ShapeHit, SurfacePoint};
-use crate::real::Scalar;
+use super::{Accuracy, Intersection, NearestPoint, PLACE_ERROR, ShapeHit, SurfacePoint};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// How a ray meets a flat shape.

@@ -6,12 +6,11 @@ mod cylinder;
 mod disk;
 mod ellipsoid;
 mod flat;
+mod intersection;
 mod locate;
 mod mesh;
-mod outline;
 mod placement;
 mod plane;
-mod ray;
 mod rectangle;
 mod side;
 mod span;
@@ -25,21 +24,18 @@ pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use ellipsoid::Ellipsoid;
+pub use intersection::{Accuracy, Intersection, ShapeHit, SurfacePoint, TracingError};
 pub use locate::{Located, Miss, surface_at};
-pub use mesh::{Mesh, MeshData, MeshError, MeshPlacing};
-pub(crate) use outline::{BEFORE_THE_EYE, PixelGrid};
-pub use outline::{Ellipse, Outline, PlaceInRow, PointInRow, RowOfEllipse};
+pub use mesh::{CornerNormals, Mesh, MeshData, MeshError, MeshPlacing};
 pub use placement::{LocalRay, Placement, Rotation};
 pub use plane::Plane;
-pub use ray::{Accuracy, Intersection, Ray, ShapeHit, SurfacePoint, TracingError};
 pub use rectangle::Rectangle;
 pub use side::Side;
 pub use sphere::Sphere;
 pub use spheres::Spheres;
 
-use crate::camera::CameraFrame;
-use crate::double_double::DoubleDouble;
-use crate::real::Scalar;
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// The form of a shape and its place in space. A closed set: each variant has a file of its own.
@@ -219,17 +215,6 @@ impl Geometry {
             Self::Spheres(cloud) => cloud.materials.get(part as usize).map(|material| *material as usize),
             Self::Mesh(mesh) => mesh.material_of(part),
             _ => None,
-        }
-    }
-
-    /// Where the shape appears on the screen.
-    #[must_use]
-    pub fn outline(&self, frame: &CameraFrame<DoubleDouble>) -> Outline {
-        match self {
-            Self::Sphere(sphere) if sphere.signed_distance(frame.eye.map(DoubleDouble::rounded)) > 0.0 => {
-                Ellipse::of_sphere(sphere, frame)
-            }
-            _ => Outline::Unknown,
         }
     }
 

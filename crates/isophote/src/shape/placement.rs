@@ -1,8 +1,9 @@
 //! Where a shape stands and how it is turned.
 
-use super::{Measure, Ray};
+use super::Measure;
 use crate::double_double::DoubleDouble;
-use crate::real::Scalar;
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// A shape's own axes, in which its formulas are written.

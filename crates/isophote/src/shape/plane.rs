@@ -1,8 +1,9 @@
 //! The plane, without end (2.4).
 
 use super::placement::Placement;
-use super::{Accuracy, Intersection, Measure, NearestPoint, Ray, flat};
-use crate::real::Scalar;
+use super::{Accuracy, Intersection, Measure, NearestPoint, flat};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// (P − Q)·N = 0.

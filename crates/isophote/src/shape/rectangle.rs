@@ -1,8 +1,9 @@
 //! The rectangle (2.4).
 
 use super::placement::Placement;
-use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, Ray, flat};
-use crate::real::Scalar;
+use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, flat};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// |x| ≤ w/2, |y| ≤ h/2, z = 0 in its own axes, of which z is its normal and y leads along its height.

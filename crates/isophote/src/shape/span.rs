@@ -1,6 +1,6 @@
 //! The part of a ray that is inside a convex body: what is common to the parts between its pairs of faces.
 
-use crate::real::Scalar;
+use crate::scalar::Scalar;
 
 /// Where a ray crosses a face, counted from the point of the ray that is nearest to the body's origin.
 #[derive(Clone, Copy, Debug)]

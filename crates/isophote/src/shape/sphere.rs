@@ -1,7 +1,8 @@
 //! The sphere (2.2).
 
-use super::{Accuracy, Bounds, Intersection, NearestPoint, Ray, ShapeHit, SurfacePoint, TracingError};
-use crate::real::Scalar;
+use super::{Accuracy, Bounds, Intersection, NearestPoint, ShapeHit, SurfacePoint, TracingError};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// ‖P − C‖ = R.

@@ -2,7 +2,7 @@
 
 use super::Surface;
 use crate::map::{Map, Pixel, Quantity};
-use crate::real::Sum;
+use crate::sum::Sum;
 
 /// What a channel amounts to over a surface, each cell weighted by its exact area.
 ///

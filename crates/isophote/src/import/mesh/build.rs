@@ -1,7 +1,8 @@
 //! From a file's vertices and faces to a mesh.
 
-use super::{CornerNormals, TriangleMesh, weld::Welder};
+use super::{TriangleMesh, weld::Welder};
 use crate::import::{Fault, FilePosition, FileProblem, materials::SlotBook};
+use crate::shape::CornerNormals;
 
 /// Takes triangles as a file has them.
 #[derive(Debug, Default)]

@@ -9,6 +9,7 @@ mod weld;
 pub(super) use build::{MeshBuilder, NO_NORMALS};
 
 use super::MaterialSlots;
+use crate::shape::CornerNormals;
 
 /// The triangles of a file that have an area, in its order.
 ///
@@ -27,14 +28,4 @@ pub struct TriangleMesh {
     pub materials: Option<MaterialSlots>,
     /// How many triangles of the file have no area and were left out.
     pub degenerate: u64,
-}
-
-/// A direction for each corner of each triangle. Triangles for which the file gives none, while it gives some for others,
-/// have that of their plane.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CornerNormals {
-    /// Unit vectors, no two equal.
-    pub vectors: Vec<[f64; 3]>,
-    /// Each triangle's three: indices into `vectors`.
-    pub corners: Vec<[u32; 3]>,
 }

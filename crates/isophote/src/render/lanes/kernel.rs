@@ -8,13 +8,14 @@ use super::visible::{Candidate, RowView, Stretch};
 use crate::lanes::{Element, Lane, LaneJob, Precision, SimdToken};
 use crate::light::PlacedLight;
 use crate::map::{Pixel, Run};
+use crate::outline::{PlaceInRow, PointInRow, RowOfEllipse};
 use crate::prepare::PreparedScene;
-use crate::real::Sum;
 use crate::reflectance::{BrightnessFormula, Lobe};
 use crate::render::band::{self, Band, BandChannel, ScalarChannel};
 use crate::render::{Observer, RenderError};
 use crate::shade::light_term;
-use crate::shape::{PlaceInRow, PointInRow, Primitive, RowOfEllipse, Sphere, SurfacePoint};
+use crate::shape::{Primitive, Sphere, SurfacePoint};
+use crate::sum::Sum;
 use crate::vector::Vector;
 
 /// A band to be filled.

@@ -25,8 +25,9 @@ use super::tiles::{self, Tiles};
 use super::{RenderError, RenderSettings, Renderer};
 use crate::lanes::{Instructions, Precision};
 use crate::map::{Map, Region, Run, Values};
+use crate::outline::Outline;
 use crate::prepare::PreparedScene;
-use crate::shape::{Outline, Primitive};
+use crate::shape::Primitive;
 use crate::units::Keyword;
 
 /// The fast renderer, on one thread or several. The bytes do not depend on how many.

@@ -224,7 +224,7 @@ mod tests {
     use super::*;
     use crate::double_double::DoubleDouble;
     use crate::lanes::{Instructions, LaneJob};
-    use crate::real::Scalar;
+    use crate::scalar::Scalar;
 
     /// The lobe at some angles, given by sin²θ_h.
     struct LobeAt<'a> {

@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use crate::camera::ScreenPosition;
 use crate::map::Pixel;
+use crate::outline::{Ellipse, Outline, RowOfEllipse};
 use crate::prepare::{ERROR_OF_DISTANCE, Hit, PreparedScene};
-use crate::shape::{Ellipse, Geometry, Outline, Primitive, RowOfEllipse, Sphere};
+use crate::shape::{Geometry, Primitive, Sphere};
 
 /// Columns of a row that see the same shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

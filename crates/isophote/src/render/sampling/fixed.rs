@@ -5,14 +5,15 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::ThreadPool;
 
+use super::Renders;
 use super::bands::{RowBand, Stack, bands, each};
 use super::pattern::Patterns;
 use super::refine::{copy_geometry, is_mean, offsets, put, put_exactly, put_shapes};
-use super::{Filter, Renders, Sampling};
 use crate::map::{Map, Quantity, Run, Scalars, Values};
 use crate::prepare::PreparedScene;
 use crate::render::share::Share;
 use crate::render::{Observer, RenderError, RenderSettings, band};
+use crate::scene::{Filter, Sampling};
 
 /// Renders every place in the pixels of a region and takes the means. Threads share the bands, not the images: those of a
 /// band come one after the other in the same memory, which stays in the cache.

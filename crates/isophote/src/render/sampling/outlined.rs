@@ -4,10 +4,10 @@
 use super::refine::{Averages, Refinement};
 use super::rule::{Center, MOST, Nodes, RowRule};
 use super::uncertain::Uncertain;
-use super::{Filter, Sampling};
 use crate::camera::ScreenPosition;
 use crate::lanes::{Instructions, Lane, LaneJob, Precision, SimdToken};
 use crate::map::Pixel;
+use crate::outline::{Ellipse, PlaceInRow};
 use crate::prepare::PreparedScene;
 use crate::reflectance::{BrightnessFormula, Lobe};
 use crate::render::band::ScalarChannel;
@@ -15,7 +15,7 @@ use crate::render::lanes::kernel::{Sums, sum};
 use crate::render::lanes::lights::{ShapeLights, ShapeShading, by_place};
 use crate::render::lanes::power::{NoPower, Power};
 use crate::render::lanes::visible::Candidate;
-use crate::shape::{Ellipse, PlaceInRow};
+use crate::scene::{Filter, Sampling};
 use crate::vector::Vector;
 
 /// The spheres of a scene whose outlines are all that can cut a pixel.

@@ -1,14 +1,15 @@
 //! Many rays through the pixels that need them, and what they make of a map.
 
+use super::FIRST_SAMPLES;
 use super::pattern::{self, Patterns};
 use super::uncertain::Uncertain;
-use super::{FIRST_SAMPLES, Filter, Sampling};
 use crate::camera::ScreenPosition;
 use crate::hammersley::points;
 use crate::map::{Map, Mask, Pixel, Quantity, Run, Scalars, Values};
 use crate::prepare::{Hit, PreparedScene};
 use crate::render::RenderError;
 use crate::render::band::ScalarChannel;
+use crate::scene::{Filter, Sampling};
 use crate::shade::ByLight;
 
 /// The channels of a map that are means. The others hold what is seen at the centre.

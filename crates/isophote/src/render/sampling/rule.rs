@@ -1,6 +1,6 @@
 //! Where a mean over the part of a pixel that an outline covers is computed, and with what weights.
 
-use crate::shape::Ellipse;
+use crate::outline::Ellipse;
 
 /// Places in an outline and their weights, which add up to the covered part of the pixel.
 pub struct Nodes {
@@ -176,9 +176,9 @@ fn crossings(outline: &Ellipse, pixel: Center) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::outline::Outline;
     use crate::prepare::PreparedScene;
     use crate::scene::{Scene, Syntax};
-    use crate::shape::Outline;
 
     fn disc(radius: f64) -> PreparedScene {
         let text = format!(

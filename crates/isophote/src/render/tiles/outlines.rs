@@ -6,8 +6,9 @@ use crate::camera::Screen;
 use crate::double_double::DoubleDouble;
 use crate::lanes::{Lane, LaneJob, SimdToken};
 use crate::map::Resolution;
+use crate::outline::{BEFORE_THE_EYE, Ellipse, PixelGrid};
 use crate::prepare::PreparedScene;
-use crate::shape::{BEFORE_THE_EYE, Ellipse, PixelGrid, Sphere};
+use crate::shape::Sphere;
 use crate::vector::Vector;
 
 /// The camera, as tiles need it.

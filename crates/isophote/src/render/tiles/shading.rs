@@ -6,15 +6,16 @@ use super::shadow::Shadows;
 use crate::lanes::{Element, Instructions, Lane, LaneJob, Precision, SimdToken};
 use crate::light::{Ambient, PlacedLight};
 use crate::map::Pixel;
+use crate::outline::PlaceInRow;
 use crate::prepare::PreparedScene;
-use crate::real::Sum;
 use crate::reflectance::{BrightnessFormula, Lobe};
 use crate::render::RenderError;
 use crate::render::band::{Band, BandChannel, ScalarChannel};
 use crate::render::lanes::lights::{BLOCK, fits_single};
 use crate::render::lanes::power::{NoPower, Power};
 use crate::shade::light_term;
-use crate::shape::{PlaceInRow, Sphere, SurfacePoint};
+use crate::shape::{Sphere, SurfacePoint};
+use crate::sum::Sum;
 use crate::vector::Vector;
 
 /// Shades groups, one after the other.

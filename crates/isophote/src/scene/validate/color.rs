@@ -1,10 +1,11 @@
 //! Coefficients and strengths that may be three numbers.
 
 use super::{Validator, limits};
-use crate::color::{ColorSpace, Component, Lighting, Rgb, SceneColor};
+use crate::color::{ColorSpace, Component, Rgb};
 use crate::scene::document::Path;
 use crate::scene::read::Problems;
 use crate::scene::source::{Amount, SceneSource};
+use crate::scene::{Lighting, SceneColor};
 use crate::units::Keyword;
 
 /// Which one number an amount of three becomes.

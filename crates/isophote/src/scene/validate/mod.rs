@@ -24,7 +24,7 @@ use super::source::SceneSource;
 use super::{Scene, Shape};
 use crate::camera::{Camera, Extent, Projection};
 use crate::reflectance::Convention;
-use crate::render::Sampling;
+use crate::scene::Sampling;
 use crate::units::{LengthUnit, ScreenUnit, UnitSystem};
 
 /// What a scene may hold. The bounds on numbers keep every formula far from overflow.

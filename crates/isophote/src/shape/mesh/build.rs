@@ -1,7 +1,6 @@
 //! From the triangles of a file to a mesh that stands in a scene.
 
 use super::Mesh;
-use crate::import::CornerNormals;
 use crate::shape::{Bounds, Rotation};
 use crate::vector::Vector;
 
@@ -19,6 +18,16 @@ pub struct MeshData {
     pub slots: Vec<u16>,
     /// The material of each slot; none stands for the shape's own.
     pub materials: Vec<Option<u32>>,
+}
+
+/// A direction for each corner of each triangle. Triangles for which the file gives none, while it gives some for others,
+/// have that of their plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CornerNormals {
+    /// Unit vectors, no two equal.
+    pub vectors: Vec<[f64; 3]>,
+    /// Each triangle's three: indices into `vectors`.
+    pub corners: Vec<[u32; 3]>,
 }
 
 /// What is done with the triangles of a file, in this order.

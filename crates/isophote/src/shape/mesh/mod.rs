@@ -5,12 +5,12 @@ mod build;
 mod tests;
 mod triangle;
 
-use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, Ray};
-use crate::import::CornerNormals;
-use crate::real::Scalar;
+use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
-pub use build::{MeshData, MeshError, MeshPlacing};
+pub use build::{CornerNormals, MeshData, MeshError, MeshPlacing};
 use triangle::Triangle;
 
 /// Triangles that share their corners: the parts of the shape. Lean, as there may be millions: two lists of numbers.

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use super::CornerNormals;
 use super::{Mesh, MeshData, MeshPlacing};
 use crate::conformance::conforms;
-use crate::import::CornerNormals;
 use crate::map::Quantity;
 use crate::prepare::PreparedScene;
 use crate::render::{ReferenceRenderer, RenderSettings, Renderer};

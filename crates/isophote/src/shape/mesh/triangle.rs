@@ -1,7 +1,8 @@
 //! One triangle of a mesh (2.5).
 
-use crate::real::Scalar;
-use crate::shape::{Accuracy, Intersection, NearestPoint, PLACE_ERROR, Ray, ShapeHit, SurfacePoint};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
+use crate::shape::{Accuracy, Intersection, NearestPoint, PLACE_ERROR, ShapeHit, SurfacePoint};
 use crate::vector::Vector;
 
 /// Three corners and, for smooth shading, a normal at each.

@@ -1,10 +1,10 @@
 //! Where a shape appears on the screen: for renderers that go along rows instead of tracing ray by ray.
 
-use super::{Sphere, SurfacePoint};
 use crate::camera::{CameraFrame, Projection, Screen, between};
 use crate::double_double::{DoubleDouble, ExactProduct};
 use crate::map::Resolution;
-use crate::real::{Real, Scalar};
+use crate::real::Real;
+use crate::shape::{Geometry, Sphere, SurfacePoint};
 use crate::vector::Vector;
 
 /// Where a shape appears on the screen.
@@ -16,6 +16,19 @@ pub enum Outline {
     Ellipse(Box<Ellipse>),
     /// In a place that has no such simple form: the eye is inside, or the shape reaches beside or behind it.
     Unknown,
+}
+
+impl Outline {
+    /// Where a shape appears on the screen.
+    #[must_use]
+    pub fn of(geometry: &Geometry, frame: &CameraFrame<DoubleDouble>) -> Self {
+        match geometry {
+            Geometry::Sphere(sphere) if sphere.signed_distance(frame.eye.map(DoubleDouble::rounded)) > 0.0 => {
+                Ellipse::of_sphere(sphere, frame)
+            }
+            _ => Self::Unknown,
+        }
+    }
 }
 
 /// The outline of a sphere that is wholly before the eye, and what its pixels see.
@@ -146,7 +159,7 @@ pub(crate) const BEFORE_THE_EYE: f64 = 1e-3;
 
 impl Ellipse {
     /// The outline of a sphere.
-    pub(super) fn of_sphere(sphere: &Sphere, frame: &CameraFrame<DoubleDouble>) -> Outline {
+    fn of_sphere(sphere: &Sphere, frame: &CameraFrame<DoubleDouble>) -> Outline {
         let Projection::Perspective(window) = &frame.projection else { return Outline::Unknown };
         let grid = PixelGrid::new(frame, window);
         let from_eye = grid.seen_from_eye(Vector::from_f64(sphere.center), DoubleDouble::from_f64(sphere.radius));
