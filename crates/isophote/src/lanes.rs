@@ -1,7 +1,8 @@
 //! Vectors of lanes, each lane a pixel: the only file that names the SIMD crate.
 //!
-//! A vector has 16 numbers in single precision or 8 in double; narrower registers take several, and with the widest two
-//! vectors are computed side by side. Every lane is computed alone and rounded alike, so neither a machine's width nor a
+//! A vector has 16 numbers in single precision or 8 in double, in one register or two; with the widest registers two vectors
+//! are computed side by side. Where registers have 16 bytes, vectors have 4 and 2 numbers: emulating wider ones makes code
+//! large and slow to compile. Every lane is computed alone and rounded alike, so neither a machine's width nor a
 //! pixel's place in a vector changes a bit. (With the exception of machines that have no fused multiplication and addition:
 //! SSE and WebAssembly round products before they add. AVX2, AVX-512 and NEON agree.)
 //!
@@ -10,7 +11,9 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch, f32x16, f64x8, mask32x16, mask64x8, u32x16, u64x8};
+use fearless_simd::{
+    Level, f32x4, f32x16, f64x2, f64x8, mask32x4, mask32x16, mask64x2, mask64x8, u32x4, u32x16, u64x2, u64x8,
+};
 
 use crate::double_double::{DoubleDouble, ExactProduct, operations_on_pairs};
 use crate::real::Real;
@@ -37,7 +40,7 @@ pub trait Lane: Real {
     type Token: SimdToken;
     /// How many numbers there are.
     const COUNT: usize;
-    /// The vector of 16 singles or 8 doubles, where this one is two of them.
+    /// The vector of a single one, where this one is two of them.
     type Narrow: Lane<Element = Self::Element, Token = Self::Token>;
 
     /// The same number in every lane.
@@ -51,6 +54,13 @@ pub trait Lane: Real {
 
     /// Bit i tells whether the mask is set in lane i.
     fn bits(mask: Self::Mask) -> u32;
+
+    /// Bit i tells whether the mask is not set in lane i.
+    #[inline(always)]
+    fn bits_not(mask: Self::Mask) -> u32 {
+        let all = if Self::COUNT == 32 { u32::MAX } else { (1 << Self::COUNT) - 1 };
+        !Self::bits(mask) & all
+    }
 
     /// The smaller of two numbers.
     #[must_use]
@@ -197,7 +207,7 @@ impl Instructions {
     /// The best that this machine has.
     #[must_use]
     pub fn best() -> Self {
-        Self(Level::new())
+        Self(known(Level::new()))
     }
 
     /// All that this machine has, for tests that hold each of them to the same results.
@@ -205,12 +215,8 @@ impl Instructions {
     pub fn all() -> Vec<Self> {
         let best = Level::new();
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        let levels = [
-            best.as_sse2().map(Level::Sse2),
-            best.as_sse4_2().filter(|_| cfg!(not(disable_dispatch_sse4_2))).map(Level::Sse4_2),
-            best.as_avx2().map(Level::Avx2),
-            best.as_avx512().map(Level::Avx512),
-        ];
+        let levels =
+            [best.as_sse2().map(Level::Sse2), best.as_avx2().map(Level::Avx2), best.as_avx512().map(Level::Avx512)];
         #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
         let levels = [Some(best)];
         levels.into_iter().flatten().map(Self).collect()
@@ -222,8 +228,6 @@ impl Instructions {
         match self.0 {
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             Level::Sse2(_) => "sse2",
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Sse4_2(_) => "sse4.2",
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             Level::Avx2(_) => "avx2",
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -253,6 +257,15 @@ impl Instructions {
     }
 }
 
+/// A level for which kernels are compiled.
+fn known(level: Level) -> Level {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    if let (Level::Sse4_2(_), Some(token)) = (level, level.as_sse2()) {
+        return Level::Sse2(token);
+    }
+    level
+}
+
 /// Something to be computed with vectors.
 pub trait LaneJob {
     /// What comes of it.
@@ -264,26 +277,68 @@ pub trait LaneJob {
         S: Lane<Element = f32>,
         D: Lane<Element = f64, Token = S::Token>;
 
-    /// Computes it by these instructions. All that a job calls is compiled into this function, once for each token of
+    /// Computes it by these instructions. All that a job calls is compiled into this function, once for each kind of
     /// instructions. (As a method of the job it is compiled beside other jobs, and not with them.)
     #[inline(never)]
     fn run_by(self, instructions: Instructions) -> Self::Output
     where
         Self: Sized,
     {
-        dispatch!(instructions.0, simd => run_with(simd, self))
+        let level = instructions.0;
+        // Not the crate's `dispatch!`: that compiles a kernel for SSE4.2 too, unless flags from outside the source say
+        // otherwise. Machines between SSE2 and AVX2 (2008 to 2013) take the SSE2 kernels.
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        {
+            if let Some(token) = level.as_avx512() {
+                return run_with(token, self);
+            }
+            if let Some(token) = level.as_avx2() {
+                return run_with(token, self);
+            }
+            if let Some(token) = level.as_sse2() {
+                return run_with(token, self);
+            }
+        }
+        #[cfg(target_arch = "aarch64")]
+        if let Some(token) = level.as_neon() {
+            return run_with(token, self);
+        }
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        if let Some(token) = level.as_wasm_simd128() {
+            return run_with(token, self);
+        }
+        run_without(level, self)
     }
+}
+
+/// Where there are no vector instructions.
+fn run_without<J: LaneJob>(level: Level, job: J) -> J::Output {
+    #[cfg(any(
+        all(target_arch = "wasm32", not(target_feature = "simd128")),
+        not(any(target_arch = "x86", target_arch = "x86_64", target_arch = "aarch64", target_arch = "wasm32"))
+    ))]
+    if let Level::Fallback(token) = level {
+        return run_with(token, job);
+    }
+    let _ = job;
+    unreachable!("every machine of this architecture has one of the levels above, not {level:?}")
 }
 
 #[inline(always)]
 fn run_with<S: Simd, J: LaneJob>(simd: S, job: J) -> J::Output {
-    // Two vectors in flight hide the latency of the divider. Where a vector fills four registers of sixteen, there is
-    // no room for two.
-    if const { <S::f32s as SimdBase<S>>::LEN == 16 } {
-        job.run::<Pair<f32x16<S>>, Pair<f64x8<S>>>(simd)
-    } else {
-        job.run::<f32x16<S>, f64x8<S>>(simd)
-    }
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            // Two vectors in flight hide the latency of the divider. Where a vector fills two registers of sixteen, there
+            // is no room for two.
+            match const { <S::f32s as SimdBase<S>>::LEN } {
+                16 => job.run::<Pair<f32x16<S>>, Pair<f64x8<S>>>(simd),
+                // NEON has registers for four at a time.
+                4 if !cfg!(target_arch = "aarch64") => job.run::<f32x4<S>, f64x2<S>>(simd),
+                _ => job.run::<f32x16<S>, f64x8<S>>(simd),
+            }
+        },
+    )
 }
 
 macro_rules! lane {
@@ -406,41 +461,66 @@ macro_rules! lane {
     };
 }
 
-lane!(f32x16, mask32x16, u32x16, f32, max_f32x16, min_f32x16, half: 4097.0, negligible: 1e-14,
-    mantissa bits: 23, whole: 8_388_608.0, bias: 127.0);
-lane!(f64x8, mask64x8, u64x8, f64, max_f64x8, min_f64x8, half: 134_217_729.0, negligible: 1e-32,
-    mantissa bits: 52, whole: 4_503_599_627_370_496.0, bias: 1023.0);
+macro_rules! single_lane {
+    ($($vector:ident $mask:ident $bits:ident $max:ident $min:ident),*) => {$(
+        lane!($vector, $mask, $bits, f32, $max, $min, half: 4097.0, negligible: 1e-14,
+            mantissa bits: 23, whole: 8_388_608.0, bias: 127.0);
+    )*};
+}
 
+macro_rules! double_lane {
+    ($($vector:ident $mask:ident $bits:ident $max:ident $min:ident),*) => {$(
+        lane!($vector, $mask, $bits, f64, $max, $min, half: 134_217_729.0, negligible: 1e-32,
+            mantissa bits: 52, whole: 4_503_599_627_370_496.0, bias: 1023.0);
+    )*};
+}
+
+single_lane!(f32x4 mask32x4 u32x4 max_f32x4 min_f32x4, f32x16 mask32x16 u32x16 max_f32x16 min_f32x16);
+double_lane!(f64x2 mask64x2 u64x2 max_f64x2 min_f64x2, f64x8 mask64x8 u64x8 max_f64x8 min_f64x8);
+
+/// Doubles as vectors of either precision.
 mod doubles {
-    use super::{Simd, SimdBase, SimdNarrow, f32x16, f64x8};
+    use super::{Simd, SimdBase, SimdNarrow, f32x4, f32x16, f64x2, f64x8};
 
-    #[inline(always)]
-    pub fn f64x8<S: Simd>(token: S, numbers: &[f64]) -> f64x8<S> {
-        f64x8::from_slice(token, &numbers[..8])
+    macro_rules! doubles {
+        ($($double:ident $single:ident $count:literal),*) => {$(
+            #[inline(always)]
+            pub fn $double<S: Simd>(token: S, numbers: &[f64]) -> $double<S> {
+                $double::from_slice(token, &numbers[..$count])
+            }
+
+            #[inline(always)]
+            pub fn $single<S: Simd>(token: S, numbers: &[f64]) -> $single<S> {
+                $double(token, numbers).narrow($double(token, &numbers[$count..]))
+            }
+        )*};
     }
 
-    #[inline(always)]
-    pub fn f32x16<S: Simd>(token: S, numbers: &[f64]) -> f32x16<S> {
-        f64x8(token, numbers).narrow(f64x8(token, &numbers[8..]))
-    }
+    doubles!(f64x2 f32x4 2, f64x8 f32x16 8);
 }
 
 mod distances {
-    use super::{Simd, SimdBase, SimdNarrow, f32x16, f64x8};
+    use super::{Simd, SimdBase, SimdNarrow, f32x4, f32x16, f64x2, f64x8};
 
     const LANES: [f64; 16] = [0., 1., 2., 3., 4., 5., 6., 7., 8., 9., 10., 11., 12., 13., 14., 15.];
 
-    #[inline(always)]
-    pub fn f64x8<S: Simd>(token: S, first: f64, origin: f64) -> f64x8<S> {
-        (f64x8::from_slice(token, &LANES[..8]) + first) - origin
+    macro_rules! distances {
+        ($($double:ident $single:ident $count:literal),*) => {$(
+            #[inline(always)]
+            pub fn $double<S: Simd>(token: S, first: f64, origin: f64) -> $double<S> {
+                ($double::from_slice(token, &LANES[..$count]) + first) - origin
+            }
+
+            #[inline(always)]
+            pub fn $single<S: Simd>(token: S, first: f64, origin: f64) -> $single<S> {
+                let lower = $double(token, first, origin);
+                let upper = ($double::from_slice(token, &LANES[$count..2 * $count]) + first) - origin;
+                lower.narrow(upper)
+            }
+        )*};
     }
 
-    #[inline(always)]
-    pub fn f32x16<S: Simd>(token: S, first: f64, origin: f64) -> f32x16<S> {
-        let lower = f64x8(token, first, origin);
-        let upper = (f64x8::from_slice(token, &LANES[8..]) + first) - origin;
-        lower.narrow(upper)
-    }
+    distances!(f64x2 f32x4 2, f64x8 f32x16 8);
 }
 
 /// Two vectors that are computed side by side.

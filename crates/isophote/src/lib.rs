@@ -26,6 +26,7 @@ pub mod shade;
 pub mod shape;
 pub mod sum;
 pub mod text;
+pub mod threads;
 pub mod tolerance;
 pub mod units;
 pub mod vector;

@@ -284,6 +284,51 @@ impl<T: Copy> Ellipse<T> {
     }
 }
 
+impl<T: Copy> Ellipse<T> {
+    /// All numbers the same.
+    pub(crate) fn filled_with(number: T) -> Self {
+        let vector = Vector { x: number, y: number, z: number };
+        Self {
+            column: number,
+            row: number,
+            rows: [number; 2],
+            middle: [number; 2],
+            width_squared: number,
+            clearance: number,
+            direction: [vector; 3],
+            moment: [vector; 3],
+            center: vector,
+        }
+    }
+
+    /// Puts each number into its place in another outline.
+    #[inline(always)]
+    pub(crate) fn put_into<U>(self, other: &mut Ellipse<U>, mut put: impl FnMut(T, &mut U)) {
+        let mut vector = |from: Vector<T>, to: &mut Vector<U>| {
+            put(from.x, &mut to.x);
+            put(from.y, &mut to.y);
+            put(from.z, &mut to.z);
+        };
+        for (from, to) in self.direction.into_iter().zip(&mut other.direction) {
+            vector(from, to);
+        }
+        for (from, to) in self.moment.into_iter().zip(&mut other.moment) {
+            vector(from, to);
+        }
+        vector(self.center, &mut other.center);
+        put(self.column, &mut other.column);
+        put(self.row, &mut other.row);
+        for (from, to) in self.rows.into_iter().zip(&mut other.rows) {
+            put(from, to);
+        }
+        for (from, to) in self.middle.into_iter().zip(&mut other.middle) {
+            put(from, to);
+        }
+        put(self.width_squared, &mut other.width_squared);
+        put(self.clearance, &mut other.clearance);
+    }
+}
+
 impl<T: Real> Ellipse<T> {
     /// A row, counted from [`row`](Self::row).
     #[must_use]

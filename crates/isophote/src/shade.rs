@@ -1,7 +1,7 @@
 //! The formula: from light to brightness (3.1) to (3.9). It stands here once, for every number type.
 
 use crate::color::Rgb;
-use crate::light::{Light, PlacedLight};
+use crate::light::{Emitter, PlacedEmitter};
 use crate::real::Real;
 use crate::reflectance::{BrightnessFormula, Lobe};
 use crate::scalar::Scalar;
@@ -23,6 +23,13 @@ pub struct Shading<T = f64> {
 }
 
 impl<T: Real> Shading<T> {
+    /// The brightness that comes of E, ambient light included, and of Σ E_j (N·H_j)ⁿ, by a formula.
+    #[inline(always)]
+    pub fn new(irradiance: T, lobes: T, ambient: T, formula: &BrightnessFormula, cos_theta_o: T) -> Self {
+        let (diffuse, specular) = (formula.diffuse_factor(cos_theta_o), formula.specular_factor(cos_theta_o));
+        Self { irradiance, ambient, diffuse: irradiance * diffuse, specular: lobes * specular }
+    }
+
     /// B, in the convention's unit.
     #[must_use]
     #[inline(always)]
@@ -45,13 +52,14 @@ impl Shading {
     }
 }
 
-/// Sums the brightness of a surface point over the lights, in their order.
+/// Sums the brightness of a surface point over the emitters, in their order.
 ///
-/// `visibility(j)` is v_j of (3.1): 1, or 0 in shadow. `ambient` is E_a of (3.9). `each(j, term)` sees every light's own term.
+/// `visibility(k)` is v of (3.1) for the emitter k: 1, or 0 in shadow, or the part that is seen. `ambient` is E_a of (3.9).
+/// `each(j, term)` sees the term of every emitter, with the index of its light.
 #[inline(always)]
 pub fn shade<T: Scalar>(
     point: &SurfacePoint<T>,
-    lights: &[Light],
+    emitters: &[Emitter],
     formula: &BrightnessFormula,
     ambient: T,
     visibility: impl Fn(usize) -> T,
@@ -59,16 +67,14 @@ pub fn shade<T: Scalar>(
 ) -> Shading<T> {
     let (mut irradiance, mut lobes) = (Sum::new(), Sum::new());
     let lobe = formula.lobe();
-    for (index, light) in lights.iter().enumerate() {
-        let term = light_term(point, &light.seen_from(point.anchor), visibility(index), &lobe);
+    for (index, emitter) in emitters.iter().enumerate() {
+        let term = light_term(point, &emitter.seen_from(point.anchor), visibility(index), &lobe);
         irradiance.add(term.irradiance);
         lobes.add(term.irradiance * term.lobe);
-        each(index, &term);
+        each(emitter.light, &term);
     }
     irradiance.add(ambient);
-    let (diffuse, specular) = (formula.diffuse_factor(point.cos_theta_o), formula.specular_factor(point.cos_theta_o));
-    let irradiance = irradiance.value();
-    Shading { irradiance, ambient, diffuse: irradiance * diffuse, specular: lobes.value() * specular }
+    Shading::new(irradiance.value(), lobes.value(), ambient, formula, point.cos_theta_o)
 }
 
 /// The irradiances of some lights, taken from the terms that [`shade`] goes through.
@@ -81,11 +87,16 @@ impl ByLight {
         Self(lights.into_iter().map(|light| (light, 0.0)).collect())
     }
 
-    /// Takes the term of a light if it is one of them.
+    /// Takes a term of a light if it is one of them.
     pub fn take(&mut self, light: usize, term: &LightTerm) {
         for (_, irradiance) in self.0.iter_mut().filter(|(wanted, _)| *wanted == light) {
-            *irradiance = term.irradiance;
+            *irradiance += term.irradiance;
         }
+    }
+
+    /// Those of all of them, in W/m² or lx.
+    pub fn irradiances(&self) -> impl Iterator<Item = f64> {
+        self.0.iter().map(|(_, irradiance)| *irradiance)
     }
 
     /// E_j of a light, in W/m² or lx; 0 if it is none of them.
@@ -95,7 +106,7 @@ impl ByLight {
     }
 }
 
-/// One light's term of the sum, with the steps that lead to it.
+/// An emitter's term of the sum, or a light's, with the steps that lead to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightTerm<T = f64> {
     /// v_j.
@@ -116,6 +127,21 @@ pub struct LightTerm<T = f64> {
     pub irradiance: T,
     /// (N·H_j)ⁿ; 0 where the formula has no highlight.
     pub lobe: T,
+}
+
+impl LightTerm {
+    /// Adds the term of another emitter of the same light. Directions and cosines stay those of the first one.
+    pub fn add(&mut self, other: &Self) {
+        let (before, intensity) = (self.irradiance * self.lobe, self.intensity + other.intensity);
+        self.irradiance += other.irradiance;
+        if self.irradiance > 0.0 {
+            self.lobe = (before + other.irradiance * other.lobe) / self.irradiance;
+        }
+        if intensity > 0.0 {
+            self.visibility = (self.visibility * self.intensity + other.visibility * other.intensity) / intensity;
+        }
+        self.intensity = intensity;
+    }
 }
 
 impl<T: Real> LightTerm<T> {
@@ -140,11 +166,11 @@ impl<T: Real> LightTerm<T> {
 #[inline(always)]
 pub fn light_term<T: Real>(
     point: &SurfacePoint<T>,
-    light: &PlacedLight<T>,
+    emitter: &PlacedEmitter<T>,
     visibility: T,
     lobe: &impl Lobe<T>,
 ) -> LightTerm<T> {
-    let to_light = light.from_point(point.offset);
+    let to_light = emitter.from_point(point.offset);
     let distance_squared = to_light.dot(to_light);
     let distance = distance_squared.sqrt();
     let along = point.normal.dot(to_light);
@@ -164,7 +190,7 @@ pub fn light_term<T: Real>(
     let inverse = distance.splat_like(1.0) / (cubed * squares);
     let inverse_squares = cubed * inverse;
     let inverse_cubed = squares * inverse;
-    let intensity = light.intensity_towards(to_light, distance_squared * inverse_cubed);
+    let intensity = emitter.intensity_towards(to_light, distance_squared * inverse_cubed);
     let inverse_distance = distance.splat_like(1.0) / distance;
     let direction = to_light * inverse_distance;
     LightTerm {

@@ -200,7 +200,7 @@ fn emission_text(emission: &Emission) -> String {
         Emission::Lambertian { axis } => format!("lambertian, axis {}", vector(*axis)),
         Emission::Spot(spot) => {
             let [inner, outer] = [spot.inner_angle(), spot.outer_angle()].map(|angle| short(angle.to_degrees()));
-            format!("spot, axis {}, {inner}° to {outer}°", vector(spot.axis))
+            format!("spot, axis {}, {inner}° to {outer}°", vector(spot.cone.axis))
         }
     }
 }
@@ -326,7 +326,7 @@ fn light_json(scene: &Scene, index: usize, light: &Light) -> Value {
     let (emission, axis) = match point.emission {
         Emission::Isotropic => ("isotropic", None),
         Emission::Lambertian { axis } => ("lambertian", Some(axis.to_array())),
-        Emission::Spot(spot) => ("spot", Some(spot.axis.to_array())),
+        Emission::Spot(spot) => ("spot", Some(spot.cone.axis.to_array())),
     };
     let mut value = json!({
         "name": light.name, "position": point.position.to_array(), "intensity": strength(intensity_of),

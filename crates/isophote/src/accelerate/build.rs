@@ -4,12 +4,12 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::ploc::{PlocBuilder, SortPrecision};
-use rayon::prelude::*;
 
 use super::node::{Child, Node, WIDTH};
 use super::{Accelerator, Unit};
 use crate::lanes::Instructions;
 use crate::shape::Bounds;
+use crate::threads::Threads;
 use crate::vector::Vector;
 
 /// So many primitives that are near each other make a part of the scene, with a binary tree of its own: what building it
@@ -23,13 +23,14 @@ const PIECES: usize = 64;
 const AT_ONCE: usize = 8;
 
 /// The tree over boxes, each of which is asked for again rather than kept: a million of them are not small.
-pub fn build(count: u32, bounds: impl Fn(u32) -> Option<Bounds> + Sync) -> Accelerator {
+pub fn build(threads: &Threads, count: u32, bounds: impl Fn(u32) -> Option<Bounds> + Sync) -> Accelerator {
     let bounded = |number: u32| bounds(number).filter(is_bounded);
     let unit = Unit::around((0..count).filter_map(bounded).reduce(Bounds::union).unwrap_or_default());
     let leaf = |number: u32| bounded(number).map(|bounds| leaf(single_box(&unit, &bounds), Child::primitive(number)));
     let mut nodes = vec![Node::EMPTY];
-    let numbers =
-        sorted(count, |number| bounded(number).map(|bounds| unit.place((bounds.least + bounds.greatest) * 0.5)));
+    let numbers = sorted(threads, count, |number| {
+        bounded(number).map(|bounds| unit.place((bounds.least + bounds.greatest) * 0.5))
+    });
     let parts: Vec<&[u64]> = numbers.chunks(PART).collect();
     let leaves = |part: &[u64]| part.iter().filter_map(|entry| leaf(number_of(*entry))).collect();
     if let [part] = parts[..] {
@@ -37,7 +38,7 @@ pub fn build(count: u32, bounds: impl Fn(u32) -> Option<Bounds> + Sync) -> Accel
     } else if !parts.is_empty() {
         let mut pieces = Vec::with_capacity(parts.len() * PIECES);
         for parts in parts.chunks(AT_ONCE) {
-            let built: Vec<Subtree> = parts.par_iter().map(|part| Subtree::of(&binary_tree(leaves(part)))).collect();
+            let built: Vec<Subtree> = threads.map(parts.to_vec(), |part| Subtree::of(&binary_tree(leaves(part))));
             for part in built {
                 part.append_to(&mut nodes, &mut pieces);
             }
@@ -55,7 +56,7 @@ fn is_bounded(bounds: &Bounds) -> bool {
 
 /// The numbers of all boxes, in the order of a curve that fills space (Morton's); above each its place on the curve.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "ten bits of places from −1 to 1")]
-fn sorted(count: u32, middle: impl Fn(u32) -> Option<Vector>) -> Vec<u64> {
+fn sorted(threads: &Threads, count: u32, middle: impl Fn(u32) -> Option<Vector>) -> Vec<u64> {
     let along_curve = |number: u32| {
         let spread = |coordinate: f64| {
             let bits = ((coordinate + 1.0) * 512.0).clamp(0.0, 1023.0) as u64;
@@ -66,7 +67,7 @@ fn sorted(count: u32, middle: impl Fn(u32) -> Option<Vector>) -> Vec<u64> {
     };
     let mut entries: Vec<u64> = (0..count).filter_map(along_curve).collect();
     if entries.len() > PART {
-        entries.par_sort_unstable();
+        threads.sort(&mut entries);
     }
     entries
 }

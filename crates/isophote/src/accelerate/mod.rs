@@ -18,6 +18,7 @@ use self::node::Node;
 use self::query::Query;
 use crate::lanes::Instructions;
 use crate::shape::Bounds;
+use crate::threads::Threads;
 use crate::vector::Vector;
 
 /// The tree. Primitives are numbers, from 0 in the order in which their boxes were given.
@@ -32,10 +33,10 @@ pub struct Accelerator {
 }
 
 impl Accelerator {
-    /// The tree over so many primitives; what has no end has no box.
+    /// The tree over so many primitives, built on these threads; what has no end has no box.
     #[must_use]
-    pub fn new(count: u32, bounds: impl Fn(u32) -> Option<Bounds> + Sync) -> Self {
-        build::build(count, bounds)
+    pub fn new(threads: &Threads, count: u32, bounds: impl Fn(u32) -> Option<Bounds> + Sync) -> Self {
+        build::build(threads, count, bounds)
     }
 
     /// Goes through the primitives that a ray may meet, from near to far: `test` says up to which distance (in lengths of

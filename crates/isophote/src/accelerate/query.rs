@@ -7,8 +7,22 @@ use crate::vector::Vector;
 
 /// A question to the boxes of a node.
 pub trait Query {
-    /// For each box a depth, which no point of the box that counts is before; and which boxes are met.
-    fn intersect<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node) -> (V, u32);
+    /// For each box of a vector of them, from a place on, a depth, which no point of the box that counts is before; and
+    /// which of them are met.
+    fn intersect_some<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node, at: usize) -> (V, u32);
+
+    /// The same for all boxes.
+    #[inline(always)]
+    fn intersect<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node) -> ([f32; WIDTH], u32) {
+        let mut depths = [0.0; WIDTH];
+        let mut met = 0;
+        for at in (0..WIDTH).step_by(V::COUNT) {
+            let (near, met_here) = self.intersect_some::<V>(token, node, at);
+            near.store(&mut depths[at..]);
+            met |= met_here << at;
+        }
+        (depths, met & node.used)
+    }
 
     /// The same with these instructions.
     fn intersect_with(&self, instructions: Instructions, node: &Node) -> ([f32; WIDTH], u32)
@@ -33,10 +47,7 @@ impl<Q: Query> LaneJob for Intersect<'_, Q> {
         S: Lane<Element = f32>,
         D: Lane<Element = f64, Token = S::Token>,
     {
-        let (near, met) = self.query.intersect::<S::Narrow>(token, self.node);
-        let mut depths = [0.0; WIDTH];
-        near.store(&mut depths);
-        (depths, met)
+        self.query.intersect::<S::Narrow>(token, self.node)
     }
 }
 
@@ -106,17 +117,17 @@ impl Tube {
 
 impl Query for Tube {
     #[inline(always)]
-    fn intersect<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node) -> (V, u32) {
+    fn intersect_some<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node, at: usize) -> (V, u32) {
         let mut near = V::splat(token, 0.0);
         let mut far = V::splat(token, f32::MAX);
         for axis in 0..3 {
             let first = self.first[axis];
             let inverse = V::splat(token, self.inverse[axis]);
             let [start, end] = [self.starts[0][axis], self.starts[1][axis]];
-            near = near.max((V::load(token, &node.sides[first][axis]) - V::splat(token, start)) * inverse);
-            far = far.min((V::load(token, &node.sides[1 - first][axis]) - V::splat(token, end)) * inverse);
+            near = near.max((V::load(token, &node.sides[first][axis][at..]) - V::splat(token, start)) * inverse);
+            far = far.min((V::load(token, &node.sides[1 - first][axis][at..]) - V::splat(token, end)) * inverse);
         }
-        (near, !V::bits(far.is_less(near)) & node.used)
+        (near, V::bits_not(far.is_less(near)))
     }
 }
 
@@ -161,25 +172,25 @@ impl Beam {
 
 /// The greatest of n·x + offset over each box.
 #[inline(always)]
-fn highest<V: Lane<Element = f32>>(token: V::Token, node: &Node, (normal, offset): &([f32; 3], f32)) -> V {
+fn highest<V: Lane<Element = f32>>(token: V::Token, node: &Node, at: usize, (normal, offset): &([f32; 3], f32)) -> V {
     let mut sum = V::splat(token, *offset);
     for (axis, component) in normal.iter().enumerate() {
         let side = usize::from(*component > 0.0);
-        sum = V::load(token, &node.sides[side][axis]).mul_add(V::splat(token, *component), sum);
+        sum = V::load(token, &node.sides[side][axis][at..]).mul_add(V::splat(token, *component), sum);
     }
     sum
 }
 
 impl Query for Beam {
     #[inline(always)]
-    fn intersect<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node) -> (V, u32) {
+    fn intersect_some<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node, at: usize) -> (V, u32) {
         let zero = V::splat(token, 0.0);
-        let mut inside = highest::<V>(token, node, &self.walls[0]);
+        let mut inside = highest::<V>(token, node, at, &self.walls[0]);
         for wall in &self.walls[1..] {
-            inside = inside.min(highest(token, node, wall));
+            inside = inside.min(highest(token, node, at, wall));
         }
         // −n·x is greatest where the depth is least.
-        let depth = (-highest::<V>(token, node, &self.forward)).max(zero);
-        (depth, !V::bits(inside.is_less(zero)) & node.used)
+        let depth = (-highest::<V>(token, node, at, &self.forward)).max(zero);
+        (depth, V::bits_not(inside.is_less(zero)))
     }
 }

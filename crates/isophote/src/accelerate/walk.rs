@@ -33,12 +33,7 @@ impl Walk {
             tree,
             limit,
             #[inline(always)]
-            |node| {
-                let (near, met) = query.intersect::<V>(token, node);
-                let mut depths = [0.0; 16];
-                near.store(&mut depths);
-                (depths, met)
-            },
+            |node| query.intersect::<V>(token, node),
         )
     }
 

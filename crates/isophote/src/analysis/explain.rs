@@ -282,7 +282,7 @@ fn explain_emission(text: &mut String, light: &PointLight, term: &LightTerm, uni
             return;
         }
         Emission::Lambertian { axis } => axis,
-        Emission::Spot(spot) => spot.axis,
+        Emission::Spot(spot) => spot.cone.axis,
     };
     let cosine = axis.dot(-term.direction);
     line(text, format_args!("  A   = {}   axis of the light", vector(axis)));

@@ -3,9 +3,8 @@
 use crate::analysis::cells::{self, Cell, Layout};
 use crate::map::{Coordinates, Map, Pixel, Quantity, Resolution, Window};
 use crate::prepare::PreparedScene;
-use crate::render::color::map_of_components;
+use crate::render::RenderError;
 use crate::scene::Grid;
-use crate::shade::ByLight;
 use crate::shape::SurfacePoint;
 use crate::vector::Vector;
 
@@ -58,11 +57,6 @@ impl PreparedScene {
                 return Err(GridError::LightAtPoint { light: light.name.clone(), grid: grid.name.clone(), cell });
             }
         }
-        map_of_components(self, quantities, true, |scene, quantities| scene.grid_of_numbers(grid, quantities))
-    }
-
-    fn grid_of_numbers(&self, grid: &Grid, quantities: &[Quantity]) -> Result<Map, GridError> {
-        let lights = cells::lights(self, quantities).map_err(|name| GridError::NoSuchLight { name })?;
         let length = self.scene().length();
         let edge = |edge: Vector| [0.0, length.from_metres(edge.length())];
         let layout = Layout {
@@ -71,12 +65,11 @@ impl PreparedScene {
             renderer: format!("grid {}, double", grid.name),
             shape: 0,
         };
-        Ok(cells::map(self, layout, quantities, |cell| {
-            let point = grid.surface_point(cell);
-            let mut by_light = ByLight::of(lights.iter().copied());
-            let shading = self.illuminate(&point, |light, term| by_light.take(light, term));
-            Some(Cell { position: point.position(), normal: point.normal, shading, lights: by_light })
-        }))
+        let map = cells::map(self, layout, quantities, |cell| Some(Cell::Free(grid.surface_point(cell))));
+        map.map_err(|error| match error {
+            RenderError::NoSuchLight { name } => GridError::NoSuchLight { name },
+            error => unreachable!("a grid is a map of known size: {error}"),
+        })
     }
 }
 

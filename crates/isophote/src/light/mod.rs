@@ -2,19 +2,20 @@
 
 mod ambient;
 mod emission;
+mod emitter;
 mod parallel;
-mod placed;
+mod pattern;
 mod point;
 mod spot;
 
 pub use ambient::Ambient;
 pub use emission::Emission;
+pub use emitter::{Emitter, Emitters, PlacedEmitter};
 pub use parallel::ParallelLight;
-pub use placed::{PlacedLight, Rays};
+pub use pattern::{Cone, Pattern};
 pub use point::PointLight;
 pub use spot::Spot;
 
-use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// A light with its name.
@@ -53,23 +54,6 @@ impl Light {
         match &self.kind {
             LightKind::Point(PointLight { emission: Emission::Spot(spot), .. }) => spot.steepest(),
             LightKind::Point(_) | LightKind::Parallel(_) => 0.0,
-        }
-    }
-
-    /// The way from a place to the light, in metres; of a parallel light L, a unit vector.
-    #[must_use]
-    #[inline(always)]
-    pub fn from_place<T: Scalar>(&self, anchor: Vector, offset: Vector<T>) -> Vector<T> {
-        self.seen_from(anchor).from_point(offset)
-    }
-
-    /// The light as it is seen from a place.
-    #[must_use]
-    #[inline(always)]
-    pub fn seen_from<T: Scalar>(&self, place: Vector) -> PlacedLight<T> {
-        match &self.kind {
-            LightKind::Point(light) => light.seen_from(place),
-            LightKind::Parallel(light) => light.seen_from_anywhere(),
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Lights that stand at a point.
 
-use super::{Emission, PlacedLight, Rays};
-use crate::scalar::Scalar;
+use super::Emission;
 use crate::vector::Vector;
 
 /// A light whose irradiance falls with the square of the distance (3.1).
@@ -16,15 +15,6 @@ pub struct PointLight {
 }
 
 impl PointLight {
-    #[inline(always)]
-    pub(super) fn seen_from<T: Scalar>(&self, place: Vector) -> PlacedLight<T> {
-        PlacedLight {
-            position: Vector::from_f64(self.position) - Vector::from_f64(place),
-            intensity: T::from_f64(self.intensity),
-            rays: Rays::Point(self.emission.map(T::from_f64)),
-        }
-    }
-
     /// The power that the light sends out in all directions, in W or lm.
     #[must_use]
     pub fn power(&self) -> f64 {
@@ -35,7 +25,7 @@ impl PointLight {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::light::Spot;
+    use crate::light::{Emitters, Light, LightKind, Spot};
 
     /// ∫ I(ω) dω over the sphere of directions, by the midpoint rule in cosine and azimuth about a slanted axis.
     #[test]
@@ -46,6 +36,8 @@ mod tests {
             .map(|[inner, outer]: [f64; 2]| Emission::Spot(Spot::new(axis, inner.to_radians(), outer.to_radians())));
         for emission in [Emission::Isotropic, Emission::Lambertian { axis }].into_iter().chain(spots) {
             let light = PointLight { position: Vector::default(), intensity: 3.5, emission };
+            let lamp = Light { name: String::new(), kind: LightKind::Point(light.clone()), casts_shadows: true };
+            let [emitter] = *Emitters::of(&[lamp]).all() else { panic!("a point light is one emitter") };
             let (cosines, turns) = (1000, 1000);
             let mut power = 0.0;
             for i in 0..cosines {
@@ -54,7 +46,7 @@ mod tests {
                     let (sine, cosine) = (std::f64::consts::TAU * (f64::from(j) + 0.5) / f64::from(turns)).sin_cos();
                     let ring = (1.0 - z * z).sqrt();
                     let away = Vector::new(ring * cosine, ring * sine, z);
-                    power += light.seen_from::<f64>(away).intensity_towards(-away, 1.0);
+                    power += emitter.seen_from::<f64>(away).intensity_towards(-away, 1.0);
                 }
             }
             power *= 4.0 * std::f64::consts::PI / f64::from(cosines * turns);

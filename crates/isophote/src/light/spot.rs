@@ -1,6 +1,6 @@
-//! The spot light's cone.
+//! The spot light.
 
-use crate::real::Real;
+use super::Cone;
 use crate::vector::Vector;
 
 /// The emission pattern of a spot light (3.7): I₀ within the inner cone, 0 outside the outer one, a smooth step between.
@@ -11,13 +11,9 @@ use crate::vector::Vector;
 ///
 /// γ is the angle from the axis, α and β are the half angles of the cones. Power: π I₀ (2 − cosα − cosβ).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spot<T = f64> {
-    /// Unit vector of the axis.
-    pub axis: Vector<T>,
-    /// 2(1 − cosβ).
-    outer: T,
-    /// 1/(2(cosα − cosβ)).
-    steepness: T,
+pub struct Spot {
+    /// The cone as the formula evaluates it.
+    pub cone: Cone,
 }
 
 impl Spot {
@@ -29,72 +25,43 @@ impl Spot {
     #[must_use]
     pub fn new(axis: Vector, inner: f64, outer: f64) -> Self {
         let [inner, outer] = [inner, outer].map(|angle| 4.0 * libm::pow(libm::sin(0.5 * angle), 2.0));
-        Self { axis, outer, steepness: 1.0 / (outer - inner) }
+        Self { cone: Cone { axis, outer, steepness: 1.0 / (outer - inner) } }
     }
 
     /// α, in radians.
     #[must_use]
     pub fn inner_angle(&self) -> f64 {
-        2.0 * libm::asin(0.5 * (self.outer - 1.0 / self.steepness).max(0.0).sqrt())
+        2.0 * libm::asin(0.5 * (self.cone.outer - 1.0 / self.cone.steepness).max(0.0).sqrt())
     }
 
     /// β, in radians.
     #[must_use]
     pub fn outer_angle(&self) -> f64 {
-        2.0 * libm::asin(0.5 * self.outer.sqrt())
+        self.cone.outer_angle()
     }
 
     /// Power over the intensity on the axis, in sr.
     #[must_use]
     pub fn solid_angle(&self) -> f64 {
-        std::f64::consts::PI * (self.outer - 0.5 / self.steepness)
+        std::f64::consts::PI * (self.cone.outer - 0.5 / self.cone.steepness)
     }
 
-    /// A bound of the growth of I/I₀ with γ, per radian: the step is steepest in its middle, by 3/2 of its height over
-    /// cosα − cosβ, and sinγ is largest at the outer edge.
+    /// See [`Cone::steepest`].
     #[must_use]
     pub fn steepest(&self) -> f64 {
-        3.0 * self.steepness * libm::sin(self.outer_angle())
+        self.cone.steepest()
     }
 
     /// By what part of itself I grows with γ, per radian, towards a point that the light sees in a direction (a unit
     /// vector); infinite where there is no light.
     #[must_use]
     pub fn relative_growth(&self, direction: Vector) -> f64 {
-        let x = self.place_in_step(-direction, 1.0);
+        let x = self.cone.place_in_step(-direction, 1.0);
         if x >= 1.0 {
             return 0.0;
         }
-        let sine = self.axis.cross(direction).length();
-        6.0 * (1.0 - x) / (x * (3.0 - 2.0 * x)) * 2.0 * self.steepness * sine
-    }
-}
-
-impl<T: Copy> Spot<T> {
-    /// The same cone in another number type.
-    #[must_use]
-    #[inline(always)]
-    pub fn map<U>(self, convert: impl Fn(T) -> U) -> Spot<U> {
-        let axis = self.axis.map(&convert);
-        Spot { axis, outer: convert(self.outer), steepness: convert(self.steepness) }
-    }
-}
-
-impl<T: Real> Spot<T> {
-    /// I/I₀ towards a point. `to_light` leads from the point to the light; its length is 1/`inverse_distance`.
-    #[inline(always)]
-    pub fn share(&self, to_light: Vector<T>, inverse_distance: T) -> T {
-        let x = self.place_in_step(to_light, inverse_distance);
-        x * x * (x + x).mul_add(x.splat_like(-1.0), x.splat_like(3.0))
-    }
-
-    /// x, by 2(1 − cosγ) = ‖A + L‖²: near the axis a cosine would have lost the angle's digits.
-    #[inline(always)]
-    fn place_in_step(&self, to_light: Vector<T>, inverse_distance: T) -> T {
-        let from_axis = to_light.mul_add(inverse_distance, self.axis);
-        let x = ((self.outer - from_axis.dot(from_axis)) * self.steepness).max_zero();
-        let one = x.splat_like(1.0);
-        T::select(x.is_less(one), x, one)
+        let sine = self.cone.axis.cross(direction).length();
+        6.0 * (1.0 - x) / (x * (3.0 - 2.0 * x)) * 2.0 * self.cone.steepness * sine
     }
 }
 
@@ -108,7 +75,7 @@ mod tests {
         let [inner, outer] = [20.0_f64, 30.0].map(f64::to_radians);
         let spot = Spot::new(axis, inner, outer);
         assert!((spot.inner_angle() - inner).abs() < 1e-15 && (spot.outer_angle() - outer).abs() < 1e-15);
-        let share = |angle: f64| spot.share(Vector::new(-2.0 * angle.sin(), 0.0, -2.0 * angle.cos()), 0.5);
+        let share = |angle: f64| spot.cone.share(Vector::new(-2.0 * angle.sin(), 0.0, -2.0 * angle.cos()), 0.5);
         assert_eq!([0.0, 0.3, inner - 1e-12].map(share), [1.0; 3]);
         assert_eq!([outer + 1e-12, 1.0, 3.1].map(share), [0.0; 3]);
         let middle = f64::midpoint(inner.cos(), outer.cos()).acos();
@@ -125,7 +92,7 @@ mod tests {
         let mut steepest = 0.0_f64;
         for step in 1..100 {
             let angle = 0.2 + 0.003 * f64::from(step);
-            let share = |angle: f64| spot.share(-towards(angle), 1.0);
+            let share = |angle: f64| spot.cone.share(-towards(angle), 1.0);
             let growth = (share(angle - 1e-6) - share(angle + 1e-6)) / 2e-6;
             steepest = steepest.max(growth);
             let relative = growth / share(angle);

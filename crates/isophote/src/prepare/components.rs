@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::PreparedScene;
 use crate::color::{ColorSpace, Component, Rgb};
+use crate::light::Emitters;
 use crate::scene::Lighting;
 use crate::scene::Scene;
 
@@ -42,6 +43,19 @@ impl PreparedScene {
         self.components.as_ref()
     }
 
+    /// The scenes whose shadings make the brightness: the components of one with colours, else the scene itself. What is
+    /// seen is the same in all of them.
+    #[must_use]
+    pub fn layers(&self) -> Vec<&Self> {
+        match self.components() {
+            None => vec![self],
+            Some(components) => {
+                let Rgb { red, green, blue } = components.scenes();
+                vec![red, green, blue]
+            }
+        }
+    }
+
     pub(super) fn split_into_components(&self) -> Option<Components> {
         let color = self.scene.color()?;
         let scenes = color.lighting.map(|lighting| self.lit_by(lighting));
@@ -51,7 +65,13 @@ impl PreparedScene {
     fn lit_by(&self, lighting: &Lighting) -> Self {
         let Lighting { materials, lights, ambient } = lighting.clone();
         let scene = Scene { materials, lights, ambient, color: None, ..Scene::clone(&self.scene) };
-        Self { formulas: super::formulas(&scene), components: None, scene: Arc::new(scene), ..self.clone() }
+        Self {
+            emitters: Emitters::of(&scene.lights),
+            formulas: super::formulas(&scene),
+            components: None,
+            scene: Arc::new(scene),
+            ..self.clone()
+        }
     }
 
     /// What would be wrong without a word: a scene with colours is shaded by its components.

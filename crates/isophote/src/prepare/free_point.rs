@@ -2,12 +2,11 @@
 
 use std::cell::OnceCell;
 
-use super::obstruction::sampled;
+use super::obstruction::{AmbientShare, sampled};
 use super::{Blocking, PreparedScene};
 use crate::double_double::DoubleDouble;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
-use crate::shade::{LightTerm, Shading, shade};
 use crate::shape::{NearestPoint, Primitive, SurfacePoint};
 use crate::vector::Vector;
 
@@ -19,47 +18,56 @@ struct Touched {
     walls: Vec<(Primitive, NearestPoint)>,
 }
 
+/// What is known of the light at a free point, whatever the strength of the lights.
+pub(crate) struct LightAtPoint {
+    touched: Touched,
+    precise: OnceCell<SurfacePoint<DoubleDouble>>,
+    /// What of the ambient light arrives.
+    pub(crate) ambient: AmbientShare,
+}
+
 impl PreparedScene {
-    /// What arrives from the lights (3.1) and the environment (3.9) at a point that has a side but is no shape's; `each`
-    /// sees every light's own term.
-    pub fn illuminate(&self, point: &SurfacePoint, each: impl FnMut(usize, &LightTerm)) -> Shading {
-        self.expect_single_numbers();
+    /// The surroundings of a point, and what of the ambient light arrives there.
+    pub(crate) fn light_at(&self, point: &SurfacePoint) -> LightAtPoint {
         let touched = self.touched(point.position());
-        let precise = OnceCell::new();
-        let visibility = |light| {
-            let Blocking { mut blocker, is_doubtful } = self.free_point_blocking(&touched, point, light);
-            if is_doubtful {
-                let precise = precise.get_or_init(|| point.map(DoubleDouble::from_f64));
-                blocker = self.free_point_blocking(&touched, precise, light).blocker;
-            }
-            if blocker.is_some() { 0.0 } else { 1.0 }
-        };
         let ambient = self.free_point_ambient(&touched, point);
-        let without_material = &self.formulas[self.scene.materials.len()].formula;
-        shade(point, &self.scene.lights, without_material, ambient, visibility, each)
+        LightAtPoint { touched, precise: OnceCell::new(), ambient }
     }
 
-    fn free_point_blocking<T: Scalar>(&self, touched: &Touched, point: &SurfacePoint<T>, light: usize) -> Blocking {
-        let source = &self.scene.lights[light];
-        if !self.scene.shadows || !source.casts_shadows {
+    /// v of an emitter at a point.
+    pub(crate) fn visibility_at(&self, light: &LightAtPoint, point: &SurfacePoint, emitter: usize) -> f64 {
+        let LightAtPoint { touched, precise, .. } = light;
+        let Blocking { mut blocker, is_doubtful } = self.free_point_blocking(touched, point, emitter);
+        if is_doubtful {
+            let precise = precise.get_or_init(|| point.map(DoubleDouble::from_f64));
+            blocker = self.free_point_blocking(touched, precise, emitter).blocker;
+        }
+        if blocker.is_some() { 0.0 } else { 1.0 }
+    }
+
+    fn free_point_blocking<T: Scalar>(&self, touched: &Touched, point: &SurfacePoint<T>, emitter: usize) -> Blocking {
+        let source = &self.emitters.all()[emitter];
+        if !self.scene.shadows || !self.scene.lights[source.light].casts_shadows {
             return Blocking::NONE;
         }
         let to_light = source.from_place(point.anchor, point.offset).map(T::rounded);
-        if let Some(wall) = self.wall_before(touched, to_light, source.position()) {
+        if let Some(wall) = self.wall_before(touched, to_light, source.place()) {
             return Blocking { blocker: Some(wall), is_doubtful: false };
         }
-        self.blocking_from(&touched.own, point, Vector::zero(), light)
+        self.blocking_from(&touched.own, point, Vector::zero(), emitter)
     }
 
-    fn free_point_ambient(&self, touched: &Touched, point: &SurfacePoint) -> f64 {
-        let Some(ambient) = &self.scene.ambient else { return 0.0 };
+    fn free_point_ambient(&self, touched: &Touched, point: &SurfacePoint) -> AmbientShare {
+        if self.scene.ambient.is_none() {
+            return AmbientShare::ALL;
+        }
         let hemisphere = self.hemisphere.as_deref().filter(|_| !self.shapes.is_empty());
         let sees_the_environment = |direction: Vector| {
             let ray = Ray { anchor: point.anchor, offset: point.offset, direction };
             self.wall_before(touched, direction, None).is_none()
                 && self.nearest_blocker(&touched.own, &ray, None).blocker.is_none()
         };
-        sampled(ambient, hemisphere, point.normal, sees_the_environment).irradiance
+        sampled(hemisphere, point.normal, sees_the_environment)
     }
 
     /// The closed shape behind whose surface something is in a direction: something at a place, or without end.

@@ -1,32 +1,35 @@
 //! A scene laid out for tracing and shading. It chooses no renderer.
 
 mod components;
+mod formulas;
 mod free_point;
+mod hit;
 mod obstruction;
+mod shading;
+mod tracing;
+mod views;
 mod visibility;
 
-use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 pub use components::Components;
+use formulas::{PreparedFormula, formulas};
+pub use hit::Hit;
 pub use obstruction::AmbientIrradiance;
+pub(crate) use obstruction::AmbientShare;
 use obstruction::Hemisphere;
+pub(crate) use tracing::ERROR_OF_DISTANCE;
 pub use visibility::Blocking;
 
 use crate::accelerate::Accelerator;
-use crate::camera::{CameraFrame, ScreenPosition, Sight};
+use crate::camera::CameraFrame;
 use crate::double_double::DoubleDouble;
-use crate::light::Light;
-use crate::map::{Pixel, Resolution};
+use crate::light::Emitters;
 use crate::outline::Outline;
-use crate::ray::Ray;
-use crate::reflectance::{BrightnessFormula, Reflectance};
-use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shade::{LightTerm, Shading, shade};
-use crate::shape::{Accuracy, Geometry, Located, Primitive, Sphere, SurfacePoint, TracingError};
-use crate::vector::Vector;
+use crate::shape::{Geometry, Primitive, Sphere};
+use crate::threads::Threads;
 
 /// A scene with everything computed that does not depend on the pixel.
 #[derive(Clone, Debug)]
@@ -35,6 +38,8 @@ pub struct PreparedScene {
     frame: CameraFrame<f64>,
     precise_frame: CameraFrame<DoubleDouble>,
     shapes: Vec<PreparedShape>,
+    /// What the sums over the lights go through.
+    emitters: Emitters,
     /// The convention applied to each material, and last to what has none.
     formulas: Vec<PreparedFormula>,
     /// The number of the first primitive of each shape, and last how many there are.
@@ -47,6 +52,8 @@ pub struct PreparedScene {
     hemisphere: Option<Arc<Hemisphere>>,
     /// Written when the first map asks for it, once for all that is made of the scene.
     source_text: Arc<OnceLock<String>>,
+    /// What its tree is built by, and whatever else is computed of it in parallel.
+    threads: Threads,
     /// Of a scene with colours.
     components: Option<Components>,
 }
@@ -60,35 +67,17 @@ struct PreparedShape {
     outline: OnceLock<Outline>,
 }
 
-#[derive(Clone, Debug)]
-struct PreparedFormula {
-    formula: BrightnessFormula,
-    /// Of a ray whose hit is shaded so.
-    accuracy: Accuracy,
-    /// For which clearances in its outline a shape has to be traced with 32 digits.
-    doubtful_in_outline: Range<f64>,
-}
-
-/// What a ray from the eye meets first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit<T = f64> {
-    /// What was hit.
-    pub primitive: Primitive,
-    /// t, the distance from the eye in metres (2.2).
-    pub distance: T,
-    /// The point.
-    pub point: SurfacePoint<T>,
-    /// Whether a closed shape is seen from inside.
-    pub from_inside: bool,
-    /// See [`ShapeHit::shadow_ray_offset`](crate::shape::ShapeHit::shadow_ray_offset).
-    pub shadow_ray_offset: Vector<T>,
-}
-
 impl PreparedScene {
     /// Lays a scene out.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
-        Self::with_accelerator(scene, Arc::default())
+        Self::on_threads(scene, &Threads::default())
+    }
+
+    /// Lays a scene out; these threads build its tree, and work on its grids and surfaces.
+    #[must_use]
+    pub fn on_threads(scene: &Scene, threads: &Threads) -> Self {
+        Self::with_accelerator(scene, Arc::default(), threads)
     }
 
     /// Lays out a scene after an earlier one, whose tree is its own too if their shapes are the same.
@@ -98,7 +87,8 @@ impl PreparedScene {
         let is_same =
             |(before, now): (&crate::scene::Shape, &crate::scene::Shape)| before.geometry.is_same(&now.geometry);
         let are_same = before.len() == now.len() && before.iter().zip(now).all(is_same);
-        Self::with_accelerator(scene, if are_same { Arc::clone(&earlier.accelerator) } else { Arc::default() })
+        let accelerator = if are_same { Arc::clone(&earlier.accelerator) } else { Arc::default() };
+        Self::with_accelerator(scene, accelerator, &earlier.threads)
     }
 
     /// Whether laying a scene out builds a tree, which may take a while.
@@ -107,7 +97,7 @@ impl PreparedScene {
         scene.shapes.iter().map(|shape| shape.geometry.parts()).sum::<u32>() > HANDFUL
     }
 
-    fn with_accelerator(scene: &Scene, accelerator: Arc<OnceLock<Accelerator>>) -> Self {
+    fn with_accelerator(scene: &Scene, accelerator: Arc<OnceLock<Accelerator>>, threads: &Threads) -> Self {
         let shapes = scene.shapes.iter().map(|shape| PreparedShape {
             geometry: shape.geometry.clone(),
             formula: shape.material.unwrap_or(scene.materials.len()),
@@ -127,9 +117,11 @@ impl PreparedScene {
             frame: CameraFrame::new(&scene.camera),
             precise_frame: CameraFrame::new(&scene.camera),
             shapes,
+            emitters: Emitters::of(&scene.lights),
             formulas: formulas(scene),
             hemisphere: obstruction.map(|directions| Arc::new(Hemisphere::new(directions))),
             source_text: Arc::default(),
+            threads: threads.clone(),
             components: None,
             scene: Arc::new(scene.clone()),
         };
@@ -138,41 +130,6 @@ impl PreparedScene {
         }
         prepared.components = prepared.split_into_components();
         prepared
-    }
-
-    /// The same scene without a tree: every ray tries every primitive. This is what the tree is held to.
-    #[must_use]
-    pub fn by_brute_force(self) -> Self {
-        let components = self.components.as_ref().map(|components| components.map(|one| one.clone().by_brute_force()));
-        Self { linear_search_max: u32::MAX, components, ..self }
-    }
-
-    /// The same scene seen with another number of pixels.
-    pub(crate) fn at_resolution(&self, resolution: Resolution) -> Self {
-        self.with_view(&|other| {
-            Arc::make_mut(&mut other.scene).camera.resolution = resolution;
-            other.frame = CameraFrame::new(&other.scene.camera);
-            other.precise_frame = CameraFrame::new(&other.scene.camera);
-        })
-    }
-
-    /// The same with rays through another place of the pixels than their centres: parts of their width and height.
-    pub(crate) fn seen_through(&self, place: [f64; 2]) -> Self {
-        self.with_view(&|other| {
-            other.frame.place = place;
-            other.precise_frame.place = place;
-        })
-    }
-
-    /// The same after a change of how it is seen, of its components too.
-    fn with_view(&self, change: &dyn Fn(&mut Self)) -> Self {
-        let mut other = self.clone();
-        change(&mut other);
-        for shape in &mut other.shapes {
-            shape.outline = OnceLock::new();
-        }
-        other.components = self.components.as_ref().map(|components| components.map(|one| one.with_view(change)));
-        other
     }
 
     /// The scene it was made from.
@@ -187,6 +144,17 @@ impl PreparedScene {
         self.source_text.get_or_init(|| self.scene.source.to_toml())
     }
 
+    /// What the sums over the lights go through.
+    #[must_use]
+    pub fn emitters(&self) -> &Emitters {
+        &self.emitters
+    }
+
+    /// What grids and surfaces are computed by.
+    pub(crate) fn threads(&self) -> &Threads {
+        &self.threads
+    }
+
     /// The camera's axes.
     #[must_use]
     pub fn frame(&self) -> &CameraFrame {
@@ -196,31 +164,6 @@ impl PreparedScene {
     /// The same with 32 digits.
     pub(crate) fn precise_frame(&self) -> &CameraFrame<DoubleDouble> {
         &self.precise_frame
-    }
-
-    /// What the ray through a place on the screen meets first (2.1), (2.2).
-    ///
-    /// cosθ_o of a double has an error that grows without bound towards the silhouette; rays that come near it are
-    /// traced again with 32 digits, so that the bound on the error holds at every visible pixel.
-    #[must_use]
-    pub fn trace(&self, position: ScreenPosition) -> Option<Hit> {
-        let Traced { hit, is_doubtful } = self.nearest(&self.frame.ray(position)?);
-        if is_doubtful { self.trace_precisely(position).map(Hit::rounded) } else { hit }
-    }
-
-    /// What the ray through a place on the screen meets first, with 32 digits.
-    #[must_use]
-    pub fn trace_precisely(&self, position: ScreenPosition) -> Option<Hit<DoubleDouble>> {
-        self.nearest(&self.precise_frame.ray(position)?).hit
-    }
-
-    /// The same, when it can only be one of these.
-    pub(crate) fn trace_precisely_among(
-        &self,
-        position: ScreenPosition,
-        primitives: impl Iterator<Item = Primitive>,
-    ) -> Option<Hit<DoubleDouble>> {
-        self.nearest_among(&self.precise_frame.ray(position)?, primitives).hit
     }
 
     /// Where a shape appears on the screen.
@@ -233,20 +176,6 @@ impl PreparedScene {
     /// For which clearances in its outline a primitive has to be traced with 32 digits.
     pub(crate) fn doubtful_in_outline(&self, primitive: Primitive) -> &Range<f64> {
         &self.prepared_formula(primitive).doubtful_in_outline
-    }
-
-    /// What is seen at a pixel of the full image.
-    #[must_use]
-    pub fn trace_pixel(&self, pixel: Pixel) -> Option<Hit> {
-        self.trace(ScreenPosition::PixelCenter(pixel))
-    }
-
-    /// What the eye meets first in the direction of a point, on the screen or not.
-    #[must_use]
-    pub fn first_towards(&self, point: Vector) -> Option<Primitive> {
-        let Sight { start, view, .. } = self.frame.sight(point, Vector::default());
-        let ray = Ray { anchor: start, offset: Vector::default(), direction: -view };
-        self.nearest(&ray).hit.map(|hit| hit.primitive)
     }
 
     /// Whether a shape may stand in another one's light.
@@ -282,221 +211,13 @@ impl PreparedScene {
     /// The tree over all primitives, by their numbers.
     pub(crate) fn accelerator(&self) -> &Accelerator {
         self.accelerator.get_or_init(|| {
-            Accelerator::new(self.primitive_count(), |number| {
+            Accelerator::new(&self.threads, self.primitive_count(), |number| {
                 let Primitive { shape, part } = self.primitive(number);
                 self.shapes[shape].geometry.bounds(part)
             })
         })
     }
-
-    /// Goes through the primitives that a ray may meet, the nearer ones first more or less; `test` says up to which
-    /// distance to go on. With a handful of primitives that is all of them.
-    fn along_ray<T: Scalar>(&self, ray: &Ray<T>, limit: f64, mut test: impl FnMut(Primitive) -> f64) {
-        if self.primitive_count() <= self.linear_search_max {
-            self.primitives().for_each(|primitive| {
-                test(primitive);
-            });
-            return;
-        }
-        let vector = |vector: Vector<T>| vector.map(T::rounded);
-        let start = vector(ray.anchor) + vector(ray.offset);
-        self.accelerator().along_ray(start, vector(ray.direction), limit, |number| test(self.primitive(number)));
-    }
-
-    /// All that can be hit.
-    fn primitives(&self) -> impl Iterator<Item = Primitive> {
-        let parts = |(shape, prepared): (usize, &PreparedShape)| {
-            (0..prepared.geometry.parts()).map(move |part| Primitive { shape, part })
-        };
-        self.shapes.iter().enumerate().flat_map(parts)
-    }
-
-    fn nearest<T: Scalar>(&self, ray: &Ray<T>) -> Traced<T> {
-        let mut search = Search::new(self, ray);
-        self.along_ray(ray, f64::INFINITY, |primitive| search.test(primitive));
-        search.finish()
-    }
-
-    /// The same among some primitives, tried one by one.
-    fn nearest_among<T: Scalar>(&self, ray: &Ray<T>, primitives: impl Iterator<Item = Primitive>) -> Traced<T> {
-        let mut search = Search::new(self, ray);
-        for primitive in primitives {
-            search.test(primitive);
-        }
-        search.finish()
-    }
-
-    /// The brightness of a hit by the scene's convention, summed over the lights; `each` sees every light's own term.
-    /// `seen_at` is the place on the screen where the hit was found: at the edge of a shadow it is found again with 32
-    /// digits. A hit of a given point has none, and is taken as exact.
-    pub fn shade(&self, hit: &Hit, seen_at: Option<ScreenPosition>, each: impl FnMut(usize, &LightTerm)) -> Shading {
-        self.expect_single_numbers();
-        let precise = OnceCell::new();
-        let find_again = || seen_at.and_then(|position| self.trace_precisely(position));
-        let visibility = |light| {
-            let Blocking { blocker, is_doubtful } = self.blocking(hit, light);
-            let blocker = if is_doubtful {
-                let precise = precise.get_or_init(|| find_again().unwrap_or_else(|| hit.exactly()));
-                self.blocking(precise, light).blocker
-            } else {
-                blocker
-            };
-            if blocker.is_some() { 0.0 } else { 1.0 }
-        };
-        let ambient = self.ambient_irradiance(hit).irradiance;
-        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), ambient, visibility, each)
-    }
-
-    /// The same for a hit of 32 digits.
-    pub fn shade_precisely(
-        &self,
-        hit: &Hit<DoubleDouble>,
-        each: impl FnMut(usize, &LightTerm<DoubleDouble>),
-    ) -> Shading<DoubleDouble> {
-        let visibility = |light| {
-            let is_blocked = self.blocking(hit, light).blocker.is_some();
-            DoubleDouble::from_f64(if is_blocked { 0.0 } else { 1.0 })
-        };
-        // The directions are sampled, which a double is good enough for.
-        let ambient = DoubleDouble::from_f64(self.ambient_irradiance(&hit.rounded()).irradiance);
-        shade(&hit.point, &self.scene.lights, self.formula(hit.primitive), ambient, visibility, each)
-    }
-
-    fn prepared_formula(&self, primitive: Primitive) -> &PreparedFormula {
-        let shape = &self.shapes[primitive.shape];
-        &self.formulas[shape.geometry.material_of(primitive.part).unwrap_or(shape.formula)]
-    }
-
-    /// The convention applied to the material of a primitive.
-    #[must_use]
-    pub fn formula(&self, primitive: Primitive) -> &BrightnessFormula {
-        self.expect_single_numbers();
-        &self.prepared_formula(primitive).formula
-    }
-
-    /// A point of a surface as the eye sees it, also where the eye cannot: cosθ_o is then negative. Of a closed shape
-    /// the eye sees the outside, unless it is inside; of another one the side that is turned to it.
-    #[must_use]
-    pub fn surface_point(&self, located: &Located) -> Hit {
-        let nearest = &located.nearest;
-        let geometry = &self.shapes[located.shape].geometry;
-        let Sight { start, view, distance } = self.frame.sight(nearest.anchor, nearest.offset);
-        let from_inside = geometry.part_encloses(nearest.part, start);
-        let from_behind = !geometry.is_closed() && nearest.face_normal.dot(view) < 0.0;
-        let normal = if from_inside || from_behind { -nearest.outward_normal } else { nearest.outward_normal };
-        let shadow_ray_offset = if from_behind { nearest.shadow_ray_offset_behind } else { nearest.shadow_ray_offset };
-        let point = SurfacePoint {
-            anchor: nearest.anchor,
-            offset: nearest.offset,
-            normal,
-            view,
-            cos_theta_o: normal.dot(view),
-        };
-        let primitive = Primitive { shape: located.shape, part: nearest.part };
-        Hit { primitive, distance, point, from_inside, shadow_ray_offset }
-    }
-}
-
-/// The convention applied to each material of a scene, and last to what has none.
-fn formulas(scene: &Scene) -> Vec<PreparedFormula> {
-    let without_material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };
-    let materials = scene.materials.iter().map(|material| &material.reflectance);
-    let steepest_edge = scene.lights.iter().map(Light::steepest_edge).fold(0.0, f64::max);
-    let formulas = materials.chain([&without_material]).map(|material| {
-        let formula = BrightnessFormula::new(scene.convention, material);
-        let shininess = (formula.specular > 0.0).then_some(formula.shininess);
-        let accuracy = Accuracy::for_shading(shininess, steepest_edge);
-        let doubtful_in_outline = accuracy.doubtful_clearance(&TracingError::IN_OUTLINE);
-        PreparedFormula { formula, accuracy, doubtful_in_outline }
-    });
-    formulas.collect()
-}
-
-/// A search for the nearest primitive; in which order they are tested does not matter.
-struct Search<'s, T> {
-    scene: &'s PreparedScene,
-    ray: &'s Ray<T>,
-    nearest: Option<Hit<T>>,
-    doubtful_from: Option<T>,
-}
-
-impl<'s, T: Scalar> Search<'s, T> {
-    fn new(scene: &'s PreparedScene, ray: &'s Ray<T>) -> Self {
-        Self { scene, ray, nearest: None, doubtful_from: None }
-    }
-
-    /// Tests a primitive; returns the distance beyond which nothing matters any more.
-    fn test(&mut self, primitive: Primitive) -> f64 {
-        let accuracy = self.scene.prepared_formula(primitive).accuracy;
-        let intersection = self.scene.shapes[primitive.shape].geometry.intersect(primitive.part, self.ray, accuracy);
-        self.doubtful_from = least(self.doubtful_from, intersection.doubtful_from);
-        if let Some(hit) = intersection.hit {
-            let ahead_by = self.nearest.map(|nearest| (nearest.distance - hit.distance, nearest.primitive));
-            // Where surfaces cross, the order of their distances is as uncertain as the distances.
-            let uncertain = T::from_f64(ERROR_OF_DISTANCE) * hit.distance;
-            if ahead_by.is_some_and(|(by, _)| by.is_less(uncertain) && (-uncertain).is_less(by)) {
-                self.doubtful_from = least(self.doubtful_from, Some(hit.distance - uncertain));
-            }
-            // Of surfaces in the same place the first in the scene is seen.
-            let is_nearer = |(by, other): (T, Primitive)| {
-                T::zero().is_less(by)
-                    || !by.is_less(T::zero()) && (primitive.shape, primitive.part) < (other.shape, other.part)
-            };
-            if ahead_by.is_none_or(is_nearer) {
-                let crate::shape::ShapeHit { distance, point, from_inside, shadow_ray_offset } = hit;
-                self.nearest = Some(Hit { primitive, distance, point, from_inside, shadow_ray_offset });
-            }
-        }
-        self.nearest.map_or(f64::INFINITY, |hit| hit.distance.rounded())
-    }
-
-    fn finish(self) -> Traced<T> {
-        let is_beyond = |from: T| self.nearest.is_some_and(|hit| hit.distance.is_less(from));
-        Traced { hit: self.nearest, is_doubtful: self.doubtful_from.is_some_and(|from| !is_beyond(from)) }
-    }
-}
-
-/// What a search for the nearest shape found, and whether the number type was good enough for it.
-struct Traced<T> {
-    hit: Option<Hit<T>>,
-    is_doubtful: bool,
 }
 
 /// So many primitives are tried one by one.
 const HANDFUL: u32 = 8;
-
-/// Distances that differ by less, relatively, are told apart with 32 digits.
-pub(crate) const ERROR_OF_DISTANCE: f64 = 1e-12;
-
-/// The smaller of two numbers that may be missing.
-fn least<T: Scalar>(first: Option<T>, second: Option<T>) -> Option<T> {
-    match (first, second) {
-        (Some(first), Some(second)) => Some(T::select(second.is_less(first), second, first)),
-        (first, second) => first.or(second),
-    }
-}
-
-impl<T: Scalar> Hit<T> {
-    /// The same hit in another number type.
-    fn map<U: Scalar>(self, convert: impl Fn(T) -> U) -> Hit<U> {
-        Hit {
-            primitive: self.primitive,
-            distance: convert(self.distance),
-            point: self.point.map(&convert),
-            from_inside: self.from_inside,
-            shadow_ray_offset: self.shadow_ray_offset.map(&convert),
-        }
-    }
-}
-
-impl Hit {
-    fn exactly(&self) -> Hit<DoubleDouble> {
-        self.map(DoubleDouble::from_f64)
-    }
-}
-
-impl Hit<DoubleDouble> {
-    pub(crate) fn rounded(self) -> Hit {
-        self.map(DoubleDouble::rounded)
-    }
-}

@@ -15,6 +15,23 @@ pub struct AmbientIrradiance {
     pub standard_error: f64,
 }
 
+/// The part of the ambient light that arrives at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct AmbientShare {
+    share: f64,
+    standard_error: f64,
+}
+
+impl AmbientShare {
+    pub(super) const ALL: Self = Self { share: 1.0, standard_error: 0.0 };
+
+    /// What it is of an environment, if there is any.
+    pub(crate) fn of(self, ambient: Option<&Ambient>) -> AmbientIrradiance {
+        let whole = ambient.map_or(0.0, Ambient::unobstructed_irradiance);
+        AmbientIrradiance { irradiance: whole * self.share, standard_error: whole * self.standard_error }
+    }
+}
+
 impl PreparedScene {
     /// E_a of a hit: π L_a, or the part of it that comes past the shapes of the scene.
     ///
@@ -27,13 +44,18 @@ impl PreparedScene {
     /// directions do better.
     #[must_use]
     pub fn ambient_irradiance(&self, hit: &Hit) -> AmbientIrradiance {
-        let Some(ambient) = &self.scene.ambient else { return AmbientIrradiance::default() };
+        self.ambient_share(hit).of(self.scene.ambient())
+    }
+
+    /// What of the ambient light arrives at a hit, whatever its radiance.
+    pub(crate) fn ambient_share(&self, hit: &Hit) -> AmbientShare {
+        let Some(ambient) = &self.scene.ambient else { return AmbientShare::ALL };
         let is_walled_in = hit.from_inside && ambient.obstruction.is_some();
         if is_walled_in {
-            return AmbientIrradiance::default();
+            return AmbientShare { share: 0.0, standard_error: 0.0 };
         }
         let hemisphere = self.hemisphere.as_deref().filter(|_| self.has_shapes_beside_one());
-        sampled(ambient, hemisphere, hit.point.normal, |direction| {
+        sampled(hemisphere, hit.point.normal, |direction| {
             let ray = Ray { anchor: hit.point.anchor, offset: hit.point.offset + hit.shadow_ray_offset, direction };
             self.nearest_blocker(&[hit.primitive], &ray, None).blocker.is_none()
         })
@@ -67,21 +89,19 @@ impl Hemisphere {
     }
 }
 
-/// E_a on the side of a normal: all of it, or the part of the directions of a hemisphere that see the environment.
+/// What of the ambient light arrives on the side of a normal: all of it, or the part of the directions of a hemisphere that
+/// see the environment.
 pub(super) fn sampled(
-    ambient: &Ambient,
     hemisphere: Option<&Hemisphere>,
     normal: Vector,
     sees_the_environment: impl Fn(Vector) -> bool,
-) -> AmbientIrradiance {
-    let whole = ambient.unobstructed_irradiance();
-    let Some(hemisphere) = hemisphere else { return AmbientIrradiance { irradiance: whole, standard_error: 0.0 } };
+) -> AmbientShare {
+    let Some(hemisphere) = hemisphere else { return AmbientShare::ALL };
     let free = hemisphere.about(normal).filter(|direction| sees_the_environment(*direction)).count();
     #[expect(clippy::cast_precision_loss, reason = "there are few")]
     let (free, samples) = (free as f64, hemisphere.directions.len() as f64);
     let share = free / samples;
-    let standard_error = whole * (share * (1.0 - share) / samples).sqrt();
-    AmbientIrradiance { irradiance: whole * share, standard_error }
+    AmbientShare { share, standard_error: (share * (1.0 - share) / samples).sqrt() }
 }
 
 /// Two unit vectors at right angles to a unit vector and to each other. (Duff et al., "Building an orthonormal basis,

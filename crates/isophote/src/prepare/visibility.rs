@@ -1,5 +1,6 @@
 //! Shadows: which lights a surface point sees.
 
+use super::tracing::least;
 use super::{ERROR_OF_DISTANCE, Hit, PreparedScene};
 use crate::ray::Ray;
 use crate::scalar::Scalar;
@@ -20,35 +21,35 @@ impl Blocking {
 }
 
 impl PreparedScene {
-    /// What stands between a hit and a light: v_j of (3.1) is 0 where something does.
+    /// What stands between a hit and an emitter: v of (3.1) is 0 where something does.
     ///
     /// The primitive that was hit is never traced, so no distance has to be kept from it, at any scale: a convex one
     /// does not hide what is above its horizon, and what is below gets no light anyway. From inside it hides every
     /// light that it does not enclose, shadows or not.
-    pub fn blocking<T: Scalar>(&self, hit: &Hit<T>, light: usize) -> Blocking {
-        let source = &self.scene.lights[light];
+    pub fn blocking<T: Scalar>(&self, hit: &Hit<T>, emitter: usize) -> Blocking {
+        let source = &self.emitters.all()[emitter];
         let own = hit.primitive;
         let geometry = &self.shapes[own.shape].geometry;
         // A parallel light is outside every shape.
-        let is_enclosed = source.position().is_some_and(|position| geometry.part_encloses(own.part, position));
+        let is_enclosed = source.place().is_some_and(|place| geometry.part_encloses(own.part, place));
         if hit.from_inside && !is_enclosed {
             return Blocking { blocker: Some(own), is_doubtful: false };
         }
-        if !self.scene.casts_shadows(own.shape, light) {
+        if !self.scene.casts_shadows(own.shape, source.light) {
             return Blocking::NONE;
         }
-        self.blocking_from(&[own], &hit.point, hit.shadow_ray_offset, light)
+        self.blocking_from(&[own], &hit.point, hit.shadow_ray_offset, emitter)
     }
 
-    /// What stands between a point and a light but for its `own` primitives, on which it lies.
+    /// What stands between a point and an emitter but for its `own` primitives, on which it lies.
     pub(super) fn blocking_from<T: Scalar>(
         &self,
         own: &[Primitive],
         point: &SurfacePoint<T>,
         shadow_ray_offset: Vector<T>,
-        light: usize,
+        emitter: usize,
     ) -> Blocking {
-        let source = &self.scene.lights[light];
+        let source = &self.emitters.all()[emitter];
         let start = point.offset + shadow_ray_offset;
         let to_light = source.from_place(point.anchor, start);
         if !T::zero().is_less(point.normal.dot(to_light)) {
@@ -57,7 +58,7 @@ impl PreparedScene {
         let distance = to_light.length();
         let direction = to_light * (T::from_f64(1.0) / distance);
         let ray = Ray { anchor: Vector::from_f64(point.anchor), offset: start, direction };
-        self.nearest_blocker(own, &ray, source.position().map(|_| distance))
+        self.nearest_blocker(own, &ray, source.place().map(|_| distance))
     }
 
     /// What stands between the start of a ray on its `own` primitives and a light at this distance, or at none: a
@@ -85,13 +86,13 @@ impl PreparedScene {
             let intersection =
                 self.shapes[primitive.shape].geometry.intersect(primitive.part, ray, Accuracy::OF_VISIBILITY);
             let is_before_light = |at: &T| bounds.is_none_or(|[_, _, last]| at.is_less(last));
-            doubtful_from = super::least(doubtful_from, intersection.doubtful_from.filter(is_before_light));
+            doubtful_from = least(doubtful_from, intersection.doubtful_from.filter(is_before_light));
             let Some(at) = intersection.hit.map(|hit| hit.distance) else { return limit(nearest) };
             if is_neighbour(primitive, at) || bounds.is_some_and(|[_, distance, _]| !at.is_less(distance)) {
                 return limit(nearest);
             }
             if bounds.is_some_and(|[first, ..]| first.is_less(at)) {
-                doubtful_from = super::least(doubtful_from, Some(at));
+                doubtful_from = least(doubtful_from, Some(at));
             }
             if nearest.is_none_or(|(nearest, _)| at.is_less(nearest)) {
                 nearest = Some((at, primitive));

@@ -2,38 +2,73 @@
 
 use std::ops::ControlFlow;
 
-use super::{Observer, RenderError, RenderSettings};
-use crate::camera::ScreenPosition;
-use crate::lanes::{Element, Precision};
-use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Run, Values};
-use crate::prepare::{Hit, PreparedScene};
+use super::{Observer, RenderError, RenderSettings, layers};
+use crate::lanes::Precision;
+use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Run, Values, Window};
+use crate::prepare::PreparedScene;
 use crate::scene::Scene;
-use crate::shade::ByLight;
 use crate::units::{Keyword, LengthUnit};
 
-/// A map of zeros (−1 for the shape) that sees nothing, with every channel that the settings ask for. In single
-/// precision the geometry (depth, position, normal) is double all the same. `memory` is cleared memory to be used
-/// again.
-pub fn empty_map(
+/// What a map is of.
+pub struct Sheet {
+    /// Size of the full image.
+    pub full: Resolution,
+    /// The part of it that the map holds.
+    pub region: Region,
+    /// The outer edges of that.
+    pub window: Window,
+    /// What computes it, and how.
+    pub renderer: String,
+}
+
+impl Sheet {
+    /// What the camera of a scene sees, of a region if the settings name one.
+    pub fn of_camera(
+        scene: &PreparedScene,
+        settings: &RenderSettings<'_>,
+        renderer: String,
+    ) -> Result<Self, RenderError> {
+        let description = scene.scene();
+        let full = description.camera.resolution;
+        let region = settings.region.unwrap_or(Region::all(full));
+        check(region, full)?;
+        Ok(Self { full, region, window: description.camera.window(region, description.length), renderer })
+    }
+}
+
+/// The maps of all [layers](super::layers), of zeros (−1 for the shape), that see nothing, with every channel that is asked
+/// for. In single precision the geometry (depth, position, normal) is double all the same. `memory` is cleared memory to be
+/// used again.
+pub fn empty_layers(
     scene: &PreparedScene,
-    settings: &RenderSettings<'_>,
-    renderer: String,
+    sheet: &Sheet,
+    quantities: &[Quantity],
     precision: Precision,
     mut memory: Vec<Values>,
+) -> Result<Vec<Map>, RenderError> {
+    let layer = |layer| {
+        let quantities = layers::quantities_of_layer(scene, quantities, layer);
+        empty_map(scene, sheet, &quantities, precision, &mut memory)
+    };
+    (0..scene.layers().len()).map(layer).collect()
+}
+
+fn empty_map(
+    scene: &PreparedScene,
+    sheet: &Sheet,
+    quantities: &[Quantity],
+    precision: Precision,
+    memory: &mut Vec<Values>,
 ) -> Result<Map, RenderError> {
-    let description = scene.scene();
-    let full = description.camera.resolution;
-    let region = settings.region.unwrap_or(Region::all(full));
-    check(region, full)?;
+    let Sheet { full, region, window, .. } = *sheet;
     let mut channels: Vec<Channel> = Vec::new();
-    for quantity in &settings.quantities {
+    for quantity in quantities {
         if channels.iter().all(|channel| channel.quantity != *quantity) {
-            channels.push(empty_channel(quantity, description, region, precision, &mut memory)?);
+            channels.push(empty_channel(quantity, scene.scene(), region, precision, memory)?);
         }
     }
     let mask = Mask::new(region.size, Vec::new());
-    let window = description.camera.window(region, description.length);
-    Ok(Map { full, region, window, provenance: provenance(scene, renderer), mask, channels })
+    Ok(Map { full, region, window, provenance: provenance(scene, sheet.renderer.clone()), mask, channels })
 }
 
 /// What a map of the scene says about itself.
@@ -111,8 +146,8 @@ pub struct Band<'m> {
     pub size: Resolution,
     /// The unit in which lengths are stored.
     pub length: LengthUnit,
-    /// What is to be filled in.
-    pub channels: Vec<BandChannel<'m>>,
+    /// What is to be filled in, layer by layer: one of a scene without colours, else one for each component.
+    pub layers: Vec<Vec<BandChannel<'m>>>,
 }
 
 /// What goes into a band, and where. The shape comes from the mask in the end.
@@ -127,7 +162,7 @@ pub enum BandChannel<'m> {
     Normal(&'m mut [[f64; 3]]),
 }
 
-/// What a scalar channel holds; a light by its index.
+/// What a scalar channel holds; a light by its place among the channels of lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScalarChannel {
     /// B.
@@ -148,48 +183,62 @@ pub enum ScalarChannel {
     Light(usize),
 }
 
-/// Cuts a map into bands of so many rows, from the top.
-pub fn split<'m>(map: &'m mut Map, scene: &PreparedScene, rows: u32) -> Vec<Band<'m>> {
-    let Region { corner, size } = map.region;
-    let pixels = size.width as usize * rows as usize;
+/// Cuts the maps of all layers into bands of so many rows, from the top.
+pub fn split(layers: &mut [Map], rows: u32) -> Vec<Band<'_>> {
+    let Map { region: Region { corner, size }, window, .. } = layers[0];
+    let count = layers.len();
     let mut bands: Vec<Band<'_>> = (0..size.height)
         .step_by(rows as usize)
         .map(|row| Band {
             first: Pixel { column: corner.column, row: corner.row + row },
             start: row as usize * size.width as usize,
             size: Resolution { width: size.width, height: rows.min(size.height - row) },
-            length: map.window.length,
-            channels: Vec::new(),
+            length: window.length,
+            layers: (0..count).map(|_| Vec::new()).collect(),
         })
         .collect();
-    let is_computed = |quantity: &Quantity| !matches!(quantity, Quantity::Samples | Quantity::Coverage);
-    for Channel { quantity, values, .. } in map.channels.iter_mut().filter(|channel| is_computed(&channel.quantity)) {
-        let parts: Vec<BandChannel<'_>> = match values {
-            Values::Scalar(values) => {
-                let scalar = ScalarChannel::of(quantity, scene.scene());
-                values.chunks_mut(pixels).map(|part| BandChannel::Double(scalar, part)).collect()
+    let pixels = size.width as usize * rows as usize;
+    for (layer, map) in layers.iter_mut().enumerate() {
+        let mut lights = 0..;
+        for Channel { quantity, values, .. } in &mut map.channels {
+            for (band, part) in bands.iter_mut().zip(parts(quantity, values, &mut lights, pixels)) {
+                band.layers[layer].push(part);
             }
-            Values::Single(values) => {
-                let scalar = ScalarChannel::of(quantity, scene.scene());
-                values.chunks_mut(pixels).map(|part| BandChannel::Single(scalar, part)).collect()
-            }
-            Values::Vector(values) => {
-                let part = if *quantity == Quantity::Normal { BandChannel::Normal } else { BandChannel::Position };
-                values.chunks_mut(pixels).map(part).collect()
-            }
-            Values::Index(_) => continue,
-        };
-        for (band, part) in bands.iter_mut().zip(parts) {
-            band.channels.push(part);
         }
     }
     bands
 }
 
-/// The memory of a map, cleared: only where it saw something is it not zero.
-pub fn recycle(map: Map) -> Vec<Values> {
+/// The parts of a channel, of so many pixels each; none of a channel that is not computed pixel by pixel.
+fn parts<'m>(
+    quantity: &Quantity,
+    values: &'m mut Values,
+    lights: &mut impl Iterator<Item = usize>,
+    pixels: usize,
+) -> Vec<BandChannel<'m>> {
+    match (values, ScalarChannel::of(quantity, lights)) {
+        (Values::Scalar(values), Some(scalar)) => {
+            values.chunks_mut(pixels).map(|part| BandChannel::Double(scalar, part)).collect()
+        }
+        (Values::Single(values), Some(scalar)) => {
+            values.chunks_mut(pixels).map(|part| BandChannel::Single(scalar, part)).collect()
+        }
+        (Values::Vector(values), _) => {
+            let part = if *quantity == Quantity::Normal { BandChannel::Normal } else { BandChannel::Position };
+            values.chunks_mut(pixels).map(part).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The memory of maps, cleared: only where they saw something is it not zero.
+pub fn recycle(maps: impl IntoIterator<Item = Map>) -> Vec<Values> {
+    maps.into_iter().flat_map(cleared).collect()
+}
+
+fn cleared(map: Map) -> impl Iterator<Item = Values> {
     let Map { mask, channels, .. } = map;
-    let clear = |mut values: Values| {
+    let clear = move |mut values: Values| {
         for run in mask.runs() {
             let run = run.start..run.end;
             match &mut values {
@@ -201,12 +250,19 @@ pub fn recycle(map: Map) -> Vec<Values> {
         }
         values
     };
-    channels.into_iter().map(|channel| clear(channel.values)).collect()
+    channels.into_iter().map(move |channel| clear(channel.values))
 }
 
-/// Gives a map whose bands are filled its mask, and the channels that follow from it.
-pub fn finish(map: &mut Map, runs: Vec<Run>) {
-    map.mask = Mask::new(map.region.size, runs);
+/// Gives maps whose bands are filled their mask, and the channels that follow from it.
+pub fn finish(layers: &mut [Map], runs: Vec<Run>) {
+    let mask = Mask::new(layers[0].region.size, runs);
+    for map in layers {
+        map.mask = mask.clone();
+        finish_channels(map);
+    }
+}
+
+fn finish_channels(map: &mut Map) {
     for channel in &mut map.channels {
         match (&channel.quantity, &mut channel.values) {
             (_, Values::Index(shapes)) => *shapes = map.mask.shapes(),
@@ -222,65 +278,37 @@ pub fn finish(map: &mut Map, runs: Vec<Run>) {
 }
 
 impl ScalarChannel {
-    /// The kind of a scalar channel that renderers fill in.
-    pub fn of(quantity: &Quantity, scene: &Scene) -> Self {
+    /// The kind of a scalar channel that is computed pixel by pixel; `lights` counts those of lights.
+    pub fn of(quantity: &Quantity, lights: &mut impl Iterator<Item = usize>) -> Option<Self> {
         match quantity {
-            Quantity::Brightness => Self::Brightness,
-            Quantity::Irradiance => Self::Irradiance,
-            Quantity::Ambient => Self::Ambient,
-            Quantity::AmbientError => Self::AmbientError,
-            Quantity::Diffuse => Self::Diffuse,
-            Quantity::Specular => Self::Specular,
-            Quantity::Depth => Self::Depth,
-            Quantity::Light(name) => Self::Light(scene.light_named(name).expect("the map was made for this scene")),
+            Quantity::Brightness => Some(Self::Brightness),
+            Quantity::Irradiance => Some(Self::Irradiance),
+            Quantity::Ambient => Some(Self::Ambient),
+            Quantity::AmbientError => Some(Self::AmbientError),
+            Quantity::Diffuse => Some(Self::Diffuse),
+            Quantity::Specular => Some(Self::Specular),
+            Quantity::Depth => Some(Self::Depth),
+            Quantity::Light(_) => lights.next().map(Self::Light),
             Quantity::Position
             | Quantity::Normal
             | Quantity::Shape
             | Quantity::Samples
             | Quantity::Coverage
-            | Quantity::Color => unreachable!("renderers do not fill it in"),
-        }
-    }
-
-    /// The index of the light whose irradiance it is.
-    pub fn light(self) -> Option<usize> {
-        match self {
-            Self::Light(light) => Some(light),
-            _ => None,
+            | Quantity::Color => None,
         }
     }
 }
 
+/// The lights whose irradiance is asked for by itself, in the order of their channels.
+pub fn asked_for(map: &Map, scene: &PreparedScene) -> Vec<usize> {
+    let light = |channel: &Channel| match &channel.quantity {
+        Quantity::Light(name) => scene.scene().light_named(name),
+        _ => None,
+    };
+    map.channels.iter().filter_map(light).collect()
+}
+
 impl Band<'_> {
-    /// Fills the band pixel by pixel, and says what its pixels see.
-    pub fn render(&mut self, scene: &PreparedScene, observer: Option<&dyn Observer>) -> Result<Vec<Run>, RenderError> {
-        let mut runs = Vec::new();
-        let asks_often = scene.scene().lights().len() > 1000;
-        for row in 0..self.size.height {
-            for column in 0..self.size.width {
-                if asks_often {
-                    advance(observer, 0)?;
-                }
-                let pixel = Pixel { column: self.first.column + column, row: self.first.row + row };
-                if let Some(hit) = scene.trace_pixel(pixel) {
-                    self.store(pixel, scene, &hit)?;
-                    self.see(pixel, 1, hit.primitive.shape, &mut runs);
-                }
-            }
-            advance(observer, self.size.width.into())?;
-        }
-        Ok(runs)
-    }
-
-    /// The lights whose irradiance is asked for by itself, in the order of their channels.
-    pub fn lights(&self) -> Vec<usize> {
-        let light = |channel: &BandChannel<'_>| match channel {
-            BandChannel::Double(scalar, _) | BandChannel::Single(scalar, _) => scalar.light(),
-            BandChannel::Position(_) | BandChannel::Normal(_) => None,
-        };
-        self.channels.iter().filter_map(light).collect()
-    }
-
     /// Whether depth, position or normal are asked for.
     pub fn has_geometry(&self) -> bool {
         let is_geometry = |channel: &BandChannel<'_>| {
@@ -289,13 +317,20 @@ impl Band<'_> {
                 BandChannel::Double(ScalarChannel::Depth, _) | BandChannel::Position(_) | BandChannel::Normal(_)
             )
         };
-        self.channels.iter().any(is_geometry)
+        self.layers.iter().flatten().any(is_geometry)
     }
 
     /// Index in the band of a pixel of the full image.
     pub fn index(&self, pixel: Pixel) -> usize {
         let row = (pixel.row - self.first.row) as usize;
         row * self.size.width as usize + (pixel.column - self.first.column) as usize
+    }
+
+    /// The pixel of the full image with an index in the band.
+    #[expect(clippy::cast_possible_truncation, reason = "an index of a map is below 2^27")]
+    pub fn pixel(&self, index: usize) -> Pixel {
+        let width = self.size.width as usize;
+        Pixel { column: self.first.column + (index % width) as u32, row: self.first.row + (index / width) as u32 }
     }
 
     /// Adds so many pixels of a row, from this one on, to what is seen; lengthens the last run if it goes on there.
@@ -309,43 +344,6 @@ impl Band<'_> {
             }
             _ => runs.push(Run { start, end, shape }),
         }
-    }
-
-    /// Shades what is seen at a pixel and stores it.
-    pub fn store(&mut self, pixel: Pixel, scene: &PreparedScene, hit: &Hit) -> Result<(), RenderError> {
-        let index = self.index(pixel);
-        let mut by_light = ByLight::of(self.lights());
-        let position = ScreenPosition::PixelCenter(pixel);
-        let shading = scene.shade(hit, Some(position), |light, term| by_light.take(light, term));
-        let length = self.length;
-        let scalar = |scalar: ScalarChannel| match scalar {
-            ScalarChannel::Brightness => shading.brightness(),
-            ScalarChannel::Irradiance => shading.irradiance,
-            ScalarChannel::Ambient => shading.ambient,
-            ScalarChannel::AmbientError => scene.ambient_irradiance(hit).standard_error,
-            ScalarChannel::Diffuse => shading.diffuse,
-            ScalarChannel::Specular => shading.specular,
-            ScalarChannel::Depth => length.from_metres(hit.distance),
-            ScalarChannel::Light(light) => by_light.irradiance(light),
-        };
-        for channel in &mut self.channels {
-            match channel {
-                BandChannel::Double(quantity, values) => values[index] = scalar(*quantity),
-                BandChannel::Single(quantity, values) => {
-                    let value = scalar(*quantity);
-                    values[index] = f32::from_f64(value);
-                    if !values[index].is_finite() {
-                        return Err(RenderError::Overflow { pixel, value });
-                    }
-                }
-                BandChannel::Position(values) => {
-                    let position = hit.point.position().to_array();
-                    values[index] = position.map(|coordinate| length.from_metres(coordinate));
-                }
-                BandChannel::Normal(values) => values[index] = hit.point.normal.to_array(),
-            }
-        }
-        Ok(())
     }
 }
 

@@ -1,21 +1,28 @@
 //! From a prepared scene to a map.
 
-mod band;
-pub(crate) mod color;
-mod lanes;
+pub(crate) mod band;
+mod fan_out;
+pub(crate) mod hits;
+pub(crate) mod layers;
+mod points;
+mod rays;
 mod reference;
+mod rows;
 mod sampling;
+mod shading;
 mod share;
+mod simd;
 mod tiles;
 
 use std::ops::ControlFlow;
 
-pub(crate) use band::provenance;
-pub use lanes::{PointKernel, PointValues, SimdRenderer};
+pub use points::{PointKernel, PointValues};
 pub use reference::ReferenceRenderer;
+pub use simd::SimdRenderer;
 
 use crate::map::{Map, Pixel, Quantity, Region, Resolution};
 use crate::prepare::PreparedScene;
+use crate::threads::ThreadsError;
 
 /// Something that computes maps. Every renderer passes the one [conformance suite](crate::conformance).
 pub trait Renderer {
@@ -101,13 +108,8 @@ pub enum RenderError {
     #[error("interrupted")]
     Interrupted,
     /// The threads could not be started.
-    #[error("cannot start {threads} threads: {reason}")]
-    Threads {
-        /// What was asked for.
-        threads: usize,
-        /// What the system says.
-        reason: String,
-    },
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
 }
 
 /// Why there is no channel `color`.

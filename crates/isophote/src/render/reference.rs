@@ -1,12 +1,14 @@
 //! The reference: one pixel after the other, in double precision.
 
+use super::band::{self, Sheet};
 use super::sampling::Renders;
-use super::{RenderError, RenderSettings, Renderer, band, color, sampling};
+use super::{RenderError, RenderSettings, Renderer, layers, rays, sampling};
 use crate::lanes::Precision;
-use crate::map::Map;
+use crate::map::{Map, Values};
 use crate::prepare::PreparedScene;
+use crate::threads::Threads;
 
-/// The renderer that every other one is held to: scalar, single-threaded, obviously right.
+/// The renderer that every other one is checked against: scalar, single-threaded, obviously right.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ReferenceRenderer;
 
@@ -16,27 +18,34 @@ impl Renderer for ReferenceRenderer {
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
-        color::render(scene, settings, |scene, settings| {
-            if scene.scene().sampling().is_multisampled() {
-                let centres =
-                    |_: Vec<_>, scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(scene, settings);
-                sampling::render(scene, settings, None, &Renders { parallel: &centres, serial: &centres })
-            } else {
-                self.centres(scene, settings)
-            }
-        })
+        let centres =
+            |memory, scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(memory, scene, settings);
+        let layers = if scene.scene().sampling().is_multisampled() {
+            let renders = Renders { parallel: &centres, serial: &centres };
+            sampling::render(scene, settings, &Threads::single(), &renders)?
+        } else {
+            self.centres(Vec::new(), scene, settings)?
+        };
+        Ok(layers::combined(scene, &settings.quantities, layers))
     }
 }
 
 impl ReferenceRenderer {
-    fn centres(self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
-        let mut map = band::empty_map(scene, settings, self.name(), Precision::Double, Vec::new())?;
+    fn centres(
+        self,
+        memory: Vec<Values>,
+        scene: &PreparedScene,
+        settings: &RenderSettings<'_>,
+    ) -> Result<Vec<Map>, RenderError> {
+        let sheet = Sheet::of_camera(scene, settings, self.name())?;
+        let mut layers = band::empty_layers(scene, &sheet, &settings.quantities, Precision::Double, memory)?;
+        let asked_for = band::asked_for(&layers[0], scene);
+        let rows = layers[0].region.size.height;
         let mut runs = Vec::new();
-        let rows = map.region.size.height;
-        for mut band in band::split(&mut map, scene, rows) {
-            runs.extend(band.render(scene, settings.observer)?);
+        for mut band in band::split(&mut layers, rows) {
+            runs.extend(rays::fill(&mut band, scene, &asked_for, settings.observer)?);
         }
-        band::finish(&mut map, runs);
-        Ok(map)
+        band::finish(&mut layers, runs);
+        Ok(layers)
     }
 }

@@ -13,8 +13,7 @@ use crate::analysis::cells::{self, Cell, Layout};
 use crate::camera::{Sight, between};
 use crate::map::{Map, Pixel, Quantity, Resolution, Window};
 use crate::prepare::{Hit, PreparedScene};
-use crate::render::color::map_of_components;
-use crate::shade::ByLight;
+use crate::render::RenderError;
 use crate::shape::{Primitive, Side, SurfacePoint};
 use crate::units::Keyword;
 use crate::vector::Vector;
@@ -163,28 +162,21 @@ impl Surface<'_> {
         if quantities.contains(&Quantity::Color) && self.scene.components().is_none() {
             return Err(SurfaceError::NoColor);
         }
-        map_of_components(self.scene, quantities, true, |scene, quantities| self.map_lit_by(scene, quantities))
-    }
-
-    /// The map of single numbers.
-    fn map_lit_by(&self, scene: &PreparedScene, quantities: &[Quantity]) -> Result<Map, SurfaceError> {
-        let lights = cells::lights(scene, quantities).map_err(|name| SurfaceError::NoSuchLight { name })?;
         let needs_eye = quantities.iter().any(depends_on_eye);
         let layout = Layout {
             size: self.size,
             window: self.window(),
             renderer: self.description(),
-            shape: u32::try_from(self.request.primitive.shape).unwrap_or(u32::MAX),
+            shape: self.request.primitive.shape,
         };
-        Ok(cells::map(scene, layout, quantities, |cell| {
+        let map = cells::map(self.scene, layout, quantities, |cell| {
             let hit = self.hit(cell);
-            if needs_eye && hit.point.cos_theta_o <= 0.0 {
-                return None;
-            }
-            let mut by_light = ByLight::of(lights.iter().copied());
-            let shading = scene.shade(&hit, None, |light, term| by_light.take(light, term));
-            Some(Cell { position: hit.point.position(), normal: hit.point.normal, shading, lights: by_light })
-        }))
+            (!needs_eye || hit.point.cos_theta_o > 0.0).then_some(Cell::OnShape(hit))
+        });
+        map.map_err(|error| match error {
+            RenderError::NoSuchLight { name } => SurfaceError::NoSuchLight { name },
+            error => unreachable!("a surface is a map of known size: {error}"),
+        })
     }
 
     /// How many columns and rows there are.

@@ -1,11 +1,8 @@
 //! A region in bands of rows, each sampled by one thread, and the map of all of them.
 
-use rayon::ThreadPool;
-use rayon::prelude::*;
-
 use crate::map::{Channel, Map, Mask, Pixel, Region, Resolution, Run, Values};
 use crate::prepare::PreparedScene;
-use crate::render::{RenderError, RenderSettings};
+use crate::render::RenderSettings;
 
 /// Rows of the region, and those around them whose light a filter spreads into these.
 #[derive(Clone, Copy)]
@@ -43,18 +40,6 @@ impl RowBand {
     /// The settings that render it.
     pub fn settings<'o>(&self, settings: &RenderSettings<'o>) -> RenderSettings<'o> {
         RenderSettings { region: Some(self.region), ..settings.clone() }
-    }
-}
-
-/// Does the same to each of some things, on several threads if there are any.
-pub fn each<T: Send, U: Send>(
-    pool: Option<&ThreadPool>,
-    things: Vec<T>,
-    work: impl Fn(T) -> Result<U, RenderError> + Sync + Send,
-) -> Result<Vec<U>, RenderError> {
-    match pool {
-        Some(pool) => pool.install(|| things.into_par_iter().with_max_len(1).map(work).collect()),
-        None => things.into_iter().map(work).collect(),
     }
 }
 

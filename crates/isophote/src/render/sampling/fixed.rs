@@ -3,10 +3,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use rayon::ThreadPool;
-
 use super::Renders;
-use super::bands::{RowBand, Stack, bands, each};
+use super::bands::{RowBand, Stack, bands};
 use super::pattern::Patterns;
 use super::refine::{copy_geometry, is_mean, offsets, put, put_exactly, put_shapes};
 use crate::map::{Map, Quantity, Run, Scalars, Values};
@@ -14,15 +12,16 @@ use crate::prepare::PreparedScene;
 use crate::render::share::Share;
 use crate::render::{Observer, RenderError, RenderSettings, band};
 use crate::scene::{Filter, Sampling};
+use crate::threads::Threads;
 
 /// Renders every place in the pixels of a region and takes the means. Threads share the bands, not the images: those of a
 /// band come one after the other in the same memory, which stays in the cache.
 pub fn render(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
-    pool: Option<&ThreadPool>,
+    threads: &Threads,
     renders: &Renders<'_>,
-) -> Result<Map, RenderError> {
+) -> Result<Vec<Map>, RenderError> {
     let Sampling { samples, filter, .. } = scene.scene().sampling();
     let region = settings.region.expect("it was grown for the filter");
     let share = settings.observer.map(|whole| Share::new(whole, u64::from(samples) + 1));
@@ -31,29 +30,36 @@ pub fn render(
     let sampled = RenderSettings { quantities, observer, region: None };
     let centres = RenderSettings { observer, ..settings.clone() };
     let start = |band: RowBand| {
-        let map = (renders.serial)(Vec::new(), scene, &band.settings(&centres))?;
-        Ok(BandMeans { means: Means::new(&map, filter), map, memory: Vec::new() })
+        let layers = (renders.serial)(Vec::new(), scene, &band.settings(&centres))?;
+        let layers = layers.into_iter().map(|map| (Means::new(&map, filter), map)).collect();
+        Ok::<_, RenderError>(BandMeans { layers, memory: Vec::new() })
     };
-    let stack = Mutex::new(Stack::new(region));
+    let count = scene.layers().len();
+    let stacks = Mutex::new((0..count).map(|_| Stack::new(region)).collect::<Vec<_>>());
     let mut parts: Vec<(RowBand, Option<BandMeans>)> =
         bands(region, filter.reach()).into_iter().map(|band| (band, None)).collect();
     let patterns = Patterns::new(samples);
     let mut left = samples as usize;
+    threads.start()?;
     for places in patterns.of(samples).chunks(views_at_once(scene)) {
         left -= places.len();
         let views: Vec<_> = places.iter().map(|place| (*place, scene.seen_through(*place))).collect();
-        parts = each(pool, parts, |(band, part)| {
+        parts = threads.map::<_, _, Result<_, RenderError>>(parts, |(band, part): (RowBand, Option<BandMeans>)| {
             let mut part = part.map_or_else(|| start(band), Ok)?;
             part.add(&views, &band.settings(&sampled), renders)?;
             if left > 0 {
                 return Ok((band, Some(part)));
             }
-            let map = part.finish(samples)?;
-            stack.lock().unwrap_or_else(PoisonError::into_inner).add(band, &map);
+            let layers = part.finish(samples)?;
+            let mut stacks = stacks.lock().unwrap_or_else(PoisonError::into_inner);
+            for (stack, map) in stacks.iter_mut().zip(&layers) {
+                stack.add(band, map);
+            }
             Ok((band, None))
         })?;
     }
-    Ok(stack.into_inner().unwrap_or_else(PoisonError::into_inner).finish(scene))
+    let stacks = stacks.into_inner().unwrap_or_else(PoisonError::into_inner);
+    Ok(stacks.into_iter().map(|stack| stack.finish(scene)).collect())
 }
 
 /// How many views of a scene are kept at a time: each has a list of its shapes.
@@ -63,13 +69,14 @@ fn views_at_once(scene: &PreparedScene) -> usize {
 
 /// Whether the places of a pixel are asked for a quantity: for its mean, or for what the centre may miss.
 fn is_sampled(quantity: &Quantity) -> bool {
-    is_mean(quantity) || matches!(quantity, Quantity::Depth | Quantity::Position | Quantity::Normal)
+    let is_geometry = matches!(quantity, Quantity::Depth | Quantity::Position | Quantity::Normal);
+    is_mean(quantity) || is_geometry || *quantity == Quantity::Color
 }
 
 /// What a band is so far.
 struct BandMeans {
-    map: Map,
-    means: Means,
+    /// The map of each layer, and the sums for it.
+    layers: Vec<(Means, Map)>,
     /// Of the last image, cleared.
     memory: Vec<Values>,
 }
@@ -83,17 +90,22 @@ impl BandMeans {
         renders: &Renders<'_>,
     ) -> Result<(), RenderError> {
         for (place, view) in views {
-            let sample = (renders.serial)(std::mem::take(&mut self.memory), view, settings)?;
-            self.means.add(&self.map, &sample, *place);
-            self.means.fill_in(&mut self.map, &sample);
-            self.memory = band::recycle(sample);
+            let samples = (renders.serial)(std::mem::take(&mut self.memory), view, settings)?;
+            for ((means, map), sample) in self.layers.iter_mut().zip(&samples) {
+                means.add(map, sample, *place);
+                means.fill_in(map, sample);
+            }
+            self.memory = band::recycle(samples);
         }
         Ok(())
     }
 
-    fn finish(mut self, samples: u32) -> Result<Map, RenderError> {
-        self.means.finish(&mut self.map, samples)?;
-        Ok(self.map)
+    fn finish(self, samples: u32) -> Result<Vec<Map>, RenderError> {
+        let finish = |(means, mut map): (Means, Map)| {
+            means.finish(&mut map, samples)?;
+            Ok(map)
+        };
+        self.layers.into_iter().map(finish).collect()
     }
 }
 

@@ -10,19 +10,16 @@ mod uncertain;
 
 use std::ops::Range;
 
-use rayon::ThreadPool;
-
-use self::bands::each;
-use self::outlined::Outlined;
+use self::outlined::{Nodes, Outlined};
 use self::pattern::Patterns;
 use self::refine::{Averages, Refinement, Wanted};
-use self::rule::Nodes;
-use self::uncertain::{Finder, Suspects};
+use self::uncertain::{Finder, Suspects, uncertain_in_row};
 use super::band::{self, advance};
+use super::hits::HitBlock;
 use super::{RenderError, RenderSettings};
-use crate::map::totals;
-use crate::map::{Channel, Map, Mask, Pixel, Quantity, Region, Resolution, Values};
+use crate::map::{Channel, Map, Mask, Pixel, Quantity, Region, Resolution, Values, totals};
 use crate::prepare::PreparedScene;
+use crate::threads::Threads;
 
 /// The first samples of a pixel that is uncertain: enough to see how much its values differ.
 const FIRST_SAMPLES: u32 = 16;
@@ -33,8 +30,9 @@ const WORTH_THREADS: usize = 20_000;
 /// So many rows are looked through and refined by one thread at a time.
 const ROWS: usize = 16;
 
-/// Renders the centres of pixels, in memory of an earlier map if there is any.
-pub type Centres<'c> = dyn Fn(Vec<Values>, &PreparedScene, &RenderSettings<'_>) -> Result<Map, RenderError> + Sync + 'c;
+/// Renders the centres of pixels in every layer, in memory of earlier maps if there are any.
+pub type Centres<'c> =
+    dyn Fn(Vec<Values>, &PreparedScene, &RenderSettings<'_>) -> Result<Vec<Map>, RenderError> + Sync + 'c;
 
 /// What renders the centres of pixels.
 pub struct Renders<'c> {
@@ -51,23 +49,27 @@ pub struct Renders<'c> {
 pub fn render(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
-    pool: Option<&ThreadPool>,
+    threads: &Threads,
     renders: &Renders<'_>,
-) -> Result<Map, RenderError> {
+) -> Result<Vec<Map>, RenderError> {
     let sampling = scene.scene().sampling();
     let reach = sampling.filter.reach();
     let full = scene.scene().camera().resolution;
     let region = settings.region.unwrap_or(Region::all(full));
     band::check(region, full)?;
-    let settings = RenderSettings { region: Some(grown(region, reach, full)), ..settings.clone() };
-    let map = match sampling.tolerance {
-        Some(tolerance) => refined(scene, &settings, tolerance, pool, renders)?,
-        None => fixed::render(scene, &settings, pool, renders)?,
+    let wide = RenderSettings { region: Some(grown(region, reach, full)), ..settings.clone() };
+    let layers = match sampling.tolerance {
+        Some(tolerance) => refined(scene, &wide, tolerance, threads, renders)?,
+        None => fixed::render(scene, &wide, threads, renders)?,
     };
-    let mut map = cropped(map, region, scene);
-    map.retain(|quantity| settings.quantities.contains(quantity));
-    map.provenance.renderer = format!("{}, {}", map.provenance.renderer, sampling.describe());
-    Ok(map)
+    let finish = |map| {
+        let mut map = cropped(map, region, scene);
+        let is_wanted = |quantity: &Quantity| settings.quantities.contains(quantity);
+        map.retain(|quantity| is_wanted(quantity) || *quantity == Quantity::Brightness && is_wanted(&Quantity::Color));
+        map.provenance.renderer = format!("{}, {}", map.provenance.renderer, sampling.describe());
+        map
+    };
+    Ok(layers.into_iter().map(finish).collect())
 }
 
 /// The centres of a region, with what is uncertain of them refined.
@@ -75,46 +77,57 @@ fn refined(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
     tolerance: f64,
-    pool: Option<&ThreadPool>,
+    threads: &Threads,
     renders: &Renders<'_>,
-) -> Result<Map, RenderError> {
+) -> Result<Vec<Map>, RenderError> {
     let sampling = scene.scene().sampling();
     let full = scene.scene().camera().resolution;
     let region = settings.region.unwrap_or(Region::all(full));
     let mut quantities = settings.quantities.clone();
     quantities.push(Quantity::Brightness);
     let wide = RenderSettings { region: Some(grown(region, 1, full)), quantities, ..settings.clone() };
-    let mut map = (renders.parallel)(Vec::new(), scene, &wide)?;
-    let tolerance = tolerance * peak(scene, renders)?;
-    let averages = Averages::of(&map, scene);
+    let mut layers = (renders.parallel)(Vec::new(), scene, &wide)?;
+    let tolerances: Vec<f64> = peaks(scene, renders)?.into_iter().map(|peak| tolerance * peak).collect();
+    let averages: Vec<Averages> = layers.iter().map(Averages::of).collect();
+    let asked_for = band::asked_for(&layers[0], scene);
     let (patterns, offsets) = (Patterns::new(sampling.samples), refine::offsets(sampling.filter));
-    let wanted = Wanted { averages: &averages, sampling, patterns: &patterns, offsets: &offsets, tolerance };
-    let outlined = Outlined::new(scene, &averages, sampling, tolerance);
-    let finder = Finder::new(&map, region, tolerance);
+    let wanted =
+        Wanted { averages: &averages, sampling, patterns: &patterns, offsets: &offsets, tolerances: &tolerances };
+    let outlined = Outlined::new(scene, &wanted, &asked_for, refine::has_geometry(&layers[0]));
+    let finders: Vec<Finder<'_>> =
+        layers.iter().zip(&tolerances).map(|(map, tolerance)| Finder::new(map, region, *tolerance)).collect();
     let refine = |rows: Range<usize>| {
-        let (mut nodes, mut suspects) = (Nodes::new(), Suspects::default());
+        let (mut nodes, mut suspects) = (Nodes::new(asked_for.len()), Suspects::default());
+        let mut hits = HitBlock::new(scene, &asked_for);
         let mut refined = Vec::new();
         for row in rows {
-            for uncertain in finder.in_row(row, &mut suspects) {
-                let pixel = map.pixel(uncertain.index);
+            for uncertain in uncertain_in_row(&finders, row, &mut suspects) {
+                let pixel = layers[0].pixel(uncertain.index);
                 if outlined.as_ref().is_some_and(|outlined| outlined.is_missed_by_all(pixel, &uncertain)) {
                     continue;
                 }
                 advance(settings.observer, 0)?;
                 let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&mut nodes, pixel, &uncertain));
-                refined.push(mean.unwrap_or_else(|| Refinement::new(scene, &wanted, pixel, &uncertain)));
+                refined.push(mean.unwrap_or_else(|| Refinement::new(&mut hits, &wanted, pixel, &uncertain)));
             }
         }
         Ok(refined)
     };
-    let first = (region.corner.row - map.region.corner.row) as usize;
+    let first = (region.corner.row - layers[0].region.corner.row) as usize;
     let last = first + region.size.height as usize;
-    let parts = (first..last).step_by(ROWS).map(|row| row..(row + ROWS).min(last)).collect();
-    let is_worth_threads = outlined.is_none() || map.mask.visible() > WORTH_THREADS;
-    let refined: Vec<Refinement> =
-        each(pool.filter(|_| is_worth_threads), parts, refine)?.into_iter().flatten().collect();
-    refine::apply(&mut map, &averages, sampling.filter, &refined)?;
-    Ok(map)
+    let parts: Vec<Range<usize>> = (first..last).step_by(ROWS).map(|row| row..(row + ROWS).min(last)).collect();
+    let is_worth_threads = outlined.is_none() || layers[0].mask.visible() > WORTH_THREADS;
+    let refined: Vec<Vec<Refinement>> = if is_worth_threads {
+        threads.start()?;
+        threads.map::<_, _, Result<_, RenderError>>(parts, refine)?
+    } else {
+        parts.into_iter().map(refine).collect::<Result<_, RenderError>>()?
+    };
+    let refined: Vec<Refinement> = refined.into_iter().flatten().collect();
+    for (layer, (map, averages)) in layers.iter_mut().zip(&averages).enumerate() {
+        refine::apply((layer, map), averages, sampling.filter, &refined)?;
+    }
+    Ok(layers)
 }
 
 /// A region and so many pixels around it, as far as the image goes.
@@ -131,16 +144,17 @@ fn grown(region: Region, by: u32, full: Resolution) -> Region {
 /// The longer side of the small image that tells how bright a scene is.
 const GLANCE: u32 = 96;
 
-/// About the largest brightness of the whole image, whatever the region: that of a small image of it.
-fn peak(scene: &PreparedScene, renders: &Renders<'_>) -> Result<f64, RenderError> {
+/// About the largest brightness of the whole image in each layer, whatever the region: that of a small image of it.
+fn peaks(scene: &PreparedScene, renders: &Renders<'_>) -> Result<Vec<f64>, RenderError> {
     let full = scene.scene().camera().resolution;
     let longer = f64::from(full.width.max(full.height));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the side it had")]
     let side = |side: u32| ((f64::from(side) * f64::from(GLANCE) / longer).ceil() as u32).clamp(1, side);
     let small = scene.at_resolution(Resolution { width: side(full.width), height: side(full.height) });
     let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
-    let map = (renders.parallel)(Vec::new(), &small, &settings)?;
-    Ok(totals(&map, &Quantity::Brightness).map_or(0.0, |totals| totals.max.value))
+    let layers = (renders.parallel)(Vec::new(), &small, &settings)?;
+    let peak = |map| totals(map, &Quantity::Brightness).map_or(0.0, |totals| totals.max.value);
+    Ok(layers.iter().map(peak).collect())
 }
 
 /// A part of a map.

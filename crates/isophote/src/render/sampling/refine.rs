@@ -5,30 +5,31 @@ use super::pattern::{self, Patterns};
 use super::uncertain::Uncertain;
 use crate::camera::ScreenPosition;
 use crate::hammersley::points;
-use crate::map::{Map, Mask, Pixel, Quantity, Run, Scalars, Values};
-use crate::prepare::{Hit, PreparedScene};
+use crate::map::{Channel, Map, Mask, Pixel, Quantity, Run, Scalars, Values};
+use crate::prepare::Hit;
 use crate::render::RenderError;
 use crate::render::band::ScalarChannel;
+use crate::render::hits::HitBlock;
+use crate::render::shading::block::{POINTS, ShadedBlock};
 use crate::scene::{Filter, Sampling};
-use crate::shade::ByLight;
 
-/// The channels of a map that are means. The others hold what is seen at the centre.
+/// The channels of a layer that are means. The others hold what is seen at the centre.
 pub struct Averages {
     /// Index among the map's channels, and what it is.
     channels: Vec<(usize, ScalarChannel)>,
-    has_geometry: bool,
 }
 
 /// What is asked of a pixel.
 pub struct Wanted<'w> {
-    pub averages: &'w Averages,
+    /// Of each layer.
+    pub averages: &'w [Averages],
     pub sampling: Sampling,
     /// The places of the rays in a pixel, for each number of them that is asked for.
     pub patterns: &'w Patterns,
     /// The pixels that the filter reaches.
     pub offsets: &'w [[f64; 2]],
-    /// The allowed error of the brightness.
-    pub tolerance: f64,
+    /// The allowed error of the brightness of each layer.
+    pub tolerances: &'w [f64],
 }
 
 /// What a pixel is over its area.
@@ -45,54 +46,34 @@ pub struct Refinement {
     pub seen: Option<usize>,
     /// Where that is; needed only where the centre sees nothing, and the map has channels for it.
     pub hit: Option<Box<Hit>>,
-    /// For each pixel that the filter reaches, row by row from the upper left: the mean of weight × value of each
-    /// averaged channel, and last the mean weight.
-    pub sums: Vec<f64>,
+    /// In each layer, for each pixel that the filter reaches, row by row from the upper left: the mean of weight × value of
+    /// each averaged channel, and last the mean weight.
+    pub sums: Vec<Vec<f64>>,
 }
 
 impl Averages {
-    /// The averaged channels of a map.
-    pub fn of(map: &Map, scene: &PreparedScene) -> Self {
-        let channels = map.channels.iter().enumerate().filter(|(_, channel)| is_mean(&channel.quantity));
-        let channels = channels.map(|(index, channel)| (index, ScalarChannel::of(&channel.quantity, scene.scene())));
-        let is_geometry =
-            |quantity: &Quantity| matches!(quantity, Quantity::Depth | Quantity::Position | Quantity::Normal);
-        let has_geometry = map.channels.iter().any(|channel| is_geometry(&channel.quantity));
-        Self { channels: channels.collect(), has_geometry }
+    /// The averaged channels of a layer.
+    pub fn of(map: &Map) -> Self {
+        let mut lights = 0..;
+        let mut channel = |(index, quantity): (usize, &Quantity)| {
+            let scalar = ScalarChannel::of(quantity, &mut lights)?;
+            is_mean(quantity).then_some((index, scalar))
+        };
+        let quantities = map.channels.iter().map(|channel| &channel.quantity);
+        Self { channels: quantities.enumerate().filter_map(&mut channel).collect() }
     }
 
     /// Index among the map's channels, and what it is.
     pub fn channels(&self) -> &[(usize, ScalarChannel)] {
         &self.channels
     }
+}
 
-    /// Whether the map tells where the surface is that a pixel sees.
-    pub fn have_geometry(&self) -> bool {
-        self.has_geometry
-    }
-
-    /// The lights whose irradiance is averaged by itself, in the order of their channels.
-    pub fn lights(&self) -> impl Iterator<Item = usize> {
-        self.channels.iter().filter_map(|(_, channel)| channel.light())
-    }
-
-    /// The values of a hit, and its brightness.
-    fn values(&self, scene: &PreparedScene, hit: &Hit, position: ScreenPosition, values: &mut [f64]) -> f64 {
-        let mut by_light = ByLight::of(self.lights());
-        let shading = scene.shade(hit, Some(position), |light, term| by_light.take(light, term));
-        for (value, (_, channel)) in values.iter_mut().zip(&self.channels) {
-            match channel {
-                ScalarChannel::Brightness => *value = shading.brightness(),
-                ScalarChannel::Irradiance => *value = shading.irradiance,
-                ScalarChannel::Diffuse => *value = shading.diffuse,
-                ScalarChannel::Specular => *value = shading.specular,
-                ScalarChannel::Ambient => *value = shading.ambient,
-                ScalarChannel::Light(light) => *value = by_light.irradiance(*light),
-                ScalarChannel::Depth | ScalarChannel::AmbientError => unreachable!("it is no mean"),
-            }
-        }
-        shading.brightness()
-    }
+/// Whether a map tells where the surface is that a pixel sees.
+pub fn has_geometry(map: &Map) -> bool {
+    let is_geometry =
+        |channel: &Channel| matches!(channel.quantity, Quantity::Depth | Quantity::Position | Quantity::Normal);
+    map.channels.iter().any(is_geometry)
 }
 
 /// Whether a pixel's value is the mean over its area. Of the others it is the value at its centre.
@@ -117,12 +98,16 @@ pub fn is_mean(quantity: &Quantity) -> bool {
 
 impl Refinement {
     /// Sends as many rays through a pixel as its contrast takes.
-    pub fn new(scene: &PreparedScene, wanted: &Wanted<'_>, pixel: Pixel, uncertain: &Uncertain) -> Self {
+    pub fn new(hits: &mut HitBlock<'_>, wanted: &Wanted<'_>, pixel: Pixel, uncertain: &Uncertain) -> Self {
         let most = wanted.sampling.samples;
-        let mut samples = pattern::enough(uncertain.contrast, wanted.tolerance, most).max(FIRST_SAMPLES.min(most));
+        let enough = |contrasts: &[f64]| {
+            let of_layer = |(contrast, tolerance): (&f64, &f64)| pattern::enough(*contrast, *tolerance, most);
+            contrasts.iter().zip(wanted.tolerances).map(of_layer).max().unwrap_or(1)
+        };
+        let mut samples = enough(&uncertain.contrasts).max(FIRST_SAMPLES.min(most));
         loop {
-            let (refinement, contrast) = Self::of_samples(scene, wanted, pixel, uncertain, samples);
-            let enough = pattern::enough(contrast, wanted.tolerance, most);
+            let (refinement, contrasts) = Self::of_samples(hits, wanted, pixel, uncertain, samples);
+            let enough = enough(&contrasts);
             if enough <= samples {
                 return refinement;
             }
@@ -130,46 +115,91 @@ impl Refinement {
         }
     }
 
-    /// With so many samples; and how much their brightness differs.
+    /// With so many samples; and how much their brightness differs in each layer.
     fn of_samples(
-        scene: &PreparedScene,
+        hits: &mut HitBlock<'_>,
         wanted: &Wanted<'_>,
         pixel: Pixel,
         uncertain: &Uncertain,
         samples: u32,
-    ) -> (Self, f64) {
-        let averages = wanted.averages;
-        let channels = averages.channels.len();
-        let mut sums = vec![0.0; wanted.offsets.len() * (channels + 1)];
-        let mut values = vec![0.0; channels];
-        let [mut least, mut greatest] = [f64::INFINITY, f64::NEG_INFINITY];
+    ) -> (Self, Vec<f64>) {
+        let mut means: Vec<LayerMeans> = wanted.averages.iter().map(|of| LayerMeans::new(of, wanted.offsets)).collect();
         let (mut covered, mut first_hit) = (0_u32, None);
-        for &place in wanted.patterns.of(samples) {
-            let position = ScreenPosition::InPixel { pixel, place };
-            let hit = scene.trace(position);
-            values.fill(0.0);
-            let brightness = hit.map_or(0.0, |hit| averages.values(scene, &hit, position, &mut values));
-            covered += u32::from(hit.is_some());
-            first_hit = first_hit.or(hit);
-            least = least.min(brightness);
-            greatest = greatest.max(brightness);
-            let [across, down] = place.map(|part| part - 0.5);
-            for (sums, [columns, rows]) in sums.chunks_exact_mut(channels + 1).zip(wanted.offsets) {
-                let weight = wanted.sampling.filter.weight(across - columns, down - rows);
-                for (sum, value) in sums.iter_mut().zip(&values) {
-                    *sum += weight * value;
-                }
-                sums[channels] += weight;
+        for places in wanted.patterns.of(samples).chunks(POINTS) {
+            hits.clear();
+            let mut trace = |place: &[f64; 2]| {
+                let position = ScreenPosition::InPixel { pixel, place: *place };
+                let hit = hits.trace(position);
+                covered += u32::from(hit.is_some());
+                first_hit = first_hit.or(hit);
+                hit.map(|hit| {
+                    hits.push(0, &hit, Some(position));
+                    hits.len() - 1
+                })
+            };
+            let seen: Vec<([f64; 2], Option<usize>)> = places.iter().map(|place| (*place, trace(place))).collect();
+            for (layer, means) in means.iter_mut().enumerate() {
+                means.add(&seen, hits.shaded(layer), wanted.sampling.filter, wanted.offsets);
             }
         }
         let share = 1.0 / f64::from(samples);
-        for sum in &mut sums {
-            *sum *= share;
-        }
+        let contrasts = means.iter().map(LayerMeans::contrast).collect();
+        let sums = means.into_iter().map(|means| means.finish(share)).collect();
         let coverage = f64::from(covered) * share;
         let seen = first_hit.map(|hit| hit.primitive.shape);
         let Uncertain { index, sees, .. } = *uncertain;
-        (Self { index, sees, samples, coverage, seen, hit: first_hit.map(Box::new), sums }, greatest - least)
+        (Self { index, sees, samples, coverage, seen, hit: first_hit.map(Box::new), sums }, contrasts)
+    }
+}
+
+/// The sums over the samples of a pixel in a layer.
+struct LayerMeans<'w> {
+    channels: &'w [(usize, ScalarChannel)],
+    sums: Vec<f64>,
+    least: f64,
+    greatest: f64,
+}
+
+impl<'w> LayerMeans<'w> {
+    fn new(averages: &'w Averages, offsets: &[[f64; 2]]) -> Self {
+        let channels = &averages.channels;
+        let sums = vec![0.0; offsets.len() * (channels.len() + 1)];
+        Self { channels, sums, least: f64::INFINITY, greatest: f64::NEG_INFINITY }
+    }
+
+    /// Adds samples, given by their places and what is seen there.
+    fn add(
+        &mut self,
+        seen: &[([f64; 2], Option<usize>)],
+        shaded: &ShadedBlock<f64>,
+        filter: Filter,
+        offsets: &[[f64; 2]],
+    ) {
+        let count = self.channels.len();
+        for (place, point) in seen {
+            let at = |values: &[f64]| point.map_or(0.0, |point| values[point]);
+            let brightness = at(&shaded.brightness);
+            (self.least, self.greatest) = (self.least.min(brightness), self.greatest.max(brightness));
+            let [across, down] = place.map(|part| part - 0.5);
+            for (sums, [columns, rows]) in self.sums.chunks_exact_mut(count + 1).zip(offsets) {
+                let weight = filter.weight(across - columns, down - rows);
+                for (sum, (_, channel)) in sums.iter_mut().zip(self.channels) {
+                    *sum += weight * at(shaded.values(*channel));
+                }
+                sums[count] += weight;
+            }
+        }
+    }
+
+    fn contrast(&self) -> f64 {
+        self.greatest - self.least
+    }
+
+    fn finish(mut self, share: f64) -> Vec<f64> {
+        for sum in &mut self.sums {
+            *sum *= share;
+        }
+        self.sums
     }
 }
 
@@ -180,15 +210,20 @@ pub fn offsets(filter: Filter) -> Vec<[f64; 2]> {
     rows.map(|offset| offset.map(f64::from)).collect()
 }
 
-/// Puts refined pixels, in reading order, into a map.
-pub fn apply(map: &mut Map, averages: &Averages, filter: Filter, refined: &[Refinement]) -> Result<(), RenderError> {
+/// Puts refined pixels, in reading order, into the map of a layer.
+pub fn apply(
+    (layer, map): (usize, &mut Map),
+    averages: &Averages,
+    filter: Filter,
+    refined: &[Refinement],
+) -> Result<(), RenderError> {
     if filter.reach() > 0 {
-        return spread(map, averages, filter, refined);
+        return spread((layer, map), averages, filter, refined);
     }
     let found = find_shapes(map, refined);
     for refinement in refined {
         put_counts(map, refinement, refinement.sees || refinement.seen.is_some());
-        for (value, (channel, _)) in normalized(&refinement.sums).zip(&averages.channels) {
+        for (value, (channel, _)) in normalized(&refinement.sums[layer]).zip(&averages.channels) {
             put(map, *channel, refinement.index, value)?;
         }
     }
@@ -228,10 +263,15 @@ fn put_counts(map: &mut Map, refinement: &Refinement, is_seen: bool) {
 }
 
 /// The same with a filter that spreads light over more than a pixel.
-fn spread(map: &mut Map, averages: &Averages, filter: Filter, refined: &[Refinement]) -> Result<(), RenderError> {
+fn spread(
+    (layer, map): (usize, &mut Map),
+    averages: &Averages,
+    filter: Filter,
+    refined: &[Refinement],
+) -> Result<(), RenderError> {
     let found = find_shapes(map, refined);
     let mut shapes = map.mask.with(&found).shapes();
-    for (index, values) in gathered(map, averages, filter, refined, &mut shapes) {
+    for (index, values) in gathered((layer, &mut *map), averages, filter, refined, &mut shapes) {
         for (value, (channel, _)) in values.into_iter().zip(&averages.channels) {
             put(map, *channel, index, value)?;
         }
@@ -252,7 +292,7 @@ fn normalized(sums: &[f64]) -> impl Iterator<Item = f64> {
 /// The values of every pixel through a filter that reaches beyond it. A pixel that was not refined is as bright as its
 /// centre all over.
 fn gathered(
-    map: &mut Map,
+    (layer, map): (usize, &mut Map),
     averages: &Averages,
     filter: Filter,
     refined: &[Refinement],
@@ -288,7 +328,7 @@ fn gathered(
                     source = source.or(Some(from));
                 }
                 if let Some(refinement) = refinement_of[from] {
-                    let part = &refinement.sums[offset * (channels + 1)..][..=channels];
+                    let part = &refinement.sums[layer][offset * (channels + 1)..][..=channels];
                     sums.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
                 } else {
                     for (sum, (channel, _)) in sums.iter_mut().zip(&averages.channels) {

@@ -3,7 +3,7 @@
 use crate::outline::Ellipse;
 
 /// Places in an outline and their weights, which add up to the covered part of the pixel.
-pub struct Nodes {
+pub struct NodePlaces {
     /// How many there are; all others weigh nothing.
     pub count: usize,
     /// u, counted from [`Ellipse::column`].
@@ -78,7 +78,7 @@ impl Roots {
     }
 }
 
-impl Nodes {
+impl NodePlaces {
     /// No places yet.
     pub fn new() -> Self {
         let none = [0.0; MOST];
@@ -215,7 +215,7 @@ mod tests {
                     for column in 0..40_u32 {
                         let pixel =
                             Center { column: f64::from(column) - outline.column, row: f64::from(row) - outline.row };
-                        let mut nodes = Nodes::new();
+                        let mut nodes = NodePlaces::new();
                         nodes.place(outline, pixel, rows);
                         let expected = covered(outline, pixel);
                         let found = nodes.weights[..nodes.count].iter().sum::<f64>();

@@ -9,10 +9,34 @@ use crate::map::{Map, Quantity, Region, Run, Scalars};
 pub struct Uncertain {
     /// Index in the map.
     pub index: usize,
-    /// By how much its neighbours differ from it: so much may be in a corner of it that the first samples miss.
-    pub contrast: f64,
+    /// By how much its neighbours differ from it in each layer: so much may be in a corner of it that the first samples
+    /// miss.
+    pub contrasts: Vec<f64>,
     /// Whether its centre sees a surface.
     pub sees: bool,
+}
+
+/// The same in one layer.
+#[derive(Clone, Copy)]
+pub struct Suspect {
+    index: usize,
+    contrast: f64,
+    sees: bool,
+}
+
+/// The pixels of a row, from the left, that are uncertain in any layer.
+pub fn uncertain_in_row(finders: &[Finder<'_>], row: usize, suspects: &mut Suspects) -> Vec<Uncertain> {
+    let mut all: Vec<Uncertain> = Vec::new();
+    for (layer, finder) in finders.iter().enumerate() {
+        for Suspect { index, contrast, sees } in finder.in_row(row, suspects) {
+            let place = all.partition_point(|known| known.index < index);
+            if all.get(place).is_none_or(|known| known.index != index) {
+                all.insert(place, Uncertain { index, contrasts: vec![0.0; finders.len()], sees });
+            }
+            all[place].contrasts[layer] = contrast;
+        }
+    }
+    all
 }
 
 /// Columns of a row that are to be looked at; the memory serves for the next row.
@@ -63,7 +87,7 @@ impl<'m> Finder<'m> {
     }
 
     /// Those of a row of the map, from the left.
-    pub fn in_row<'f>(&'f self, row: usize, suspects: &'f mut Suspects) -> impl Iterator<Item = Uncertain> {
+    fn in_row<'f>(&'f self, row: usize, suspects: &'f mut Suspects) -> impl Iterator<Item = Suspect> {
         suspects.columns.clear();
         self.suspect_edges(row, suspects);
         if let Some(inner) = self.inner(row) {
@@ -136,7 +160,7 @@ impl<'m> Finder<'m> {
         runs.get(before).filter(|run| run.start <= index).map(|run| run.shape)
     }
 
-    fn uncertain(&self, row: usize, column: usize) -> Option<Uncertain> {
+    fn uncertain(&self, row: usize, column: usize) -> Option<Suspect> {
         let index = row * self.width + column;
         let here = self.brightness.at(index);
         let (mut contrast, mut bend) = (0.0_f64, 0.0_f64);
@@ -154,7 +178,7 @@ impl<'m> Finder<'m> {
         };
         let is_uncertain =
             bend > self.tolerance || contrast > self.tolerance && LINES.into_iter().flatten().any(is_unlike);
-        is_uncertain.then_some(Uncertain { index, contrast, sees: shape.is_some() })
+        is_uncertain.then_some(Suspect { index, contrast, sees: shape.is_some() })
     }
 
     fn value(&self, row: usize, column: usize) -> f64 {

@@ -17,12 +17,14 @@ use self::group::{Group, Groups};
 use self::outlines::{Outlines, Prepare, Take, View};
 use self::shading::Shader;
 use crate::accelerate::Walk;
-use crate::camera::{Projection, ScreenPosition};
+use crate::camera::Projection;
 use crate::lanes::{Instructions, Precision};
 use crate::map::{Pixel, Run};
-use crate::prepare::{Hit, PreparedScene};
+use crate::prepare::PreparedScene;
 use crate::render::band::{self, Band};
-use crate::render::{Observer, RenderError};
+use crate::render::hits::HitBlock;
+use crate::render::shading::emitters::Lighting;
+use crate::render::{Observer, RenderError, rays};
 
 /// Columns of a tile.
 pub const WIDTH: u32 = 64;
@@ -52,8 +54,10 @@ const MANY: u32 = 64;
 pub struct Tiles<'a> {
     /// The scene.
     pub scene: &'a PreparedScene,
-    /// The order in which lights are summed.
-    pub order: &'a [usize],
+    /// Its lights.
+    pub lighting: &'a Lighting,
+    /// Those whose irradiance is asked for by itself.
+    pub asked_for: &'a [usize],
     /// Of what is shaded.
     pub precision: Precision,
     /// What the machine can do.
@@ -91,11 +95,13 @@ impl Tiles<'_> {
             shader: Shader::new(self),
             seen: vec![NOTHING; band.size.pixels()],
             doubtful: Vec::new(),
+            hits: HitBlock::new(self.scene, self.asked_for),
         };
         for tile in tiles(&band) {
             work.tile(tile, &mut band)?;
             band::advance(self.observer, u64::from(tile.width) * u64::from(tile.height))?;
         }
+        work.hits.put(&mut band)?;
         Ok(runs(&band, &work.seen))
     }
 }
@@ -136,6 +142,8 @@ struct Work<'a> {
     seen: Vec<u32>,
     /// Pixels to be traced with 32 digits.
     doubtful: Vec<Pixel>,
+    /// What those see.
+    hits: HitBlock<'a>,
 }
 
 impl Work<'_> {
@@ -192,13 +200,11 @@ impl Work<'_> {
         self.doubtful.sort_unstable_by_key(|pixel| (pixel.row, pixel.column));
         self.doubtful.dedup();
         for pixel in &self.doubtful {
-            let hit = self.scene.trace_precisely(ScreenPosition::PixelCenter(*pixel)).map(Hit::rounded);
-            let seen = &mut self.seen[band.index(*pixel)];
-            *seen = NOTHING;
-            if let Some(hit) = hit {
-                *seen = u32::try_from(hit.primitive.shape).unwrap_or(NOTHING);
-                band.store(*pixel, self.scene, &hit)?;
-            }
+            self.seen[band.index(*pixel)] = NOTHING;
+        }
+        let pixels = self.doubtful.iter().copied();
+        for (pixel, shape) in rays::retrace(self.scene, pixels, band, &mut self.hits)? {
+            self.seen[band.index(pixel)] = u32::try_from(shape).unwrap_or(NOTHING);
         }
         Ok(())
     }

@@ -245,15 +245,8 @@ impl Outlines {
 }
 
 #[inline(always)]
-fn exactly<D: Lane<Element = f64>>(token: D::Token, numbers: &[f64; BLOCK]) -> DoubleDouble<D> {
+fn exactly<D: Lane<Element = f64>>(token: D::Token, numbers: &[f64]) -> DoubleDouble<D> {
     DoubleDouble::exactly(D::load(token, numbers))
-}
-
-#[inline(always)]
-fn store<D: Lane<Element = f64>>(numbers: D) -> [f64; BLOCK] {
-    let mut out = [0.0; BLOCK];
-    numbers.store(&mut out);
-    out
 }
 
 impl Block {
@@ -265,27 +258,32 @@ impl Block {
         doubtful: [f64; BLOCK],
         number: [u32; BLOCK],
     ) -> Self {
+        let zeros = [0.0; BLOCK];
         let radius = spheres.map(|(_, radius)| radius);
-        let center = Vector::new(
-            exactly::<D>(token, &spheres.map(|(center, _)| center.x)),
-            exactly::<D>(token, &spheres.map(|(center, _)| center.y)),
-            exactly::<D>(token, &spheres.map(|(center, _)| center.z)),
-        );
-        let from_eye = grid.seen_from_eye(center, exactly::<D>(token, &radius));
-        let ellipse = Ellipse::new(from_eye, grid.in_camera(from_eye), grid);
-        let metres = D::load(token, &radius);
-        let [first, by_column, by_row] = ellipse.direction;
-        let depth = [
-            store(first.dot(ellipse.center) * metres),
-            store(by_column.dot(ellipse.center) * metres),
-            store(by_row.dot(ellipse.center) * metres),
-        ];
-        let distance = store(ellipse.center.length() * metres);
-        let ellipse = ellipse.map(
-            #[inline(always)]
-            |numbers| store(numbers),
-        );
-        Self { ellipse, depth, distance, radius, doubtful, number }
+        let [x, y, z] = [|center: Vector| center.x, |center: Vector| center.y, |center: Vector| center.z]
+            .map(|of: fn(Vector) -> f64| spheres.map(|(center, _)| of(center)));
+        let ellipse = Ellipse::filled_with(zeros);
+        let mut block = Self { ellipse, depth: [zeros; 3], distance: zeros, radius, doubtful, number };
+        for at in (0..BLOCK).step_by(D::COUNT) {
+            let center = Vector::new(
+                exactly::<D>(token, &x[at..]),
+                exactly::<D>(token, &y[at..]),
+                exactly::<D>(token, &z[at..]),
+            );
+            let from_eye = grid.seen_from_eye(center, exactly::<D>(token, &radius[at..]));
+            let ellipse = Ellipse::new(from_eye, grid.in_camera(from_eye), grid);
+            let metres = D::load(token, &radius[at..]);
+            for (depth, direction) in block.depth.iter_mut().zip(ellipse.direction) {
+                (direction.dot(ellipse.center) * metres).store(&mut depth[at..]);
+            }
+            (ellipse.center.length() * metres).store(&mut block.distance[at..]);
+            ellipse.put_into(
+                &mut block.ellipse,
+                #[inline(always)]
+                |numbers, out| numbers.store(&mut out[at..]),
+            );
+        }
+        block
     }
 
     /// How far the centre is before the eye.

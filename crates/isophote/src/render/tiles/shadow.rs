@@ -1,10 +1,9 @@
 //! Which pixels of a group see a light.
 
 use super::group::{Group, MOST};
-use super::shading::Places;
 use crate::lanes::Lane;
 use crate::prepare::PreparedScene;
-use crate::shape::Sphere;
+use crate::render::shading::block::SurfaceBlock;
 use crate::vector::Vector;
 
 /// Decisions closer than this, relatively, are left to 32 digits. Rounding may come to some 1e-14 of them.
@@ -22,7 +21,8 @@ pub struct Shadows {
     possible: [u32; VECTORS],
 }
 
-const VECTORS: usize = MOST / 8;
+/// As many as there are with the shortest vectors, of two.
+const VECTORS: usize = MOST / 2;
 
 /// A sphere that may stand in the light, in radii of the sphere whose light it is, from that one's centre.
 struct Blocker {
@@ -42,7 +42,7 @@ impl Shadows {
         token: S::Token,
         scene: &PreparedScene,
         group: &mut Group<'_>,
-        places: &Places,
+        points: &SurfaceBlock<f64>,
         light: Vector,
         visible: &mut [f64],
     ) -> bool
@@ -50,9 +50,9 @@ impl Shadows {
         S: Lane<Element = f32>,
         D: Lane<Element = f64, Token = S::Token>,
     {
-        let vectors = places.count.div_ceil(D::COUNT);
-        let Some([least, greatest]) = self.horizon::<D>(token, places, vectors, light) else { return false };
-        self.search::<S, D>(token, scene, group, places, light, [least, greatest], vectors);
+        let vectors = points.count.div_ceil(D::COUNT);
+        let Some([least, greatest]) = self.horizon::<D>(token, points, vectors, light) else { return false };
+        self.search::<S, D>(token, scene, group, points, light, [least, greatest], vectors);
         let (zero, one) = (D::splat(token, 0.0), D::splat(token, 1.0));
         for vector in 0..vectors {
             let at = vector * D::COUNT;
@@ -82,7 +82,7 @@ impl Shadows {
     fn horizon<D: Lane<Element = f64>>(
         &mut self,
         token: D::Token,
-        places: &Places,
+        points: &SurfaceBlock<f64>,
         vectors: usize,
         light: Vector,
     ) -> Option<[Vector; 2]> {
@@ -92,7 +92,7 @@ impl Shadows {
         let (mut x_range, mut y_range, mut z_range) = ([far, -far], [far, -far], [far, -far]);
         let mut any = 0;
         for vector in 0..vectors {
-            let normal = places.normal_at::<D>(token, vector);
+            let normal = points.normal_at::<D>(token, vector * D::COUNT);
             let is_lit = zero.is_less(normal.dot(light - normal));
             let lit = D::bits(is_lit);
             (self.lit[vector], self.blocked[vector], self.possible[vector]) = (lit, 0, 0);
@@ -117,7 +117,7 @@ impl Shadows {
         token: S::Token,
         scene: &PreparedScene,
         group: &mut Group<'_>,
-        places: &Places,
+        points: &SurfaceBlock<f64>,
         light: Vector,
         [least, greatest]: [Vector; 2],
         vectors: usize,
@@ -125,7 +125,7 @@ impl Shadows {
         S: Lane<Element = f32>,
         D: Lane<Element = f64, Token = S::Token>,
     {
-        let Sphere { center, radius } = places.sphere;
+        let SurfaceBlock { anchor: center, unit: radius, .. } = *points;
         let middle = (least + greatest) * 0.5;
         // What is in doubt may be a little outside.
         let half = (greatest - least) * (0.5 + 1e-6) + Vector::new(1e-6, 1e-6, 1e-6);
@@ -156,7 +156,7 @@ impl Shadows {
                 self.possible.fill(u32::MAX);
                 return;
             }
-            if self.block::<D>(token, places, light, &blocker, vectors) {
+            if self.block::<D>(token, points, light, &blocker, vectors) {
                 return;
             }
         }
@@ -167,7 +167,7 @@ impl Shadows {
     fn block<D: Lane<Element = f64>>(
         &mut self,
         token: D::Token,
-        places: &Places,
+        points: &SurfaceBlock<f64>,
         light: Vector,
         blocker: &Blocker,
         vectors: usize,
@@ -183,7 +183,7 @@ impl Shadows {
             if self.lit[vector] & !self.blocked[vector] == 0 {
                 continue;
             }
-            let normal = places.normal_at::<D>(token, vector);
+            let normal = points.normal_at::<D>(token, vector * D::COUNT);
             let (to_light, to_blocker) = (light - normal, center - normal);
             let length = to_light.dot(to_light);
             let along = to_blocker.dot(to_light);

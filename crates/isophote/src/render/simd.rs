@@ -1,50 +1,42 @@
-//! Rows in lanes: the fast renderer.
-//!
-//! Shapes are found by their [outlines](crate::shape::Outline) instead of ray by ray; what they see is shaded several
-//! pixels at a time. Pixels for which that is not exact enough are traced and summed one by one, as the reference does.
-
-pub(super) mod kernel;
-pub(super) mod lights;
-mod points;
-pub(super) mod power;
-pub(super) mod visible;
+//! The fast renderer: it picks how a scene is seen (by rows, tiles or rays), and cuts the work into bands for its threads.
 
 use std::num::NonZeroUsize;
-use std::sync::OnceLock;
 
-use rayon::ThreadPool;
-use rayon::prelude::*;
-
-use self::kernel::BandJob;
-pub use self::points::{PointKernel, PointValues};
-use self::visible::Candidate;
-use super::band::{self, Band};
-use super::color;
+use super::band::{self, Band, Sheet};
+use super::rows::{Candidate, RowsJob};
 use super::sampling::{self, Renders};
+use super::shading::emitters::Lighting;
 use super::tiles::{self, Tiles};
-use super::{RenderError, RenderSettings, Renderer};
+use super::{RenderError, RenderSettings, Renderer, layers, rays};
 use crate::lanes::{Instructions, Precision};
 use crate::map::{Map, Region, Run, Values};
 use crate::outline::Outline;
 use crate::prepare::PreparedScene;
 use crate::shape::Primitive;
+use crate::threads::Threads;
 use crate::units::Keyword;
 
 /// The fast renderer, on one thread or several. The bytes do not depend on how many.
 pub struct SimdRenderer {
     precision: Precision,
-    threads: usize,
+    threads: Threads,
     instructions: Instructions,
-    pool: OnceLock<ThreadPool>,
+}
+
+/// What all bands of a map have in common.
+struct Work<'w> {
+    scene: &'w PreparedScene,
+    settings: &'w RenderSettings<'w>,
+    lighting: Lighting,
+    asked_for: Vec<usize>,
+    uses_tiles: bool,
 }
 
 impl SimdRenderer {
     /// A renderer of a precision on so many threads; as many as there are processors when unstated.
     #[must_use]
     pub fn new(precision: Precision, threads: Option<NonZeroUsize>) -> Self {
-        // Told outright: the pool would otherwise take its size from an environment variable.
-        let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-        Self { precision, threads, instructions: Instructions::best(), pool: OnceLock::new() }
+        Self { precision, threads: Threads::new(threads), instructions: Instructions::best() }
     }
 
     /// The same renderer with these instructions instead of the machine's best.
@@ -66,36 +58,25 @@ impl SimdRenderer {
             && estimated_time(scene, region, false) < WORTH_THREADS
     }
 
-    /// The threads, started when they are first needed.
-    fn pool(&self) -> Result<&ThreadPool, RenderError> {
-        if let Some(pool) = self.pool.get() {
-            return Ok(pool);
-        }
-        let threads = self.threads;
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .map_err(|error| RenderError::Threads { threads, reason: error.to_string() })?;
-        Ok(self.pool.get_or_init(|| pool))
-    }
-
     fn render_in(
         &self,
         memory: Vec<Values>,
         scene: &PreparedScene,
         settings: &RenderSettings<'_>,
     ) -> Result<Map, RenderError> {
-        if scene.scene().sampling().is_multisampled() {
-            let pool = if self.threads == 1 { None } else { Some(self.pool()?) };
+        let layers = if scene.scene().sampling().is_multisampled() {
             let centres = |threads| {
                 move |memory, scene: &PreparedScene, settings: &RenderSettings<'_>| {
                     self.centres(memory, scene, settings, threads)
                 }
             };
-            sampling::render(scene, settings, pool, &Renders { parallel: &centres(self.threads), serial: &centres(1) })
+            let single = Threads::single();
+            let renders = Renders { parallel: &centres(&self.threads), serial: &centres(&single) };
+            sampling::render(scene, settings, &self.threads, &renders)?
         } else {
-            self.centres(memory, scene, settings, self.threads)
-        }
+            self.centres(memory, scene, settings, &self.threads)?
+        };
+        Ok(layers::combined(scene, &settings.quantities, layers))
     }
 
     fn centres(
@@ -103,65 +84,45 @@ impl SimdRenderer {
         memory: Vec<Values>,
         scene: &PreparedScene,
         settings: &RenderSettings<'_>,
-        threads: usize,
-    ) -> Result<Map, RenderError> {
-        let mut map = band::empty_map(scene, settings, self.name(), self.precision, memory)?;
+        threads: &Threads,
+    ) -> Result<Vec<Map>, RenderError> {
+        let sheet = Sheet::of_camera(scene, settings, self.name())?;
+        let mut layers = band::empty_layers(scene, &sheet, &settings.quantities, self.precision, memory)?;
         let uses_tiles = tiles::supports(scene);
         if uses_tiles {
             // Here, where all threads are free: those of the renderer would wait for each other.
             scene.accelerator();
         }
-        let height = map.region.size.height;
-        let order = lights::by_place(scene.scene().lights());
-        let fill = |band: Band<'_>| {
-            if uses_tiles {
-                self.fill_by_tiles(band, scene, &order, settings)
-            } else {
-                self.fill_by_rows(band, scene, &order, settings)
-            }
-        };
-        let runs = if threads == 1 || estimated_time(scene, map.region, uses_tiles) < WORTH_THREADS {
-            let bands = band::split(&mut map, scene, height).into_iter();
-            bands.map(fill).collect::<Result<Vec<_>, _>>()?
+        let asked_for = band::asked_for(&layers[0], scene);
+        let lighting = Lighting::new(scene, &asked_for);
+        let work = Work { scene, settings, lighting, asked_for, uses_tiles };
+        let fill = |band: Band<'_>| self.fill(band, &work);
+        let (height, region) = (layers[0].region.size.height, layers[0].region);
+        let runs: Vec<Vec<Run>> = if threads.count() == 1 || estimated_time(scene, region, uses_tiles) < WORTH_THREADS {
+            band::split(&mut layers, height).into_iter().map(fill).collect::<Result<_, _>>()?
         } else {
-            let parts = u32::try_from(threads).unwrap_or(u32::MAX).saturating_mul(BANDS_A_THREAD);
+            threads.start()?;
+            let parts = u32::try_from(threads.count()).unwrap_or(u32::MAX).saturating_mul(BANDS_A_THREAD);
             let rows = if uses_tiles { tiles::HEIGHT } else { height.div_ceil(parts) };
-            let bands = band::split(&mut map, scene, rows);
-            self.pool()?.install(|| {
-                let bands = bands.into_par_iter().with_max_len(1);
-                bands.map(fill).collect::<Result<Vec<_>, _>>()
-            })?
+            threads.map::<_, _, Result<_, _>>(band::split(&mut layers, rows), fill)?
         };
-        band::finish(&mut map, runs.into_iter().flatten().collect());
-        Ok(map)
+        band::finish(&mut layers, runs.into_iter().flatten().collect());
+        Ok(layers)
     }
 
-    fn fill_by_tiles(
-        &self,
-        band: Band<'_>,
-        scene: &PreparedScene,
-        order: &[usize],
-        settings: &RenderSettings<'_>,
-    ) -> Result<Vec<Run>, RenderError> {
-        let (precision, instructions) = (self.precision, self.instructions);
-        Tiles { scene, order, precision, instructions, observer: settings.observer }.fill(band)
-    }
-
-    fn fill_by_rows(
-        &self,
-        mut band: Band<'_>,
-        scene: &PreparedScene,
-        order: &[usize],
-        settings: &RenderSettings<'_>,
-    ) -> Result<Vec<Run>, RenderError> {
-        let observer = settings.observer;
+    fn fill(&self, mut band: Band<'_>, work: &Work<'_>) -> Result<Vec<Run>, RenderError> {
+        let Work { scene, settings: RenderSettings { observer, .. }, lighting, asked_for, uses_tiles } = work;
+        let (precision, instructions, observer) = (self.precision, self.instructions, *observer);
+        if *uses_tiles {
+            return Tiles { scene, lighting, asked_for, precision, instructions, observer }.fill(band);
+        }
         let rows = band.first.row..band.first.row + band.size.height;
         match Candidate::all(scene, rows) {
             Some(candidates) => {
-                let job = BandJob { scene, band, candidates, order, precision: self.precision, observer };
+                let job = RowsJob { scene, band, candidates, lighting, asked_for, precision, observer };
                 self.instructions.run(job)
             }
-            None => band.render(scene, observer),
+            None => rays::fill(&mut band, scene, asked_for, observer),
         }
     }
 }
@@ -201,7 +162,7 @@ impl Renderer for SimdRenderer {
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
-        color::render(scene, settings, |scene, settings| self.render_in(Vec::new(), scene, settings))
+        self.render_in(Vec::new(), scene, settings)
     }
 
     fn render_again(
@@ -210,10 +171,6 @@ impl Renderer for SimdRenderer {
         settings: &RenderSettings<'_>,
         earlier: Map,
     ) -> Result<Map, RenderError> {
-        if scene.components().is_some() {
-            drop(earlier);
-            return self.render(scene, settings);
-        }
-        self.render_in(band::recycle(earlier), scene, settings)
+        self.render_in(band::recycle([earlier]), scene, settings)
     }
 }

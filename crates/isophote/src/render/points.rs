@@ -1,12 +1,14 @@
 //! Brightness at many given points of spheres, several points at a time.
 
-use super::kernel::{Sums, sum};
-use super::lights::{ShapeLights, ShapeShading, by_place};
-use super::power::{NoPower, Power};
+use super::shading::block::{POINTS, ShadedBlock, SurfaceBlock};
+use super::shading::emitters::{Chosen, Lighting, ShapeEmitters};
+use super::shading::kernel::{Lit, Unobstructed};
+use super::shading::lobe::Power;
 use crate::camera::Projection;
-use crate::lanes::{Instructions, Lane, LaneJob, Precision, SimdToken};
+use crate::lanes::{Instructions, Lane, LaneJob, Precision};
+use crate::light::Ambient;
 use crate::prepare::PreparedScene;
-use crate::reflectance::{BrightnessFormula, Lobe};
+use crate::reflectance::BrightnessFormula;
 use crate::shape::{Geometry, Primitive, Sphere, SurfacePoint};
 use crate::units::LengthUnit;
 use crate::vector::Vector;
@@ -40,7 +42,9 @@ struct PointSphere<'s> {
     side: f64,
     tolerance: f64,
     formula: &'s BrightnessFormula,
-    lights: ShapeLights<f64>,
+    power: Power,
+    emitters: Chosen<f64>,
+    ambient: f64,
 }
 
 /// Each point asks each sphere.
@@ -61,19 +65,32 @@ impl<'s> PointKernel<'s> {
         if shapes.is_empty() || shapes.len() > FEW || is_parallel || is_shadowed || description.color().is_some() {
             return None;
         }
-        let order = by_place(description.lights());
+        let lighting = Lighting::new(scene, &[]);
         let sphere = |(index, shape): (usize, &crate::scene::Shape)| {
             let Geometry::Sphere(sphere) = shape.geometry else { return None };
             let primitive = Primitive { shape: index, part: 0 };
             let formula = scene.formula(primitive);
             let is_sharp = formula.sharpness().is_some_and(|n| n > SHARPEST);
-            let lights = ShapeShading::new(scene, primitive, &sphere, &order, &[], Precision::Double);
-            let ShapeShading::Double(lights) = lights else { return None };
+            let (mut placed, mut emitters) = (ShapeEmitters::default(), Chosen::default());
+            lighting.place(scene, &sphere, &mut placed);
+            emitters.choose_all(scene, &lighting, &placed);
+            let power = Power::new(formula.sharpness(), Precision::Double);
+            let ambient = description.ambient().map_or(0.0, Ambient::unobstructed_irradiance);
             let eye = (description.camera().eye - sphere.center) * (1.0 / sphere.radius);
             let side = if shape.geometry.part_encloses(0, description.camera().eye) { -1.0 } else { 1.0 };
             let tolerance = shape.geometry.surface_tolerance(sphere.center);
             let index = f64::from(u8::try_from(index).ok()?);
-            (!is_sharp).then_some(PointSphere { sphere, index, eye, side, tolerance, formula, lights })
+            (!is_sharp).then_some(PointSphere {
+                sphere,
+                index,
+                eye,
+                side,
+                tolerance,
+                formula,
+                power,
+                emitters,
+                ambient,
+            })
         };
         let spheres: Option<Vec<_>> = shapes.iter().enumerate().map(sphere).collect();
         Some(Self { spheres: spheres?, length: description.length(), instructions: Instructions::best() })
@@ -100,8 +117,8 @@ struct Fill<'f, 'v> {
     values: &'f mut PointValues<'v>,
 }
 
-/// As many numbers as a vector may have.
-const MOST: usize = 32;
+/// Room for a block of points, and for the rest of the last vector.
+const SIZE: usize = POINTS + 32;
 
 impl LaneJob for Fill<'_, '_> {
     type Output = usize;
@@ -112,69 +129,125 @@ impl LaneJob for Fill<'_, '_> {
         S: Lane<Element = f32>,
         D: Lane<Element = f64, Token = S::Token>,
     {
-        const { assert!(D::COUNT <= MOST) }
         let Self { kernel, points, snaps, values } = self;
+        let mut work = Work {
+            coordinates: [[0.0; SIZE]; 3],
+            shape: [0.0; SIZE],
+            distance: [0.0; SIZE],
+            indices: Vec::with_capacity(POINTS),
+            points: SurfaceBlock::new(),
+            shaded: ShadedBlock::new(0),
+        };
         let mut misses = 0;
-        for (number, points) in points.chunks(D::COUNT).enumerate() {
-            let found = kernel.values::<D>(token, points, snaps);
-            let start = number * D::COUNT;
-            let (mut brightness, mut irradiance, mut shape) = ([0.0; MOST], [0.0; MOST], [0.0; MOST]);
-            found.brightness.store(&mut brightness);
-            found.irradiance.store(&mut irradiance);
-            found.shape.store(&mut shape);
-            for lane in 0..points.len() {
-                let is_miss = shape[lane] < 0.0;
-                misses += usize::from(is_miss);
-                values.brightness[start + lane] = if is_miss { f64::NAN } else { brightness[lane] };
-                values.irradiance[start + lane] = if is_miss { f64::NAN } else { irradiance[lane] };
+        for (number, points) in points.chunks(POINTS).enumerate() {
+            let start = number * POINTS;
+            work.find::<D>(token, kernel, points, snaps);
+            for (lane, shape) in work.shape[..points.len()].iter().enumerate() {
                 #[expect(clippy::cast_possible_truncation, reason = "a small whole number")]
-                let index = shape[lane] as i32;
+                let index = *shape as i32;
                 values.shape[start + lane] = index;
+                if index < 0 {
+                    misses += 1;
+                    values.brightness[start + lane] = f64::NAN;
+                    values.irradiance[start + lane] = f64::NAN;
+                }
+            }
+            for sphere in &kernel.spheres {
+                work.gather(sphere, points.len());
+                work.shade::<D>(token, sphere);
+                for (point, index) in work.indices.iter().enumerate() {
+                    values.brightness[start + index] = work.shaded.brightness[point];
+                    values.irradiance[start + index] = work.shaded.irradiance[point];
+                }
             }
         }
         misses
     }
 }
 
-/// What is found at a vector of points.
-struct Found<V> {
-    brightness: V,
-    irradiance: V,
-    /// −1 where there is no surface.
-    shape: V,
+/// A block of points while it is worked on.
+struct Work {
+    /// Of the points, in metres; gathered to those of one sphere.
+    coordinates: [[f64; SIZE]; 3],
+    /// The index of the sphere of each, −1 where there is no surface.
+    shape: [f64; SIZE],
+    /// Of each from the centre of that sphere.
+    distance: [f64; SIZE],
+    /// Which of them are on one sphere.
+    indices: Vec<usize>,
+    points: Box<SurfaceBlock<f64>>,
+    shaded: Box<ShadedBlock<f64>>,
 }
 
-impl PointKernel<'_> {
+impl Work {
+    /// Finds the surface of each point.
     #[inline(always)]
-    fn values<V: Lane<Element = f64>>(&self, token: V::Token, points: &[[f64; 3]], snaps: bool) -> Found<V> {
-        let mut coordinates = [[0.0; MOST]; 3];
-        for lane in 0..V::COUNT {
+    fn find<V: Lane<Element = f64>>(
+        &mut self,
+        token: V::Token,
+        kernel: &PointKernel<'_>,
+        points: &[[f64; 3]],
+        snaps: bool,
+    ) {
+        for lane in 0..points.len().next_multiple_of(V::COUNT) {
             // What is left over of the last vector repeats its last point.
             let point = points[lane.min(points.len() - 1)];
             for axis in 0..3 {
-                coordinates[axis][lane] = self.length.to_metres(point[axis]);
+                self.coordinates[axis][lane] = kernel.length.to_metres(point[axis]);
             }
         }
-        let [x, y, z] = &coordinates;
-        let point = Vector::new(V::load(token, x), V::load(token, y), V::load(token, z));
-        let (shape, distance) = self.nearest(token, point, snaps);
-        let zero = V::splat(token, 0.0);
-        let (mut brightness, mut irradiance) = (zero, zero);
-        for sphere in &self.spheres {
-            let index = V::splat(token, sphere.index);
-            let apart = (shape - index).max(index - shape);
-            let is_here = apart.is_less(V::splat(token, 0.5));
-            if V::bits(is_here) != 0 {
-                let from_center = point - splat(token, sphere.sphere.center);
-                let outward = direction(token, from_center, distance);
-                let (of_brightness, of_irradiance) = sphere.shade(token, outward);
-                brightness = V::select(is_here, of_brightness, brightness);
-                irradiance = V::select(is_here, of_irradiance, irradiance);
-            }
+        for at in (0..points.len()).step_by(V::COUNT) {
+            let [x, y, z] = &self.coordinates;
+            let point = Vector::new(V::load(token, &x[at..]), V::load(token, &y[at..]), V::load(token, &z[at..]));
+            let (shape, distance) = kernel.nearest(token, point, snaps);
+            shape.store(&mut self.shape[at..]);
+            distance.store(&mut self.distance[at..]);
         }
-        Found { brightness, irradiance, shape }
     }
 
+    /// Picks the points of a sphere.
+    fn gather(&mut self, sphere: &PointSphere<'_>, count: usize) {
+        let is_here = |index: &usize| (self.shape[*index] - sphere.index).abs() < 0.5;
+        self.indices.clear();
+        self.indices.extend((0..count).filter(is_here));
+        (self.points.count, self.points.anchor, self.points.unit) =
+            (self.indices.len(), sphere.sphere.center, sphere.sphere.radius);
+    }
+
+    /// Shades the points that were picked.
+    #[inline(always)]
+    fn shade<V: Lane<Element = f64>>(&mut self, token: V::Token, sphere: &PointSphere<'_>) {
+        let Self { coordinates, distance, indices, points, shaded, .. } = self;
+        let Some(last) = indices.last() else { return };
+        let mut picked = [[0.0; SIZE]; 4];
+        for lane in 0..indices.len().next_multiple_of(V::COUNT) {
+            let index = *indices.get(lane).unwrap_or(last);
+            for axis in 0..3 {
+                picked[axis][lane] = coordinates[axis][index];
+            }
+            picked[3][lane] = distance[index];
+        }
+        for at in (0..indices.len()).step_by(V::COUNT) {
+            let [x, y, z, distance] = picked.each_ref().map(
+                #[inline(always)]
+                |numbers| V::load(token, &numbers[at..]),
+            );
+            points.store_point(at, &sphere.point(token, Vector::new(x, y, z), distance));
+        }
+        points.ambient[..indices.len().next_multiple_of(V::COUNT)].fill(sphere.ambient);
+        let lit = Lit {
+            points: &**points,
+            count: points.count,
+            formula: sphere.formula,
+            power: &sphere.power,
+            selection: sphere.emitters.selection(),
+            visibility: &Unobstructed,
+        };
+        lit.shade::<V>(token, shaded);
+    }
+}
+
+impl PointKernel<'_> {
     /// The index of the sphere whose surface is nearest, −1 where it is not near enough; and the distance from its centre.
     #[inline(always)]
     fn nearest<V: Lane<Element = f64>>(&self, token: V::Token, point: Vector<V>, snaps: bool) -> (V, V) {
@@ -218,32 +291,13 @@ fn direction<V: Lane<Element = f64>>(token: V::Token, vector: Vector<V>, length:
 }
 
 impl PointSphere<'_> {
-    /// Brightness and irradiance of points in these directions.
+    /// The point of the sphere towards a place, given with its distance from the centre.
     #[inline(always)]
-    fn shade<V: Lane<Element = f64>>(&self, token: V::Token, outward: Vector<V>) -> (V, V) {
-        match &self.lights.power {
-            Power::None => self.shade_with(token, outward, &NoPower),
-            Power::Even(lobe) => self.shade_with(token, outward, lobe),
-            Power::Odd(lobe) => self.shade_with(token, outward, lobe),
-            Power::Any(lobe) => self.shade_with(token, outward, lobe),
-        }
-    }
-
-    #[inline(always)]
-    fn shade_with<V: Lane<Element = f64>, L: Lobe<V>>(&self, token: V::Token, outward: Vector<V>, lobe: &L) -> (V, V) {
-        token.in_own_function(
-            #[inline(always)]
-            || {
-                let normal = outward * V::splat(token, self.side);
-                let to_eye = splat(token, self.eye) - outward;
-                let view = to_eye * (V::splat(token, 1.0) / to_eye.dot(to_eye).sqrt());
-                let cos_theta_o = normal.dot(view);
-                let point = SurfacePoint { anchor: self.sphere.center, offset: outward, normal, view, cos_theta_o };
-                let (irradiance, lobes) = sum(token, &point, &self.lights.lights, lobe);
-                let irradiance = irradiance + V::splat(token, self.lights.ambient);
-                let sums = Sums { irradiance, lobes, cos_theta_o };
-                (sums.diffuse(self.formula) + sums.specular(self.formula), irradiance)
-            },
-        )
+    fn point<V: Lane<Element = f64>>(&self, token: V::Token, place: Vector<V>, distance: V) -> SurfacePoint<V> {
+        let outward = direction(token, place - splat(token, self.sphere.center), distance);
+        let normal = outward * V::splat(token, self.side);
+        let to_eye = splat(token, self.eye) - outward;
+        let view = to_eye * (V::splat(token, 1.0) / to_eye.dot(to_eye).sqrt());
+        SurfacePoint { anchor: self.sphere.center, offset: outward, normal, view, cos_theta_o: normal.dot(view) }
     }
 }

@@ -13,11 +13,11 @@ pub enum Power {
     /// The formula has no lobe.
     None,
     /// Of a whole, even n.
-    Even(EvenPower),
+    Even(EvenLobe),
     /// Of a whole, odd n.
-    Odd(OddPower),
+    Odd(OddLobe),
     /// Of any n.
-    Any(AnyPower),
+    Any(AnyLobe),
 }
 
 impl Power {
@@ -33,36 +33,36 @@ impl Power {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number up to 512")]
             Some(n) if n.fract() == 0.0 && n <= longest => {
                 let half = n as u32 / 2;
-                if n % 2.0 == 0.0 { Self::Even(EvenPower { half }) } else { Self::Odd(OddPower { half }) }
+                if n % 2.0 == 0.0 { Self::Even(EvenLobe { half }) } else { Self::Odd(OddLobe { half }) }
             }
-            Some(n) => Self::Any(AnyPower { half: 0.5 * n }),
+            Some(n) => Self::Any(AnyLobe { half: 0.5 * n }),
         }
     }
 }
 
 /// No lobe.
 #[derive(Clone, Copy, Debug)]
-pub struct NoPower;
+pub struct NoLobe;
 
 /// (cos²)^half.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EvenPower {
+pub struct EvenLobe {
     half: u32,
 }
 
 /// (cos²)^half · cos.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OddPower {
+pub struct OddLobe {
     half: u32,
 }
 
 /// exp(half · ln cos²).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AnyPower {
+pub struct AnyLobe {
     half: f64,
 }
 
-impl<V: Lane> Lobe<V> for NoPower {
+impl<V: Lane> Lobe<V> for NoLobe {
     #[inline(always)]
     fn denominator(&self, cos_squared: V, _: V) -> V {
         cos_squared.splat_like(1.0)
@@ -74,14 +74,14 @@ impl<V: Lane> Lobe<V> for NoPower {
     }
 }
 
-impl<V: Lane> Lobe<V> for EvenPower {
+impl<V: Lane> Lobe<V> for EvenLobe {
     #[inline(always)]
     fn value(&self, _: V, sin_squared: V, inverse: V) -> V {
         whole_power(cos_share(sin_squared, inverse), self.half)
     }
 }
 
-impl<V: Lane> Lobe<V> for OddPower {
+impl<V: Lane> Lobe<V> for OddLobe {
     #[inline(always)]
     fn value(&self, _: V, sin_squared: V, inverse: V) -> V {
         let share = cos_share(sin_squared, inverse).max_zero();
@@ -129,7 +129,7 @@ struct Split<V> {
     exponent: V,
 }
 
-impl AnyPower {
+impl AnyLobe {
     #[inline(always)]
     fn split<V: Lane>(cos_squared: V, sin_squared: V) -> Split<V> {
         let sum = cos_squared + sin_squared;
@@ -147,7 +147,7 @@ impl AnyPower {
     }
 }
 
-impl<V: Lane> Lobe<V> for AnyPower {
+impl<V: Lane> Lobe<V> for AnyLobe {
     /// What the logarithm divides by: see [`value`](Self::value).
     #[inline(always)]
     fn denominator(&self, cos_squared: V, sin_squared: V) -> V {
@@ -239,7 +239,7 @@ mod tests {
             let (cos, sin) = (splat(1.0 - sin_squared), splat(sin_squared));
             let one = splat(1.0);
             let lobe = match self.power {
-                Power::None => NoPower.value(cos, sin, one),
+                Power::None => NoLobe.value(cos, sin, one),
                 Power::Even(lobe) => lobe.value(cos, sin, one / lobe.denominator(cos, sin)),
                 Power::Odd(lobe) => lobe.value(cos, sin, one / lobe.denominator(cos, sin)),
                 Power::Any(lobe) => lobe.value(cos, sin, one / lobe.denominator(cos, sin)),

@@ -2,10 +2,8 @@
 
 use std::ops::Range;
 
-use crate::camera::ScreenPosition;
-use crate::map::Pixel;
 use crate::outline::{Ellipse, Outline, RowOfEllipse};
-use crate::prepare::{ERROR_OF_DISTANCE, Hit, PreparedScene};
+use crate::prepare::{ERROR_OF_DISTANCE, PreparedScene};
 use crate::shape::{Geometry, Primitive, Sphere};
 
 /// Columns of a row that see the same shape.
@@ -19,24 +17,14 @@ pub struct Stretch {
     pub shape: usize,
 }
 
-/// A pixel that was traced with 32 digits.
-#[derive(Clone, Copy, Debug)]
-pub struct Traced {
-    /// Where it is.
-    pub pixel: Pixel,
-    /// What it sees.
-    pub hit: Option<Hit>,
-}
-
 /// The view of one row; its memory serves for the next.
 #[derive(Default)]
 pub struct RowView {
-    /// From the left; pixels that were traced are in none.
+    /// From the left; columns in doubt are in none.
     pub stretches: Vec<Stretch>,
-    /// From the left.
-    pub traced: Vec<Traced>,
+    /// The columns that are too close to call for a double, from the left.
+    pub doubtful: Vec<u32>,
     spans: Vec<Span>,
-    doubtful: Vec<u32>,
     edges: Vec<u32>,
 }
 
@@ -144,9 +132,8 @@ fn whole(column: f64) -> u32 {
 impl RowView {
     /// Looks at some columns of a row.
     #[inline(always)]
-    pub fn look(&mut self, scene: &PreparedScene, candidates: &[Candidate<'_>], row: u32, columns: &Range<u32>) {
+    pub fn look(&mut self, candidates: &[Candidate<'_>], row: u32, columns: &Range<u32>) {
         self.stretches.clear();
-        self.traced.clear();
         self.spans.clear();
         self.doubtful.clear();
         for candidate in candidates.iter().filter(|candidate| candidate.rows.contains(&row)) {
@@ -158,7 +145,7 @@ impl RowView {
             _ => self.sweep(candidates, row),
         }
         if !self.doubtful.is_empty() {
-            self.trace_doubtful(scene, candidates, row);
+            self.take_out_doubtful();
         }
     }
 
@@ -202,27 +189,21 @@ impl RowView {
         }
     }
 
-    /// Traces the columns in doubt and takes them out of the stretches.
+    /// Takes the columns in doubt out of the stretches.
     #[inline(never)]
-    fn trace_doubtful(&mut self, scene: &PreparedScene, candidates: &[Candidate<'_>], row: u32) {
+    fn take_out_doubtful(&mut self) {
         self.doubtful.sort_unstable();
         self.doubtful.dedup();
-        for &column in &self.doubtful {
-            let pixel = Pixel { column, row };
-            let shapes = candidates.iter().map(Candidate::primitive);
-            let hit = scene.trace_precisely_among(ScreenPosition::PixelCenter(pixel), shapes);
-            self.traced.push(Traced { pixel, hit: hit.map(Hit::rounded) });
-        }
         let mut rest = Vec::with_capacity(self.stretches.len() + 1);
-        let mut traced = self.doubtful.iter().peekable();
+        let mut doubtful = self.doubtful.iter().peekable();
         for stretch in &self.stretches {
             let mut start = stretch.start;
-            while let Some(&&column) = traced.peek().filter(|column| ***column < stretch.end) {
+            while let Some(&&column) = doubtful.peek().filter(|column| ***column < stretch.end) {
                 if column > start {
                     rest.push(Stretch { start, end: column, ..*stretch });
                 }
                 start = start.max(column + 1);
-                traced.next();
+                doubtful.next();
             }
             if start < stretch.end {
                 rest.push(Stretch { start, ..*stretch });

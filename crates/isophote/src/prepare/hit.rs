@@ -1,0 +1,46 @@
+//! What a ray meets.
+
+use crate::double_double::DoubleDouble;
+use crate::scalar::Scalar;
+use crate::shape::{Primitive, SurfacePoint};
+use crate::vector::Vector;
+
+/// What a ray from the eye meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit<T = f64> {
+    /// What was hit.
+    pub primitive: Primitive,
+    /// t, the distance from the eye in metres (2.2).
+    pub distance: T,
+    /// The point.
+    pub point: SurfacePoint<T>,
+    /// Whether a closed shape is seen from inside.
+    pub from_inside: bool,
+    /// See [`ShapeHit::shadow_ray_offset`](crate::shape::ShapeHit::shadow_ray_offset).
+    pub shadow_ray_offset: Vector<T>,
+}
+
+impl<T: Scalar> Hit<T> {
+    /// The same hit in another number type.
+    pub(super) fn map<U: Scalar>(self, convert: impl Fn(T) -> U) -> Hit<U> {
+        Hit {
+            primitive: self.primitive,
+            distance: convert(self.distance),
+            point: self.point.map(&convert),
+            from_inside: self.from_inside,
+            shadow_ray_offset: self.shadow_ray_offset.map(&convert),
+        }
+    }
+}
+
+impl Hit {
+    pub(super) fn exactly(&self) -> Hit<DoubleDouble> {
+        self.map(DoubleDouble::from_f64)
+    }
+}
+
+impl Hit<DoubleDouble> {
+    pub(crate) fn rounded(self) -> Hit {
+        self.map(DoubleDouble::rounded)
+    }
+}

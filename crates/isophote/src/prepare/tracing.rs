@@ -1,0 +1,131 @@
+//! What rays from the eye meet first.
+
+use super::{Hit, PreparedScene, PreparedShape};
+use crate::camera::{ScreenPosition, Sight};
+use crate::double_double::DoubleDouble;
+use crate::map::Pixel;
+use crate::ray::Ray;
+use crate::scalar::Scalar;
+use crate::shape::{Primitive, ShapeHit};
+use crate::vector::Vector;
+
+impl PreparedScene {
+    /// What the ray through a place on the screen meets first (2.1), (2.2).
+    ///
+    /// cosθ_o of a double has an error that grows without bound towards the silhouette; rays that come near it are
+    /// traced again with 32 digits, so that the bound on the error holds at every visible pixel.
+    #[must_use]
+    pub fn trace(&self, position: ScreenPosition) -> Option<Hit> {
+        let Traced { hit, is_doubtful } = self.nearest(&self.frame.ray(position)?);
+        if is_doubtful { self.trace_precisely(position).map(Hit::rounded) } else { hit }
+    }
+
+    /// What the ray through a place on the screen meets first, with 32 digits.
+    #[must_use]
+    pub fn trace_precisely(&self, position: ScreenPosition) -> Option<Hit<DoubleDouble>> {
+        self.nearest(&self.precise_frame.ray(position)?).hit
+    }
+
+    /// What is seen at a pixel of the full image.
+    #[must_use]
+    pub fn trace_pixel(&self, pixel: Pixel) -> Option<Hit> {
+        self.trace(ScreenPosition::PixelCenter(pixel))
+    }
+
+    /// What the eye meets first in the direction of a point, on the screen or not.
+    #[must_use]
+    pub fn first_towards(&self, point: Vector) -> Option<Primitive> {
+        let Sight { start, view, .. } = self.frame.sight(point, Vector::default());
+        let ray = Ray { anchor: start, offset: Vector::default(), direction: -view };
+        self.nearest(&ray).hit.map(|hit| hit.primitive)
+    }
+
+    /// Goes through the primitives that a ray may meet, the nearer ones first more or less; `test` says up to which
+    /// distance to go on. With a handful of primitives that is all of them.
+    pub(super) fn along_ray<T: Scalar>(&self, ray: &Ray<T>, limit: f64, mut test: impl FnMut(Primitive) -> f64) {
+        if self.primitive_count() <= self.linear_search_max {
+            self.primitives().for_each(|primitive| {
+                test(primitive);
+            });
+            return;
+        }
+        let vector = |vector: Vector<T>| vector.map(T::rounded);
+        let start = vector(ray.anchor) + vector(ray.offset);
+        self.accelerator().along_ray(start, vector(ray.direction), limit, |number| test(self.primitive(number)));
+    }
+
+    /// All that can be hit.
+    fn primitives(&self) -> impl Iterator<Item = Primitive> {
+        let parts = |(shape, prepared): (usize, &PreparedShape)| {
+            (0..prepared.geometry.parts()).map(move |part| Primitive { shape, part })
+        };
+        self.shapes.iter().enumerate().flat_map(parts)
+    }
+
+    fn nearest<T: Scalar>(&self, ray: &Ray<T>) -> Traced<T> {
+        let mut search = Search::new(self, ray);
+        self.along_ray(ray, f64::INFINITY, |primitive| search.test(primitive));
+        search.finish()
+    }
+}
+
+/// A search for the nearest primitive; in which order they are tested does not matter.
+struct Search<'s, T> {
+    scene: &'s PreparedScene,
+    ray: &'s Ray<T>,
+    nearest: Option<Hit<T>>,
+    doubtful_from: Option<T>,
+}
+
+impl<'s, T: Scalar> Search<'s, T> {
+    fn new(scene: &'s PreparedScene, ray: &'s Ray<T>) -> Self {
+        Self { scene, ray, nearest: None, doubtful_from: None }
+    }
+
+    /// Tests a primitive; returns the distance beyond which nothing matters any more.
+    fn test(&mut self, primitive: Primitive) -> f64 {
+        let accuracy = self.scene.prepared_formula(primitive).accuracy;
+        let intersection = self.scene.shapes[primitive.shape].geometry.intersect(primitive.part, self.ray, accuracy);
+        self.doubtful_from = least(self.doubtful_from, intersection.doubtful_from);
+        if let Some(hit) = intersection.hit {
+            let ahead_by = self.nearest.map(|nearest| (nearest.distance - hit.distance, nearest.primitive));
+            // Where surfaces cross, the order of their distances is as uncertain as the distances.
+            let uncertain = T::from_f64(ERROR_OF_DISTANCE) * hit.distance;
+            if ahead_by.is_some_and(|(by, _)| by.is_less(uncertain) && (-uncertain).is_less(by)) {
+                self.doubtful_from = least(self.doubtful_from, Some(hit.distance - uncertain));
+            }
+            // Of surfaces in the same place the first in the scene is seen.
+            let is_nearer = |(by, other): (T, Primitive)| {
+                T::zero().is_less(by)
+                    || !by.is_less(T::zero()) && (primitive.shape, primitive.part) < (other.shape, other.part)
+            };
+            if ahead_by.is_none_or(is_nearer) {
+                let ShapeHit { distance, point, from_inside, shadow_ray_offset } = hit;
+                self.nearest = Some(Hit { primitive, distance, point, from_inside, shadow_ray_offset });
+            }
+        }
+        self.nearest.map_or(f64::INFINITY, |hit| hit.distance.rounded())
+    }
+
+    fn finish(self) -> Traced<T> {
+        let is_beyond = |from: T| self.nearest.is_some_and(|hit| hit.distance.is_less(from));
+        Traced { hit: self.nearest, is_doubtful: self.doubtful_from.is_some_and(|from| !is_beyond(from)) }
+    }
+}
+
+/// What a search for the nearest shape found, and whether the number type was good enough for it.
+struct Traced<T> {
+    hit: Option<Hit<T>>,
+    is_doubtful: bool,
+}
+
+/// Distances that differ by less, relatively, are told apart with 32 digits.
+pub(crate) const ERROR_OF_DISTANCE: f64 = 1e-12;
+
+/// The smaller of two numbers that may be missing.
+pub(super) fn least<T: Scalar>(first: Option<T>, second: Option<T>) -> Option<T> {
+    match (first, second) {
+        (Some(first), Some(second)) => Some(T::select(second.is_less(first), second, first)),
+        (first, second) => first.or(second),
+    }
+}

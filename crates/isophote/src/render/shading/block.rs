@@ -1,0 +1,181 @@
+//! Points of one surface that are shaded together, and what comes of it: arrays that stay in the nearest cache.
+
+use crate::lanes::{Element, Lane};
+use crate::outline::{Ellipse, PlaceInRow, PointInRow};
+use crate::shape::{Primitive, SurfacePoint};
+use crate::vector::Vector;
+
+/// As many points a block has at most.
+pub const POINTS: usize = 256;
+
+/// Room after the last point: vectors may reach beyond it.
+const SIZE: usize = POINTS + 32;
+
+/// Points of a primitive, as the kernel takes them: lengths are in units of `unit` from `anchor`. All that finds out what
+/// pixels see makes such blocks.
+pub struct SurfaceBlock<E> {
+    /// How many points there are.
+    pub count: usize,
+    /// What they are on.
+    pub primitive: Primitive,
+    /// A place near them, in metres.
+    pub anchor: Vector,
+    /// The unit of lengths, in metres.
+    pub unit: f64,
+    /// From the anchor to the points.
+    pub offset: [[E; SIZE]; 3],
+    /// N.
+    pub normal: [[E; SIZE]; 3],
+    /// V.
+    pub view: [[E; SIZE]; 3],
+    /// cosθ_o.
+    pub cos_theta_o: [E; SIZE],
+    /// t.
+    pub distance: [E; SIZE],
+    /// E_a, W/m² or lx.
+    pub ambient: [E; SIZE],
+}
+
+/// What the kernel makes of a block. Numbers that nobody asked for may be those of another block.
+pub struct ShadedBlock<E> {
+    /// B, in the convention's unit.
+    pub brightness: [E; SIZE],
+    /// E, W/m² or lx.
+    pub irradiance: [E; SIZE],
+    /// The diffuse part of B.
+    pub diffuse: [E; SIZE],
+    /// The specular part of B.
+    pub specular: [E; SIZE],
+    /// E_a, W/m² or lx.
+    pub ambient: [E; SIZE],
+    /// Its standard error.
+    pub ambient_error: [E; SIZE],
+    /// E_j of each light that is asked for by itself, W/m² or lx.
+    pub by_light: Vec<[E; SIZE]>,
+}
+
+/// Places on the screen within an outline: columns and rows counted as the outline does.
+pub struct Places<'p> {
+    /// u.
+    pub columns: &'p [f64],
+    /// v.
+    pub rows: &'p [f64],
+    /// u − u_a, where it is known better than by columns and rows.
+    pub after_first: &'p [f64],
+    /// u − u_b likewise.
+    pub after_last: &'p [f64],
+}
+
+impl<E: Element> SurfaceBlock<E> {
+    /// Room for points.
+    pub fn new() -> Box<Self> {
+        let zeros = [E::default(); SIZE];
+        Box::new(Self {
+            count: 0,
+            primitive: Primitive { shape: 0, part: 0 },
+            anchor: Vector::default(),
+            unit: 1.0,
+            offset: [zeros; 3],
+            normal: [zeros; 3],
+            view: [zeros; 3],
+            cos_theta_o: zeros,
+            distance: zeros,
+            ambient: zeros,
+        })
+    }
+
+    /// The points of a sphere that are seen at places within its outline. The places go on after the last one, to the
+    /// end of a vector, with anything within the outline.
+    #[inline(always)]
+    pub fn see<V: Lane<Element = E>>(&mut self, token: V::Token, outline: &Ellipse, places: &Places<'_>) {
+        let outline = outline.map(
+            #[inline(always)]
+            |number| V::splat(token, E::from_f64(number)),
+        );
+        for at in (0..self.count).step_by(V::COUNT) {
+            let [columns, rows, after_first, after_last] =
+                [places.columns, places.rows, places.after_first, places.after_last].map(
+                    #[inline(always)]
+                    |numbers| V::load_doubles(token, &numbers[at..]),
+                );
+            let place = PlaceInRow { column: columns, after_first, after_last };
+            self.store(at, &outline.row_at(rows).point(self.anchor, &place));
+        }
+    }
+
+    /// Writes a vector of points.
+    #[inline(always)]
+    pub fn store<V: Lane<Element = E>>(&mut self, at: usize, seen: &PointInRow<V>) {
+        seen.distance.store(&mut self.distance[at..]);
+        self.store_point(at, &seen.point);
+    }
+
+    /// The same without distances.
+    #[inline(always)]
+    pub fn store_point<V: Lane<Element = E>>(&mut self, at: usize, point: &SurfacePoint<V>) {
+        store(point.offset, at, &mut self.offset);
+        store(point.normal, at, &mut self.normal);
+        store(point.view, at, &mut self.view);
+        point.cos_theta_o.store(&mut self.cos_theta_o[at..]);
+    }
+
+    /// N of a vector of points.
+    #[inline(always)]
+    pub fn normal_at<V: Lane<Element = E>>(&self, token: V::Token, at: usize) -> Vector<V> {
+        load(token, at, &self.normal)
+    }
+
+    /// N of a point.
+    pub fn normal_of(&self, index: usize) -> [E; 3] {
+        let [x, y, z] = &self.normal;
+        [x[index], y[index], z[index]]
+    }
+
+    /// A vector of points.
+    #[inline(always)]
+    pub fn point_at<V: Lane<Element = E>>(&self, token: V::Token, at: usize) -> SurfacePoint<V> {
+        SurfacePoint {
+            anchor: self.anchor,
+            offset: load(token, at, &self.offset),
+            normal: load(token, at, &self.normal),
+            view: load(token, at, &self.view),
+            cos_theta_o: V::load(token, &self.cos_theta_o[at..]),
+        }
+    }
+}
+
+impl SurfaceBlock<f64> {
+    /// The position of a point, in metres.
+    pub fn position_of(&self, index: usize) -> Vector {
+        let [x, y, z] = &self.offset;
+        self.anchor + Vector::new(x[index], y[index], z[index]) * self.unit
+    }
+}
+
+impl<E: Element> ShadedBlock<E> {
+    /// Room for what so many lights give by themselves.
+    pub fn new(lights: usize) -> Box<Self> {
+        let zeros = [E::default(); SIZE];
+        Box::new(Self {
+            brightness: zeros,
+            irradiance: zeros,
+            diffuse: zeros,
+            specular: zeros,
+            ambient: zeros,
+            ambient_error: zeros,
+            by_light: vec![zeros; lights],
+        })
+    }
+}
+
+#[inline(always)]
+fn load<V: Lane>(token: V::Token, at: usize, [x, y, z]: &[[V::Element; SIZE]; 3]) -> Vector<V> {
+    Vector { x: V::load(token, &x[at..]), y: V::load(token, &y[at..]), z: V::load(token, &z[at..]) }
+}
+
+#[inline(always)]
+fn store<V: Lane>(vector: Vector<V>, at: usize, [x, y, z]: &mut [[V::Element; SIZE]; 3]) {
+    vector.x.store(&mut x[at..]);
+    vector.y.store(&mut y[at..]);
+    vector.z.store(&mut z[at..]);
+}

@@ -1,0 +1,245 @@
+//! The emitters of a scene as the points of one sphere see them.
+
+use crate::lanes::Element;
+use crate::light::{Emitters, Pattern, PlacedEmitter};
+use crate::prepare::PreparedScene;
+use crate::shape::Sphere;
+use crate::vector::Vector;
+
+/// Emitters whose sum is plain before it goes into the compensated one, and that are skipped together when they are
+/// behind the horizon together.
+pub const BLOCK: usize = 64;
+
+/// In single precision a lobe with a larger n would lose more digits than [`SINGLE`](crate::tolerance::SINGLE) allows.
+const LARGEST_SHININESS_IN_SINGLE: f64 = 32.0;
+
+/// A distance, in radii, whose powers single precision can hold; and intensities, over R².
+const FARTHEST_IN_SINGLE: f64 = 1e5;
+const INTENSITIES_IN_SINGLE: std::ops::Range<f64> = 1e-18..1e18;
+
+/// Nearer to the surface, in radii, the difference of two rounded places has too few digits left for 1/r².
+const NEAREST_IN_SINGLE: f64 = 0.1;
+
+/// A steeper edge of a cone, per radian, would multiply the rounding of directions beyond what
+/// [`SINGLE`](crate::tolerance::SINGLE) allows.
+const STEEPEST_IN_SINGLE: f64 = 6.0;
+
+/// What the lights of a scene are, for all of its shapes.
+pub struct Lighting {
+    /// The [order](by_place) in which emitters are summed.
+    order: Vec<usize>,
+    /// The place of each light among those that are asked for by themselves.
+    asked_for: Vec<Option<usize>>,
+}
+
+/// The emitters as seen from the centre of a sphere, lengths in its radii: irradiances then come out right when
+/// intensities are divided by the radius squared. Those that send nothing are left out.
+#[derive(Default)]
+pub struct ShapeEmitters {
+    placed: Vec<PlacedEmitter>,
+    /// What each is among the scene's.
+    indices: Vec<usize>,
+    /// Bounds of every [`BLOCK`] of them in their order, none where one of them is parallel; empty where there are so few
+    /// that each is simply summed.
+    blocks: Vec<Option<Ball>>,
+}
+
+/// Emitters that may light some points, in the precision of their sums; the memory serves for the next ones.
+#[derive(Default)]
+pub struct Chosen<E> {
+    emitters: Vec<PlacedEmitter<E>>,
+    block_ends: Vec<usize>,
+    /// For those whose light is asked for by itself: its place among these, and that of the emitter.
+    asked_for: Vec<(usize, usize)>,
+}
+
+/// The same, as the kernel takes them.
+#[derive(Clone, Copy)]
+pub struct Selection<'c, E> {
+    /// In the order in which they are summed.
+    pub emitters: &'c [PlacedEmitter<E>],
+    /// Where blocks end whose sums are added with compensation; none where there is only one.
+    pub block_ends: Option<&'c [usize]>,
+    /// See [`Chosen`].
+    pub asked_for: &'c [(usize, usize)],
+}
+
+/// A ball that holds the emitters of a block.
+#[derive(Clone, Copy)]
+struct Ball {
+    center: Vector,
+    radius: f64,
+}
+
+impl Lighting {
+    /// The lights of a scene; `asked_for` are those whose irradiance is asked for by itself.
+    pub fn new(scene: &PreparedScene, asked_for: &[usize]) -> Self {
+        let mut places = vec![None; scene.scene().lights().len()];
+        for (place, light) in asked_for.iter().enumerate() {
+            places[*light] = Some(place);
+        }
+        Self { order: by_place(scene.emitters()), asked_for: places }
+    }
+
+    /// Sees them from a sphere.
+    pub fn place(&self, scene: &PreparedScene, sphere: &Sphere, emitters: &mut ShapeEmitters) {
+        let ShapeEmitters { placed, indices, blocks } = emitters;
+        let all = scene.emitters().all();
+        placed.clear();
+        indices.clear();
+        blocks.clear();
+        indices.extend(self.order.iter().filter(|index| all[**index].intensity > 0.0));
+        placed.extend(indices.iter().map(|index| all[*index].seen_from::<f64>(sphere.center).in_unit(sphere.radius)));
+        if placed.len() > BLOCK {
+            blocks.extend(placed.chunks(BLOCK).map(Ball::around));
+        }
+    }
+}
+
+/// The emitters of a scene in the order in which they are summed: that of the scene; where they make blocks, along a curve
+/// that keeps neighbours together (Morton's), so that blocks are small in space, and parallel ones, which have no place,
+/// in the end.
+fn by_place(emitters: &Emitters) -> Vec<usize> {
+    let emitters = emitters.all();
+    let mut order: Vec<usize> = (0..emitters.len()).collect();
+    if emitters.len() <= BLOCK {
+        return order;
+    }
+    let coordinates = || emitters.iter().filter_map(|emitter| emitter.place()).flat_map(Vector::to_array);
+    let low = coordinates().fold(f64::INFINITY, f64::min);
+    let size = (coordinates().fold(f64::NEG_INFINITY, f64::max) - low).max(f64::MIN_POSITIVE);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 2^20")]
+    let cell = |x: f64| ((x - low) / size * 1_048_575.0) as u64;
+    order.sort_by_cached_key(|&index| {
+        let Some(position) = emitters[index].place() else { return u64::MAX };
+        let cells = position.to_array().map(cell);
+        (0..20).rev().fold(0_u64, |key, bit| cells.iter().fold(key, |key, cell| (key << 1) | ((cell >> bit) & 1)))
+    });
+    order
+}
+
+impl ShapeEmitters {
+    /// Each of them, with what it is among the scene's.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, &PlacedEmitter)> {
+        self.indices.iter().copied().zip(&self.placed)
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.placed.len()
+    }
+
+    /// Whether single precision holds them, the ambient light, and the lobe of a shininess.
+    pub fn fit_single(&self, ambient: f64, shininess: Option<f64>) -> bool {
+        let fits = |emitter: &PlacedEmitter| {
+            let distance = emitter.position.length();
+            let is_near = distance < FARTHEST_IN_SINGLE && distance - 1.0 >= NEAREST_IN_SINGLE;
+            let has_digits = match emitter.pattern {
+                Pattern::Parallel => true,
+                Pattern::Cone(cone) => is_near && cone.steepest() <= STEEPEST_IN_SINGLE,
+                Pattern::Isotropic | Pattern::Lambertian { .. } => is_near,
+            };
+            has_digits && INTENSITIES_IN_SINGLE.contains(&emitter.intensity)
+        };
+        let ambient_fits = ambient == 0.0 || INTENSITIES_IN_SINGLE.contains(&ambient);
+        ambient_fits && shininess.is_none_or(|n| n <= LARGEST_SHININESS_IN_SINGLE) && self.placed.iter().all(fits)
+    }
+}
+
+impl<E: Element> Chosen<E> {
+    /// None of them.
+    pub fn clear(&mut self) {
+        self.emitters.clear();
+        self.block_ends.clear();
+        self.asked_for.clear();
+    }
+
+    /// All emitters of a shape.
+    pub fn choose_all(&mut self, scene: &PreparedScene, lighting: &Lighting, shape: &ShapeEmitters) {
+        self.clear();
+        for (index, placed) in shape.iter() {
+            self.push(scene, lighting, index, placed);
+        }
+        self.end_blocks_by_count();
+    }
+
+    /// The emitters that may be above the horizon of any point of a cap, given by the direction of its middle and the
+    /// largest distance of its points from that, in radii. One at S is above the horizon of the point N of the unit sphere
+    /// where N·S > 1, a parallel one where N·L > 0. Each is tested but those of a block that is below as a whole.
+    pub fn choose_above_horizon(
+        &mut self,
+        scene: &PreparedScene,
+        lighting: &Lighting,
+        shape: &ShapeEmitters,
+        (middle, reach): (Vector, f64),
+    ) {
+        self.clear();
+        // Single precision rounds N·S to about 1e-7 of ‖S‖: with that to spare, what is skipped is dark in any case.
+        let spare = |distance: f64| 1e-6 * (1.0 + distance);
+        for (number, block) in shape.blocks.iter().enumerate() {
+            if let Some(Ball { center, radius }) = block {
+                let farthest = center.length() + radius;
+                let highest = middle.dot(*center) + radius + reach * farthest;
+                if highest + spare(farthest) < 1.0 {
+                    continue;
+                }
+            }
+            let end = ((number + 1) * BLOCK).min(shape.len());
+            for place in number * BLOCK..end {
+                let placed = &shape.placed[place];
+                let distance = placed.position.length();
+                let horizon = if placed.pattern.is_parallel() { 0.0 } else { 1.0 };
+                if middle.dot(placed.position) + reach * distance + spare(distance) >= horizon {
+                    self.push(scene, lighting, shape.indices[place], placed);
+                }
+            }
+        }
+        self.end_blocks_by_count();
+    }
+
+    /// Adds an emitter, by what it is among the scene's and as it is seen.
+    #[inline(always)]
+    pub fn push(&mut self, scene: &PreparedScene, lighting: &Lighting, index: usize, placed: &PlacedEmitter) {
+        if let Some(place) = lighting.asked_for[scene.emitters().all()[index].light] {
+            self.asked_for.push((place, self.emitters.len()));
+        }
+        self.emitters.push(placed.map(E::from_f64));
+    }
+
+    /// Ends a block after the last emitter, if it is not empty.
+    #[inline(always)]
+    pub fn end_block(&mut self) {
+        let end = self.emitters.len();
+        if self.block_ends.last().copied().unwrap_or(0) < end {
+            self.block_ends.push(end);
+        }
+    }
+
+    /// Makes blocks of so many.
+    fn end_blocks_by_count(&mut self) {
+        let count = self.emitters.len();
+        self.block_ends.extend((1..=count.div_ceil(BLOCK)).map(|number| (number * BLOCK).min(count)));
+    }
+
+    /// As the kernel takes them.
+    #[inline(always)]
+    pub fn selection(&self) -> Selection<'_, E> {
+        let Self { emitters, block_ends, asked_for } = self;
+        Selection { emitters, block_ends: (block_ends.len() > 1).then_some(block_ends), asked_for }
+    }
+}
+
+impl Ball {
+    #[expect(clippy::cast_precision_loss, reason = "a block is small")]
+    fn around(emitters: &[PlacedEmitter]) -> Option<Self> {
+        if emitters.iter().any(|emitter| emitter.pattern.is_parallel()) {
+            return None;
+        }
+        let sum = emitters.iter().fold(Vector::default(), |sum, emitter| sum + emitter.position);
+        let center = sum * (1.0 / emitters.len() as f64);
+        let distance = |emitter: &PlacedEmitter| (emitter.position - center).length();
+        // A little larger, for what rounding to single precision moves them.
+        let radius = emitters.iter().map(distance).fold(0.0, f64::max);
+        Some(Self { center, radius: radius + 1e-6 * (radius + center.length()) })
+    }
+}

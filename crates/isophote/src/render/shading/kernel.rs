@@ -1,0 +1,210 @@
+//! The kernel: the brightness of points, summed over all lights, several points at a time. It does not know how they were
+//! found.
+
+use std::ops::Range;
+
+use super::block::{ShadedBlock, SurfaceBlock};
+use super::emitters::Selection;
+use super::lobe::{NoLobe, Power};
+use crate::lanes::{Element, Lane, SimdToken};
+use crate::reflectance::{BrightnessFormula, Lobe};
+use crate::shade::{Shading, light_term};
+use crate::shape::SurfacePoint;
+use crate::sum::Sum;
+
+/// Where the points of a kernel come from: from a block, or straight from the outline in which they lie.
+pub trait Points<V: Lane> {
+    /// A vector of points, from an index on.
+    fn point(&self, token: V::Token, at: usize) -> SurfacePoint<V>;
+
+    /// E_a of them.
+    fn ambient(&self, token: V::Token, at: usize) -> V;
+}
+
+impl<V: Lane> Points<V> for SurfaceBlock<V::Element> {
+    #[inline(always)]
+    fn point(&self, token: V::Token, at: usize) -> SurfacePoint<V> {
+        self.point_at(token, at)
+    }
+
+    #[inline(always)]
+    fn ambient(&self, token: V::Token, at: usize) -> V {
+        V::load(token, &self.ambient[at..])
+    }
+}
+
+/// Which part of each emitter the points see.
+pub trait Visibility<V: Lane> {
+    /// v of an emitter, by its index in the selection, at a vector of points.
+    fn of(&self, token: V::Token, emitter: usize, at: usize) -> V;
+}
+
+/// All of each.
+pub struct Unobstructed;
+
+impl<V: Lane> Visibility<V> for Unobstructed {
+    #[inline(always)]
+    fn of(&self, token: V::Token, _: usize, _: usize) -> V {
+        V::splat(token, V::Element::default()).splat_like(1.0)
+    }
+}
+
+/// A number for each emitter and point, from 0 to 1.
+pub struct PerPoint<'v> {
+    /// All of them, emitter after emitter.
+    pub visible: &'v [f64],
+    /// From one emitter to the next.
+    pub stride: usize,
+}
+
+impl<V: Lane> Visibility<V> for PerPoint<'_> {
+    #[inline(always)]
+    fn of(&self, token: V::Token, emitter: usize, at: usize) -> V {
+        V::load_doubles(token, &self.visible[emitter * self.stride + at..])
+    }
+}
+
+/// Points in the light that falls on them.
+pub struct Lit<'l, P, S, E> {
+    /// The points.
+    pub points: &'l P,
+    /// How many there are.
+    pub count: usize,
+    /// Their convention, applied to their material.
+    pub formula: &'l BrightnessFormula,
+    /// How the lobe of that is computed.
+    pub power: &'l Power,
+    /// What may light any of the points.
+    pub selection: Selection<'l, E>,
+    /// What of each of those the points see.
+    pub visibility: &'l S,
+}
+
+impl<P, S, E: Element> Lit<'_, P, S, E> {
+    /// Shades the points: the only place that picks the lobe. Each is compiled by itself.
+    #[inline(always)]
+    pub fn shade<V>(&self, token: V::Token, shaded: &mut ShadedBlock<E>)
+    where
+        V: Lane<Element = E>,
+        P: Points<V>,
+        S: Visibility<V>,
+    {
+        match self.power {
+            Power::None => self.shade_with::<V, _>(token, &NoLobe, shaded),
+            Power::Even(lobe) => self.shade_with::<V, _>(token, lobe, shaded),
+            Power::Odd(lobe) => self.shade_with::<V, _>(token, lobe, shaded),
+            Power::Any(lobe) => self.shade_with::<V, _>(token, lobe, shaded),
+        }
+        if !shaded.by_light.is_empty() {
+            token.in_own_function(
+                #[inline(always)]
+                || self.shade_by_light::<V>(token, shaded),
+            );
+        }
+    }
+
+    #[inline(always)]
+    fn shade_with<V, L>(&self, token: V::Token, lobe: &L, shaded: &mut ShadedBlock<E>)
+    where
+        V: Lane<Element = E>,
+        L: Lobe<V>,
+        P: Points<V>,
+        S: Visibility<V>,
+    {
+        token.in_own_function(
+            #[inline(always)]
+            || {
+                for at in (0..self.count).step_by(V::COUNT) {
+                    let point = self.points.point(token, at);
+                    let [irradiance, lobes] = self.sum(token, &point, at, lobe);
+                    let ambient = self.points.ambient(token, at);
+                    let shading = Shading::new(irradiance + ambient, lobes, ambient, self.formula, point.cos_theta_o);
+                    shading.brightness().store(&mut shaded.brightness[at..]);
+                    shading.irradiance.store(&mut shaded.irradiance[at..]);
+                    shading.diffuse.store(&mut shaded.diffuse[at..]);
+                    shading.specular.store(&mut shaded.specular[at..]);
+                    shading.ambient.store(&mut shaded.ambient[at..]);
+                }
+            },
+        );
+    }
+
+    /// Σ E_j and Σ E_j (N·H_j)ⁿ at a vector of points. Blocks of emitters are summed plainly, the blocks' sums with
+    /// compensation, so that the error does not grow with the number of lights.
+    #[inline(always)]
+    fn sum<V, L>(&self, token: V::Token, point: &SurfacePoint<V>, at: usize, lobe: &L) -> [V; 2]
+    where
+        V: Lane<Element = E>,
+        L: Lobe<V>,
+        S: Visibility<V>,
+    {
+        let zero = point.cos_theta_o.splat_like(0.0);
+        let Some(ends) = self.selection.block_ends else {
+            return self.plain_sum(token, point, at, 0..self.selection.emitters.len(), lobe);
+        };
+        let (mut irradiance, mut lobes) = (Sum::starting_at(zero), Sum::starting_at(zero));
+        let mut first = 0;
+        for end in ends {
+            let [of_block, lobes_of_block] = self.plain_sum(token, point, at, first..*end, lobe);
+            irradiance.add(of_block);
+            lobes.add(lobes_of_block);
+            first = *end;
+        }
+        [irradiance.value(), lobes.value()]
+    }
+
+    /// The same of some emitters, by plain addition.
+    #[inline(always)]
+    fn plain_sum<V, L>(
+        &self,
+        token: V::Token,
+        point: &SurfacePoint<V>,
+        at: usize,
+        emitters: Range<usize>,
+        lobe: &L,
+    ) -> [V; 2]
+    where
+        V: Lane<Element = E>,
+        L: Lobe<V>,
+        S: Visibility<V>,
+    {
+        let zero = point.cos_theta_o.splat_like(0.0);
+        let (mut irradiance, mut lobes) = (zero, zero);
+        for (emitter, index) in self.selection.emitters[emitters.clone()].iter().zip(emitters) {
+            let emitter = emitter.map(
+                #[inline(always)]
+                |element| V::splat(token, element),
+            );
+            let term = light_term(point, &emitter, self.visibility.of(token, index, at), lobe);
+            irradiance = irradiance + term.irradiance;
+            lobes = term.irradiance.mul_add(term.lobe, lobes);
+        }
+        [irradiance, lobes]
+    }
+
+    /// E_j of the lights that are asked for by themselves.
+    #[inline(always)]
+    fn shade_by_light<V>(&self, token: V::Token, shaded: &mut ShadedBlock<E>)
+    where
+        V: Lane<Element = E>,
+        P: Points<V>,
+        S: Visibility<V>,
+    {
+        for at in (0..self.count).step_by(V::COUNT) {
+            let point = self.points.point(token, at);
+            for out in &mut shaded.by_light {
+                point.cos_theta_o.splat_like(0.0).store(&mut out[at..]);
+            }
+            for (place, index) in self.selection.asked_for {
+                let emitter = self.selection.emitters[*index].map(
+                    #[inline(always)]
+                    |element| V::splat(token, element),
+                );
+                let visibility = self.visibility.of(token, *index, at);
+                let irradiance = light_term(&point, &emitter, visibility, &NoLobe).irradiance;
+                let out = &mut shaded.by_light[*place][at..];
+                (V::load(token, out) + irradiance).store(out);
+            }
+        }
+    }
+}
