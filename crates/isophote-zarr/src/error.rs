@@ -4,9 +4,9 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-use isophote::export::{ExportError, FileMetadata};
 use isophote::map::Quantity;
 use isophote::render::RenderError;
+use isophote_export::{ExportError, FileMetadata};
 
 use crate::identity::Change;
 

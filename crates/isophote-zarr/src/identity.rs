@@ -4,7 +4,7 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
-use isophote::export::FileMetadata;
+use isophote_export::FileMetadata;
 use serde::Deserialize;
 use serde_json::{Map as JsonMap, Value, json};
 

@@ -6,11 +6,11 @@ use std::num::NonZeroU32;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use isophote::export::FileMetadata;
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::render::Renderer;
 use isophote::scene::{Scene, Syntax};
+use isophote_export::FileMetadata;
 
 use crate::array::ChannelArray;
 use crate::describe;

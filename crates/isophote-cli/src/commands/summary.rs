@@ -10,7 +10,7 @@ use isophote_zarr::MapStatistics;
 use serde::Serialize;
 
 use super::probe::{self, ProbeJson};
-use super::render::unit;
+use crate::channels::unit;
 
 /// The numbers of a map.
 pub struct Summary {
