@@ -6,6 +6,8 @@ mod grid;
 mod new;
 mod output;
 mod probe;
+mod reading_json;
+mod reading_table;
 mod render;
 mod section;
 mod show;
