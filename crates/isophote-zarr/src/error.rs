@@ -8,7 +8,7 @@ use isophote::map::Quantity;
 use isophote::render::RenderError;
 use isophote_export::{ExportError, FileMetadata};
 
-use crate::identity::Change;
+use crate::change::Change;
 
 /// Why a store was not made, continued or read.
 #[derive(Debug, thiserror::Error)]
