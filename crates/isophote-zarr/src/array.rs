@@ -113,25 +113,7 @@ impl ChannelArray {
         element: NumberFormat,
         plan: Plan,
     ) -> Result<Self, StoreError> {
-        let [shard, inner] = [plan.shard_side, plan.inner_side].map(|side| u64::from(side.get()));
-        let mut builder = ArrayBuilder::new(
-            shape(element, [plan.full.height.into(), plan.full.width.into()]),
-            shape(element, [shard, shard]),
-            element.data_type(),
-            element.fill_value(),
-        );
-        builder
-            .subchunk_shape(shape(element, [inner, inner]))
-            .bytes_to_bytes_codecs(vec![Arc::new(ZstdCodec::new(LEVEL, false)), Arc::new(Crc32cCodec::new())])
-            // Chunks in the order in which they were finished would give other bytes on every run.
-            .codec_specific_options(
-                CodecSpecificOptions::default()
-                    .with_option(ShardingCodecOptions::default().with_subchunk_write_order(SubchunkWriteOrder::C)),
-            )
-            .dimension_names(Some(if element.numbers == 1 { vec!["y", "x"] } else { vec!["y", "x", "component"] }))
-            .attributes(attributes(&quantity, unit));
-        let build = || builder.build(Arc::new(MemoryStore::new()), &format!("/{name}"));
-        let (array, options) = alone(|| (build(), one_thread()));
+        let (array, options) = alone(|| (array(&quantity, name, unit, element, plan), one_thread()));
         Ok(Self { array: array.map_err(encode_error(&quantity))?, quantity, element, plan, options })
     }
 
@@ -200,6 +182,34 @@ impl ChannelArray {
         let sides = shape(self.element, [side, side]);
         sides.into_iter().map(|side| NonZeroU64::try_from(side).map_err(encode_error(&self.quantity))).collect()
     }
+}
+
+/// The array called `name` as Zarr describes it. Its chunks never come into it: they go to their files.
+fn array(
+    quantity: &Quantity,
+    name: &str,
+    unit: &str,
+    element: NumberFormat,
+    plan: Plan,
+) -> Result<Array<MemoryStore>, ArrayCreateError> {
+    let [shard, inner] = [plan.shard_side, plan.inner_side].map(|side| u64::from(side.get()));
+    let mut builder = ArrayBuilder::new(
+        shape(element, [plan.full.height.into(), plan.full.width.into()]),
+        shape(element, [shard, shard]),
+        element.data_type(),
+        element.fill_value(),
+    );
+    builder
+        .subchunk_shape(shape(element, [inner, inner]))
+        .bytes_to_bytes_codecs(vec![Arc::new(ZstdCodec::new(LEVEL, false)), Arc::new(Crc32cCodec::new())])
+        // Chunks in the order in which they were finished would give other bytes on every run.
+        .codec_specific_options(
+            CodecSpecificOptions::default()
+                .with_option(ShardingCodecOptions::default().with_subchunk_write_order(SubchunkWriteOrder::C)),
+        )
+        .dimension_names(Some(if element.numbers == 1 { vec!["y", "x"] } else { vec!["y", "x", "component"] }))
+        .attributes(attributes(quantity, unit));
+    builder.build(Arc::new(MemoryStore::new()), &format!("/{name}"))
 }
 
 /// The array of the pixels' centres along one side of the image, a single chunk.

@@ -36,7 +36,7 @@ pub(super) fn set_depth(encoder: &mut png::Encoder<impl Write>, depth: Depth) {
 /// To nearest, a half upwards, as `f64::round` does for what is not negative; that is a call on machines without
 /// SSE4.1, and then costs more than the division. Both steps are exact.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a level is between 0 and 65535")]
-pub(crate) fn rounded(level: f64) -> u16 {
+pub(super) fn rounded(level: f64) -> u16 {
     let whole = level as u16;
     whole + u16::from(level - f64::from(whole) >= 0.5)
 }
@@ -67,4 +67,21 @@ pub(crate) fn read_json(file: &mut (impl BufRead + Seek)) -> Result<Option<Vec<u
         text = found(&reader);
     }
     text.transpose().map(|text| text.map(String::into_bytes)).map_err(|error| error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_are_rounded_to_nearest_and_halves_upwards() {
+        assert_eq!(rounded(0.5_f64.next_down()), 0, "adding a half would make it 1");
+        for level in 0..=u16::MAX {
+            let middle = f64::from(level) + 0.5;
+            assert_eq!((rounded(f64::from(level)), rounded(middle.next_down())), (level, level));
+            if level < u16::MAX {
+                assert_eq!((rounded(middle), rounded(middle.next_up())), (level + 1, level + 1));
+            }
+        }
+    }
 }

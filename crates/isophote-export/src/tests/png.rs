@@ -2,7 +2,7 @@ use image::{DynamicImage, ImageFormat};
 use isophote::map::{Map, Quantity};
 
 use super::{in_single_precision, row, rows, sample};
-use crate::png::{Depth, PictureColor, PictureOptions, PictureReport, rounded, write};
+use crate::png::{Depth, PictureColor, PictureOptions, PictureReport, write};
 
 fn picture(map: &Map, options: &PictureOptions) -> (DynamicImage, PictureReport) {
     let mut bytes = Vec::new();
@@ -33,18 +33,6 @@ fn sixteen_bits_reach_65535() {
     let (image, _) = picture(&sample(), &PictureOptions { depth: Depth::Sixteen, ..brightness() });
     assert_eq!(image, DynamicImage::ImageLuma16(image.to_luma16()));
     assert_eq!(image.to_luma16().into_raw(), [16384, 0, 65535, 3277, 32768, 0]);
-}
-
-#[test]
-fn levels_are_rounded_to_nearest_and_halves_upwards() {
-    assert_eq!(rounded(0.5_f64.next_down()), 0, "adding a half would make it 1");
-    for level in 0..=u16::MAX {
-        let middle = f64::from(level) + 0.5;
-        assert_eq!((rounded(f64::from(level)), rounded(middle.next_down())), (level, level));
-        if level < u16::MAX {
-            assert_eq!((rounded(middle), rounded(middle.next_up())), (level + 1, level + 1));
-        }
-    }
 }
 
 #[test]
