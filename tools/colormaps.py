@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write crates/isophote/src/export/colormap_tables.rs.
+"""Write crates/isophote-export/src/colormap_tables.rs.
 
 Run from the repository root with matplotlib and cmcrameri installed:
 
@@ -21,7 +21,7 @@ import cmcrameri
 import matplotlib
 import numpy
 
-TABLE_FILE = Path("crates/isophote/src/export/colormap_tables.rs")
+TABLE_FILE = Path("crates/isophote-export/src/colormap_tables.rs")
 COLORS_A_LINE = 10
 
 TABLES = {

@@ -3,9 +3,9 @@
 use std::io;
 use std::path::Path;
 
-use isophote::export::{ExportError, ReadError};
 use isophote::render::RenderError;
 use isophote::scene::{Problem, ProblemKind, SceneError};
+use isophote_export::{ExportError, ReadError};
 use isophote_zarr::StoreError;
 use pyo3::call::PyCallArgs;
 use pyo3::exceptions::PyOSError;

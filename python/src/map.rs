@@ -1,17 +1,19 @@
 //! Maps as arrays.
 
 use std::io::{self, Seek, SeekFrom, Write};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::thread::available_parallelism;
 
 use isophote::analysis::isophotes::{isophotes, nice_levels};
 use isophote::analysis::statistics::{Extreme, statistics};
-use isophote::export::colormap::Colormap;
-use isophote::export::csv::Rows;
-use isophote::export::png::{Depth, PictureColor, PictureOptions};
-use isophote::export::{self, ExportError, FileMetadata, Format, write_atomically};
 use isophote::map::{Channel, Map as CoreMap, Quantity, Region, Resolution, Run, Values};
 use isophote::units::Keyword;
+use isophote_export::colormap::Colormap;
+use isophote_export::csv::Rows;
+use isophote_export::png::{Depth, PictureColor, PictureOptions};
+use isophote_export::{ExportError, FileMetadata, Format, csv, exr, npy, npz, png, write_atomically};
 use numpy::ndarray::{ArrayView, Dimension, ShapeBuilder};
 use numpy::{Element, IntoPyArray, PyArray, PyArray2, PyArrayMethods, PyReadwriteArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyKeyError;
@@ -163,10 +165,10 @@ impl Map {
                 let mut file = Stoppable { file, watch };
                 match format {
                     Format::Png => style.write(&map, &mut file),
-                    Format::Exr => export::exr::write(&map, &mut file),
-                    Format::Npy => export::npy::write(&map, &style.quantity, &mut file),
-                    Format::Npz => export::npz::write(&map, &mut file),
-                    Format::Csv => export::csv::write(&map, Rows::All, &mut file).map(|_| ()),
+                    Format::Exr => exr::write(&map, available_parallelism().unwrap_or(NonZeroUsize::MIN), &mut file),
+                    Format::Npy => npy::write(&map, &style.quantity, &mut file),
+                    Format::Npz => npz::write(&map, &mut file),
+                    Format::Csv => csv::write(&map, Rows::All, &mut file).map(|_| ()),
                 }
             })
         })?;
@@ -271,7 +273,7 @@ impl Style {
             color: color.as_ref().map(|color| PictureColor { name, color }),
             ..PictureOptions::new(self.quantity.clone())
         };
-        export::png::write(map, &options, out).map(|_| ())
+        png::write(map, &options, out).map(|_| ())
     }
 }
 

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
-use isophote::export;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
@@ -18,7 +17,7 @@ pub fn read_metadata(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     let metadata = if path.is_dir() {
         py.detach(|| isophote_zarr::read_metadata(&path)).map_err(|error| error::of_store(py, &error))?
     } else {
-        py.detach(|| export::read_metadata(&path)).map_err(|error| error::of_reading(&error))?
+        py.detach(|| isophote_export::read_metadata(&path)).map_err(|error| error::of_reading(&error))?
     };
     Ok(metadata.to_json())
 }

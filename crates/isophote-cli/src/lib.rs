@@ -1,12 +1,14 @@
 //! The command `isophote`, for the program of that name and for the Python package, which has the same command.
 
 mod args;
+mod channels;
 mod commands;
 mod failure;
 mod load;
 mod numbers;
 mod progress;
 mod table;
+mod threads;
 
 use std::ffi::OsString;
 use std::io::Write;

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use anyhow::Result;
-use isophote::export::{FileMetadata, Format, read_metadata};
 use isophote::scene::library::Starter;
 use isophote::scene::source::SamplingSource;
 use isophote::scene::{Scene, SceneError, Syntax, error};
+use isophote_export::{FileMetadata, Format, read_metadata};
 
 use crate::args::{RenderArguments, SceneArgument};
 use crate::failure::{self, Usage};

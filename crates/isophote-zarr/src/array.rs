@@ -10,7 +10,9 @@ use zarrs::array::{Array, ArrayBuilder, ArrayBytes, ArrayCreateError, CodecOptio
 use zarrs::array::{ArrayToBytesCodecTraits, DataType, FillValue};
 use zarrs::storage::store::MemoryStore;
 
+use crate::alone::alone;
 use crate::error::StoreError;
+use crate::json::object;
 use crate::plan::{Plan, Shard};
 
 /// Of the levels of zstd the fastest: on smooth maps higher ones save little and take long.
@@ -99,6 +101,7 @@ pub struct ChannelArray {
     array: Array<MemoryStore>,
     element: NumberFormat,
     plan: Plan,
+    options: CodecOptions,
 }
 
 impl ChannelArray {
@@ -110,26 +113,8 @@ impl ChannelArray {
         element: NumberFormat,
         plan: Plan,
     ) -> Result<Self, StoreError> {
-        let [shard, inner] = [plan.shard_side, plan.inner_side].map(|side| u64::from(side.get()));
-        let mut builder = ArrayBuilder::new(
-            shape(element, [plan.full.height.into(), plan.full.width.into()]),
-            shape(element, [shard, shard]),
-            element.data_type(),
-            element.fill_value(),
-        );
-        builder
-            .subchunk_shape(shape(element, [inner, inner]))
-            .bytes_to_bytes_codecs(vec![Arc::new(ZstdCodec::new(LEVEL, false)), Arc::new(Crc32cCodec::new())])
-            // Chunks in the order in which they were finished would give other bytes on every run.
-            .codec_specific_options(
-                CodecSpecificOptions::default()
-                    .with_option(ShardingCodecOptions::default().with_subchunk_write_order(SubchunkWriteOrder::C)),
-            )
-            .dimension_names(Some(if element.numbers == 1 { vec!["y", "x"] } else { vec!["y", "x", "component"] }))
-            .attributes(attributes(&quantity, unit));
-        let array =
-            builder.build(Arc::new(MemoryStore::new()), &format!("/{name}")).map_err(encode_error(&quantity))?;
-        Ok(Self { quantity, array, element, plan })
+        let (array, options) = alone(|| (array(&quantity, name, unit, element, plan), one_thread()));
+        Ok(Self { array: array.map_err(encode_error(&quantity))?, quantity, element, plan, options })
     }
 
     /// What `zarr.json` says of the array.
@@ -164,7 +149,7 @@ impl ChannelArray {
             &self.shard_shape()?,
             self.array.data_type(),
             self.array.fill_value(),
-            &one_thread(),
+            &self.options,
         );
         encoded.map(|bytes| Some(bytes.into_owned())).map_err(encode_error(&self.quantity))
     }
@@ -173,7 +158,7 @@ impl ChannelArray {
     pub fn check(&self, encoded: &[u8]) -> Result<(), String> {
         let shape = self.shard_shape().map_err(|error| error.to_string())?;
         let (data_type, fill_value) = (self.array.data_type(), self.array.fill_value());
-        let decoded = self.array.codecs().decode(encoded.into(), &shape, data_type, fill_value, &one_thread());
+        let decoded = self.array.codecs().decode(encoded.into(), &shape, data_type, fill_value, &self.options);
         decoded.map(drop).map_err(|error| error.to_string())
     }
 
@@ -199,8 +184,40 @@ impl ChannelArray {
     }
 }
 
+/// The array called `name` as Zarr describes it. Its chunks never come into it: they go to their files.
+fn array(
+    quantity: &Quantity,
+    name: &str,
+    unit: &str,
+    element: NumberFormat,
+    plan: Plan,
+) -> Result<Array<MemoryStore>, ArrayCreateError> {
+    let [shard, inner] = [plan.shard_side, plan.inner_side].map(|side| u64::from(side.get()));
+    let mut builder = ArrayBuilder::new(
+        shape(element, [plan.full.height.into(), plan.full.width.into()]),
+        shape(element, [shard, shard]),
+        element.data_type(),
+        element.fill_value(),
+    );
+    builder
+        .subchunk_shape(shape(element, [inner, inner]))
+        .bytes_to_bytes_codecs(vec![Arc::new(ZstdCodec::new(LEVEL, false)), Arc::new(Crc32cCodec::new())])
+        // Chunks in the order in which they were finished would give other bytes on every run.
+        .codec_specific_options(
+            CodecSpecificOptions::default()
+                .with_option(ShardingCodecOptions::default().with_subchunk_write_order(SubchunkWriteOrder::C)),
+        )
+        .dimension_names(Some(if element.numbers == 1 { vec!["y", "x"] } else { vec!["y", "x", "component"] }))
+        .attributes(attributes(quantity, unit));
+    builder.build(Arc::new(MemoryStore::new()), &format!("/{name}"))
+}
+
 /// The array of the pixels' centres along one side of the image, a single chunk.
 pub fn coordinate(name: &str, unit: &str, centres: &[f64]) -> Result<(Value, Vec<u8>), String> {
+    alone(|| encoded_coordinate(name, unit, centres))
+}
+
+fn encoded_coordinate(name: &str, unit: &str, centres: &[f64]) -> Result<(Value, Vec<u8>), String> {
     let build = || -> Result<Array<MemoryStore>, ArrayCreateError> {
         let length = centres.len() as u64;
         let mut builder = ArrayBuilder::new(vec![length], vec![length], data_type::float64(), 0.0_f64);
@@ -232,14 +249,6 @@ fn attributes(quantity: &Quantity, unit: &str) -> JsonMap<String, Value> {
         attributes["components"] = json!(["red", "green", "blue"]);
     }
     object(attributes)
-}
-
-/// The keys of a JSON object.
-pub fn object(value: Value) -> JsonMap<String, Value> {
-    match value {
-        Value::Object(map) => map,
-        _ => JsonMap::new(),
-    }
 }
 
 /// Each worker has a shard of its own: more threads inside would only get in each other's way.

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use isophote::camera::ScreenPosition;
-use isophote::export::{FileMetadata, names};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Window};
 use isophote::prepare::PreparedScene;
 use isophote::render::{RenderSettings, Renderer};
+use isophote_export::{FileMetadata, names};
 use serde_json::Value;
 
 use crate::array::{ChannelArray, NumberFormat, coordinate};

@@ -4,11 +4,11 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-use isophote::export::{ExportError, FileMetadata};
 use isophote::map::Quantity;
 use isophote::render::RenderError;
+use isophote_export::{ExportError, FileMetadata};
 
-use crate::identity::Change;
+use crate::change::Change;
 
 /// Why a store was not made, continued or read.
 #[derive(Debug, thiserror::Error)]

@@ -1,14 +1,15 @@
 //! What a store says about itself, and whether it is the one that is asked for.
 
-use std::fmt;
 use std::io;
 use std::path::Path;
 
-use isophote::export::FileMetadata;
+use isophote_export::FileMetadata;
 use serde::Deserialize;
 use serde_json::{Map as JsonMap, Value, json};
 
+use crate::change::Change;
 use crate::error::StoreError;
+use crate::json::{object, pretty};
 use crate::plan::Plan;
 
 /// The file that describes a group or an array.
@@ -23,23 +24,6 @@ pub struct Identity {
     pub plan: Plan,
     /// The description of each array by its name.
     pub arrays: JsonMap<String, Value>,
-}
-
-/// Something that is different from what was asked for.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Change {
-    /// What: `the size`, `the scene`, …
-    pub what: &'static str,
-    /// As it is in the store.
-    pub stored: String,
-    /// As it was asked for.
-    pub asked: String,
-}
-
-impl fmt::Display for Change {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{} is {} there and {} here", self.what, self.stored, self.asked)
-    }
 }
 
 /// The description that a store carries, as every output file does.
@@ -109,7 +93,7 @@ impl Identity {
         if !plan.is_sound() || plan.full != metadata.full {
             return Err(damaged("its plan does not fit its image".into()));
         }
-        let arrays = crate::array::object(json["consolidated_metadata"]["metadata"].take());
+        let arrays = object(json["consolidated_metadata"]["metadata"].take());
         Ok(Self { metadata, plan, arrays })
     }
 
@@ -137,11 +121,6 @@ impl Identity {
         }
         changes
     }
-}
-
-/// JSON as people read it, with a line's end.
-pub fn pretty(value: &Value) -> Vec<u8> {
-    format!("{value:#}\n").into_bytes()
 }
 
 fn size(metadata: &FileMetadata) -> String {

@@ -5,11 +5,14 @@
 //! [shared out](Part) among processes and computers, and [put together and checked](Store::merge) in the end, and the
 //! bytes are always those of one uninterrupted run.
 
+mod alone;
 mod array;
+mod change;
 mod describe;
 mod error;
 mod files;
 mod identity;
+mod json;
 mod plan;
 mod preview;
 mod record;
@@ -17,8 +20,9 @@ mod render;
 mod statistics;
 mod store;
 
+pub use change::Change;
 pub use error::{Damage, StoreError};
-pub use identity::{Change, read_metadata};
+pub use identity::read_metadata;
 pub use plan::{Part, Plan, Shard};
 pub use render::{Outcome, Workers};
 pub use statistics::{ChannelStatistics, MapStatistics};

@@ -2,9 +2,9 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use isophote::export::FileMetadata;
-use isophote::export::png::{self, PictureOptions};
-use isophote::map::{Channel, Map, Provenance, Quantity, Region, Resolution, Values};
+use isophote::map::{Map, Provenance, Quantity, Region, Resolution, Values};
+use isophote_export::FileMetadata;
+use isophote_export::png::{self, PictureOptions};
 
 use crate::error::StoreError;
 
@@ -99,10 +99,6 @@ impl Preview {
     pub fn to_png(&self, metadata: &FileMetadata, quantity: &Quantity, unit: &str) -> Result<Vec<u8>, StoreError> {
         let means: Vec<f64> = self.sums.iter().enumerate().map(|(index, sum)| sum / self.pixels(index)).collect();
         let seen = means.iter().map(|mean| if *mean == 0.0 { -1 } else { 0 }).collect();
-        let channels = vec![
-            Channel { quantity: quantity.clone(), unit: unit.into(), values: Values::Scalar(means) },
-            Channel { quantity: Quantity::Shape, unit: String::new(), values: Values::Index(seen) },
-        ];
         let provenance = Provenance {
             program: metadata.program.clone(),
             title: metadata.title.clone(),
@@ -111,7 +107,8 @@ impl Preview {
             renderer: metadata.renderer.clone(),
             color_space: metadata.color_space.clone(),
         };
-        let map = Map::new(self.size, metadata.window, provenance, channels);
+        let builder = Map::builder(self.size, metadata.window, provenance).shapes(seen);
+        let map = builder.channel(quantity.clone(), unit, Values::Scalar(means)).build();
         let map = map.map_err(|error| StoreError::Encode { quantity: quantity.clone(), reason: error.to_string() })?;
         let mut bytes = Vec::new();
         png::write(&map, &PictureOptions::new(quantity.clone()), &mut bytes)?;

@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use isophote::prepare::PreparedScene;
 use isophote::render::{Observer, RenderError, RenderSettings, Renderer};
+use rayon::ThreadPool;
 
 use crate::describe::{need, rendered};
 use crate::error::StoreError;
@@ -89,11 +90,7 @@ impl Store {
             is_stopped: AtomicBool::new(false),
             error: Mutex::new(None),
         };
-        std::thread::scope(|scope| {
-            for _ in 0..count {
-                scope.spawn(|| work.run());
-            }
-        });
+        on_each(&pools(count)?, &work);
         if let Some(error) = work.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
             return Err(error);
         }
@@ -117,6 +114,23 @@ impl Store {
             return Err(StoreError::Memory { limit: limit / MIB, needed: (base + shard).div_ceil(MIB) });
         }
         Ok(workers.threads.get().min(usize::try_from(count).unwrap_or(usize::MAX)))
+    }
+}
+
+/// Pools of one thread each. A worker in one does by itself what the libraries below would share with all processors.
+fn pools(count: usize) -> Result<Vec<ThreadPool>, RenderError> {
+    let pool = |_| rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let pools = (0..count).map(pool).collect::<Result<_, _>>();
+    pools.map_err(|error| RenderError::Threads { threads: count, reason: error.to_string() })
+}
+
+/// Runs the work on the thread of each pool, at the same time.
+fn on_each(pools: &[ThreadPool], work: &Work<'_>) {
+    if let Some((pool, others)) = pools.split_first() {
+        pool.in_place_scope(|scope| {
+            scope.spawn(|_| work.run());
+            on_each(others, work);
+        });
     }
 }
 

@@ -6,17 +6,18 @@ use std::num::NonZeroU32;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use isophote::export::FileMetadata;
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::render::Renderer;
 use isophote::scene::{Scene, Syntax};
+use isophote_export::FileMetadata;
 
 use crate::array::ChannelArray;
 use crate::describe;
 use crate::error::{Damage, StoreError};
 use crate::files::{Files, Lock, Sharing};
-use crate::identity::{Identity, ZARR_JSON, pretty};
+use crate::identity::{Identity, ZARR_JSON};
+use crate::json::pretty;
 use crate::plan::{Part, Plan, Shard};
 use crate::preview::{Boxes, Preview};
 use crate::record::Record;

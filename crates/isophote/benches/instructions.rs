@@ -5,11 +5,8 @@
 #![expect(missing_docs, reason = "the macros of gungraun make public things without documentation")]
 
 use std::hint::black_box;
-use std::io::Cursor;
 
 use gungraun::{library_benchmark, library_benchmark_group, main};
-use isophote::export::png::PictureOptions;
-use isophote::export::{exr, png};
 use isophote::map::{Map, Quantity, Resolution};
 use isophote::prepare::PreparedScene;
 use isophote::render::{ReferenceRenderer, RenderSettings, Renderer};
@@ -46,10 +43,6 @@ fn brightness(scene: &PreparedScene) -> Map {
     ReferenceRenderer.render(scene, &settings).expect("the scene renders")
 }
 
-fn lab_map() -> Map {
-    brightness(&prepared_lab())
-}
-
 #[library_benchmark]
 fn read() -> Scene {
     let text = black_box(Starter::Lab.text());
@@ -69,22 +62,5 @@ fn render_reference(scene: PreparedScene) -> Map {
     black_box(brightness(black_box(&scene)))
 }
 
-#[library_benchmark]
-#[bench::lab(lab_map())]
-fn write_png(map: Map) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let options = PictureOptions::new(Quantity::Brightness);
-    png::write(black_box(&map), &options, &mut bytes).expect("memory is there");
-    black_box(bytes)
-}
-
-#[library_benchmark]
-#[bench::lab(lab_map())]
-fn write_exr(map: Map) -> Vec<u8> {
-    let mut file = Cursor::new(Vec::new());
-    exr::write(black_box(&map), &mut file).expect("memory is there");
-    black_box(file.into_inner())
-}
-
-library_benchmark_group!(name = stages, benchmarks = [read, prepare, render_reference, write_png, write_exr]);
+library_benchmark_group!(name = stages, benchmarks = [read, prepare, render_reference]);
 main!(library_benchmark_groups = stages);

@@ -1,12 +1,9 @@
-//! One bench per stage of the way from a scene file to files.
+//! One bench per stage of the way from a scene file to a map.
 
 use std::hint::black_box;
-use std::io::Cursor;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use isophote::analysis::statistics::statistics;
-use isophote::export::png::PictureOptions;
-use isophote::export::{exr, figure, npz, png};
 use isophote::lanes::Precision;
 use isophote::map::{Map, Quantity, Resolution};
 use isophote::prepare::PreparedScene;
@@ -92,48 +89,16 @@ fn many_lights(criterion: &mut Criterion) {
     group.finish();
 }
 
-fn export(criterion: &mut Criterion) {
-    let scene = PreparedScene::new(&lab());
-    let map = render(&SimdRenderer::new(Precision::Double, None), &scene, &Quantity::COMMON);
-    let mut group = criterion.benchmark_group("export 800×600");
-    group.sample_size(20);
-    group.bench_function("png", |bencher| {
-        let options = PictureOptions::new(Quantity::Brightness);
-        bencher.iter(|| png::write(&map, &options, &mut Vec::new()).expect("memory is there"));
-    });
-    group.bench_function("exr, all channels", |bencher| {
-        bencher.iter(|| exr::write(&map, &mut Cursor::new(Vec::new())).expect("memory is there"));
-    });
-    group.bench_function("npz, all channels", |bencher| {
-        bencher.iter(|| npz::write(&map, &mut Cursor::new(Vec::new())).expect("memory is there"));
-    });
-    group.bench_function("figure, svg and png", |bencher| {
-        let options = figure::FigureOptions::new(Quantity::Brightness, "brightness");
-        bencher.iter(|| {
-            let svg = figure::map_figure_svg(&map, &options).expect("it can be drawn");
-            figure::svg_to_png(&svg, 2.0, None).expect("it can be drawn")
-        });
-    });
-    group.finish();
-}
-
 /// An image whose buffers no longer fit into a cache: what is done for each pixel of the background shows here.
 fn large(criterion: &mut Criterion) {
     let scene = lab().with_resolution(Resolution { width: 3840, height: 2160 }).expect("an allowed size");
-    let quantities = [Quantity::Brightness, Quantity::Shape];
-    let map = render(&SimdRenderer::new(Precision::Double, None), &PreparedScene::new(&scene), &quantities);
-    let mut group = criterion.benchmark_group("export 3840×2160");
+    let renderer = SimdRenderer::new(Precision::Double, None);
+    let map = render(&renderer, &PreparedScene::new(&scene), &[Quantity::Brightness]);
+    let mut group = criterion.benchmark_group("map of 3840×2160");
     group.sample_size(20);
     group.bench_function("statistics", |bencher| bencher.iter(|| black_box(statistics(&map, &Quantity::Brightness))));
-    group.bench_function("png", |bencher| {
-        let options = PictureOptions::new(Quantity::Brightness);
-        bencher.iter(|| png::write(&map, &options, &mut Vec::new()).expect("memory is there"));
-    });
-    group.bench_function("exr, brightness and shape", |bencher| {
-        bencher.iter(|| exr::write(&map, &mut Cursor::new(Vec::new())).expect("memory is there"));
-    });
     group.finish();
 }
 
-criterion_group!(stages, read, prepare, kernel, samples, many_lights, export, large);
+criterion_group!(stages, read, prepare, kernel, samples, many_lights, large);
 criterion_main!(stages);

@@ -6,7 +6,6 @@ pub mod camera;
 pub mod color;
 pub mod conformance;
 pub mod double_double;
-pub mod export;
 mod hammersley;
 pub mod import;
 pub mod lanes;

@@ -1,6 +1,6 @@
 //! Maps of given functions, for tests of what reads maps.
 
-use crate::map::{Channel, Coordinates, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Values, Window};
+use crate::map::{Coordinates, Map, Provenance, Quantity, Resolution, Values, Window};
 use crate::units::LengthUnit;
 
 /// What a sample map shows at one pixel.
@@ -15,42 +15,27 @@ pub(crate) fn square_map(pixels: u32, half: f64, seen: impl Fn(f64, f64) -> Opti
     let size = Resolution { width: pixels, height: pixels };
     let window =
         Window { x: [-half, half], y: [-half, half], length: LengthUnit::Metre, coordinates: Coordinates::Screen };
-    map_over(size, window, seen)
-}
-
-/// A map of brightness over a window.
-pub(crate) fn map_over(size: Resolution, window: Window, seen: impl Fn(f64, f64) -> Option<Seen>) -> Map {
-    let pitch = |edges: [f64; 2], count: u32| (edges[1] - edges[0]) / f64::from(count);
+    let pitch = 2.0 * half / f64::from(pixels);
+    let centre = |index: u32| -half + (f64::from(index) + 0.5) * pitch;
     let pixels: Vec<Option<Seen>> = (0..size.height)
         .flat_map(|row| (0..size.width).map(move |column| (row, column)))
-        .map(|(row, column)| {
-            let x = window.x[0] + (f64::from(column) + 0.5) * pitch(window.x, size.width);
-            seen(x, window.y[1] - (f64::from(row) + 0.5) * pitch(window.y, size.height))
-        })
+        .map(|(row, column)| seen(centre(column), half - (f64::from(row) + 0.5) * pitch))
         .collect();
     let brightness = pixels.iter().map(|pixel| pixel.map_or(0.0, |seen| seen.brightness)).collect();
-    let shapes: Vec<i32> = pixels.iter().map(|pixel| pixel.map_or(-1, |seen| seen.shape)).collect();
-    let mask = Mask::of_shapes(size, &shapes);
-    let channel = |quantity, unit: &str, values| Channel { quantity, unit: unit.into(), values };
-    Map {
-        full: size,
-        region: Region { corner: Pixel { column: 0, row: 0 }, size },
-        window,
-        provenance: Provenance {
-            program: "isophote 0.1.0".into(),
-            title: "Sample".into(),
-            scene: String::new(),
-            convention: "lab (3.3)".into(),
-            renderer: "double reference".into(),
-            color_space: None,
-        },
-        channels: vec![
-            channel(Quantity::Brightness, "W/m²", Values::Scalar(brightness)),
-            channel(Quantity::Normal, "1", Values::Vector(vec![[0.0; 3]; size.pixels()])),
-            channel(Quantity::Shape, "", Values::Index(shapes)),
-        ],
-        mask,
-    }
+    let shapes = pixels.iter().map(|pixel| pixel.map_or(-1, |seen| seen.shape)).collect();
+    let provenance = Provenance {
+        program: "isophote 0.1.0".into(),
+        title: "Sample".into(),
+        scene: String::new(),
+        convention: "lab (3.3)".into(),
+        renderer: "double reference".into(),
+        color_space: None,
+    };
+    let map = Map::builder(size, window, provenance)
+        .channel(Quantity::Brightness, "W/m²", Values::Scalar(brightness))
+        .channel(Quantity::Normal, "1", Values::Vector(vec![[0.0; 3]; size.pixels()]))
+        .channel(Quantity::Shape, "", Values::Index(shapes));
+    map.build().expect("channels of one size, 0 where nothing is seen")
 }
 
 /// Everywhere shape 0, with this brightness.

@@ -3,19 +3,20 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use isophote::export::FileMetadata;
-use isophote::export::csv::Rows;
-use isophote::export::figure::{self, FigureOptions};
-use isophote::export::png::Depth;
 use isophote::map::{CoordinateAxis, Map, Quantity};
 use isophote::scene::Scene;
 use isophote::text::significant;
+use isophote_export::FileMetadata;
+use isophote_export::csv::Rows;
+use isophote_export::figure::{self, FigureOptions};
+use isophote_export::png::Depth;
 
 use super::output::{
     FigureFormat, MapFile, MapStyle, figure_format, formula_label, refuse_colormap, refuse_twice, write_figure,
 };
 use crate::args::CellStyleArguments;
 use crate::failure::{self, Usage};
+use crate::threads;
 
 /// Files to be written, with their places checked.
 pub struct CellFiles<'a> {
@@ -58,6 +59,7 @@ impl<'a> CellFiles<'a> {
             depth: Depth::Eight,
             colormap: self.style.colormap,
             rows: Rows::All,
+            threads: threads::all(),
         };
         crate::progress::end_in_order();
         let mut notes = Vec::new();

@@ -1,20 +1,21 @@
 //! `isophote grid`: illuminances at the points of a grid.
 
+use std::fmt::Write;
+
 use anyhow::Result;
 use isophote::analysis::statistics::{Extreme, Statistics, statistics};
-use isophote::export::figure::FigureOptions;
 use isophote::map::{Map, Quantity};
 use isophote::prepare::PreparedScene;
 use isophote::scene::source::GridSource;
 use isophote::scene::{Grid, Scene};
 use isophote::text::significant;
 use isophote::units::Keyword;
+use isophote_export::figure::FigureOptions;
 use serde::Serialize;
-use std::fmt::Write;
 
 use super::cells::{CellFiles, place_text};
-use super::render::{channels, unit};
 use crate::args::{GridArguments, PlacedGridArguments};
+use crate::channels::{named, unit};
 use crate::failure::Usage;
 use crate::table::{Align, table};
 use crate::{load, numbers};
@@ -27,7 +28,7 @@ pub fn run(arguments: &GridArguments) -> Result<String> {
     }
     let scene = PreparedScene::new(&scene);
     let files = CellFiles::new(&arguments.output, &arguments.figure, &arguments.style)?;
-    let mut wanted = channels(&arguments.channel, scene.scene())?;
+    let mut wanted = named(&arguments.channel, scene.scene())?;
     let main = wanted.first().cloned().unwrap_or(Quantity::Irradiance);
     files.refuse_impossible_pictures(&main)?;
     if wanted.is_empty() {

@@ -6,6 +6,8 @@ mod grid;
 mod new;
 mod output;
 mod probe;
+mod reading_json;
+mod reading_table;
 mod render;
 mod section;
 mod show;
@@ -15,7 +17,6 @@ mod surface;
 
 use anyhow::Result;
 use clap::CommandFactory;
-pub use render::DEFAULT_ISOPHOTES;
 
 use crate::args::{Arguments, Command, RenderArguments};
 use crate::failure::Usage;
@@ -23,8 +24,8 @@ use crate::failure::Usage;
 /// Runs a command; the result is what goes to standard output.
 pub fn run(arguments: Arguments) -> Result<String> {
     match arguments.command {
-        None => render::run(&RenderArguments::lab()),
-        Some(Command::Render(arguments)) => render::run(&arguments),
+        None => rendered(&RenderArguments::lab()),
+        Some(Command::Render(arguments)) => rendered(&arguments),
         Some(Command::Probe(arguments)) => probe::run(&arguments),
         Some(Command::Section(arguments)) => section::run(&arguments),
         Some(Command::Surface(arguments)) => surface::run(&arguments),
@@ -36,6 +37,14 @@ pub fn run(arguments: Arguments) -> Result<String> {
         Some(Command::Schema) => Ok(isophote::scene::source::schema()),
         Some(Command::Completions { shell }) => Ok(completions(shell)),
         Some(Command::Man { command }) => man(command.as_deref()),
+    }
+}
+
+/// A map in memory, or in a store that may be larger.
+fn rendered(arguments: &RenderArguments) -> Result<String> {
+    match store::asked_for(arguments)? {
+        Some(path) => store::render(arguments, path),
+        None => render::run(arguments),
     }
 }
 

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use isophote::export::write_atomically;
 use isophote::units::Keyword;
+use isophote_export::write_atomically;
 
 use crate::args::NewArguments;
 use crate::failure::Usage;

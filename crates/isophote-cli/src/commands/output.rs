@@ -3,15 +3,16 @@
 use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::io::Write;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow};
-use isophote::export::colormap::Colormap;
-use isophote::export::png::{Depth, PictureColor, PictureOptions};
-use isophote::export::{self, FileMetadata, Format, atomic, csv, figure, write_atomically};
 use isophote::map::{Map, Quantity};
 use isophote::text::significant;
 use isophote::units::Keyword;
+use isophote_export::colormap::Colormap;
+use isophote_export::png::{Depth, PictureColor, PictureOptions};
+use isophote_export::{ExportError, FileMetadata, Format, atomic, csv, exr, figure, npy, npz, png, write_atomically};
 
 use crate::failure::Usage;
 use crate::progress::Interruptible;
@@ -30,6 +31,8 @@ pub struct MapStyle {
     pub depth: Depth,
     pub colormap: Option<Colormap>,
     pub rows: csv::Rows,
+    /// How many threads compress, where a format has blocks for several.
+    pub threads: NonZeroUsize,
 }
 
 impl MapFile {
@@ -66,9 +69,9 @@ impl MapFile {
             let mut file = Interruptible(file);
             match self.format {
                 Format::Png => return write_picture(map, style, &mut file).map(Some),
-                Format::Exr => export::exr::write(map, &mut file)?,
-                Format::Npy => export::npy::write(map, &style.quantity, &mut file)?,
-                Format::Npz => export::npz::write(map, &mut file)?,
+                Format::Exr => exr::write(map, style.threads, &mut file)?,
+                Format::Npy => npy::write(map, &style.quantity, &mut file)?,
+                Format::Npz => npz::write(map, &mut file)?,
                 Format::Csv => {
                     csv::write(map, style.rows, &mut file)?;
                 }
@@ -81,7 +84,7 @@ impl MapFile {
     }
 }
 
-fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<String, export::ExportError> {
+fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<String, ExportError> {
     let color = style.colormap.map(|colormap| move |fraction| colormap.color(fraction));
     let name = style.colormap.map_or("", Colormap::name);
     let options = PictureOptions {
@@ -91,7 +94,7 @@ fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<S
         depth: style.depth,
         color: color.as_ref().map(|color| PictureColor { name, color }),
     };
-    let report = export::png::write(map, &options, file)?;
+    let report = png::write(map, &options, file)?;
     let unit = map.channel(&style.quantity).map_or("", |channel| &channel.unit);
     let [black, white] = report.range.map(|value| significant(value, 6));
     let mut note = format!(": {black} to {white} {unit} from black to white");

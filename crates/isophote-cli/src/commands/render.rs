@@ -4,30 +4,27 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use isophote::analysis::probe::ProbePosition;
-use isophote::export::FileMetadata;
-use isophote::export::csv::Rows;
-use isophote::export::figure::{self, FigureOptions, Mark};
-use isophote::export::png::Depth;
 use isophote::map::{Map, Quantity, Region};
 use isophote::prepare::PreparedScene;
 use isophote::render::{RenderError, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::Scene;
+use isophote_export::FileMetadata;
+use isophote_export::csv::Rows;
+use isophote_export::figure::{self, FigureOptions, Mark};
+use isophote_export::png::Depth;
 
 use super::output::{
     FigureFormat, MapFile, MapStyle, figure_format, formula_label, refuse_colormap, refuse_twice, write_figure,
 };
-use super::store;
 use super::summary::Summary;
-use crate::args::RenderArguments;
+use crate::args::{DEFAULT_ISOPHOTES, RenderArguments};
+use crate::channels::named;
 use crate::failure::{self, Usage};
 use crate::progress::Progress;
-use crate::{load, numbers};
+use crate::{load, numbers, threads};
 
-/// Renders a scene.
+/// Renders a scene into memory.
 pub fn run(arguments: &RenderArguments) -> Result<String> {
-    if let Some(path) = store::asked_for(arguments)? {
-        return store::render(arguments, path);
-    }
     let scene = PreparedScene::new(&load::scene_to_render(arguments)?);
     let job = Job::new(arguments, scene.scene())?;
     let mut map = job.render(&scene)?;
@@ -40,16 +37,6 @@ pub fn run(arguments: &RenderArguments) -> Result<String> {
         }
     }
     if arguments.json { numbers::json(&summary.to_json(&scene)) } else { Ok(summary.to_text(&scene)) }
-}
-
-/// About how many isophotes a figure shows that is not told.
-pub const DEFAULT_ISOPHOTES: u8 = 6;
-
-impl RenderArguments {
-    /// What the bare command does: the lab's scene and its picture.
-    pub fn lab() -> Self {
-        Self { bits: "8".into(), gamma: 1.0, isophotes: DEFAULT_ISOPHOTES, ..Self::default() }
-    }
 }
 
 /// Valid arguments.
@@ -68,7 +55,7 @@ struct Job<'a> {
 
 impl<'a> Job<'a> {
     fn new(arguments: &'a RenderArguments, scene: &Scene) -> Result<Self> {
-        let mut wanted = channels(&arguments.channel, scene)?;
+        let mut wanted = named(&arguments.channel, scene)?;
         let default = if scene.color().is_some() { Quantity::Color } else { Quantity::Brightness };
         let pictured = wanted.first().cloned().unwrap_or(default);
         let main = if pictured == Quantity::Color { Quantity::Brightness } else { pictured.clone() };
@@ -105,6 +92,7 @@ impl<'a> Job<'a> {
             depth,
             colormap: arguments.colormap,
             rows: if arguments.visible_only { Rows::Visible } else { Rows::All },
+            threads: arguments.threads.unwrap_or_else(threads::all),
         };
         let job = Self { arguments, main, pictured, wanted, files, figures, style };
         job.refuse_impossible_pictures()?;
@@ -206,25 +194,6 @@ impl<'a> Job<'a> {
     }
 }
 
-/// The channels that the user named, with a clear word about those that do not exist.
-pub fn channels(names: &[String], scene: &Scene) -> Result<Vec<Quantity>> {
-    let lights: Vec<Quantity> = scene.lights().iter().map(|light| Quantity::Light(light.name.clone())).collect();
-    let known = |quantity: &Quantity| !matches!(quantity, Quantity::Light(_)) || lights.contains(quantity);
-    let color = scene.color().map(|_| Quantity::Color);
-    let channel = |name: &String| {
-        if color.is_none() && *name == Quantity::Color.name() {
-            return Err(Usage(RenderError::NoColor.to_string()).into());
-        }
-        Quantity::from_name(name).filter(known).ok_or_else(|| {
-            let known =
-                Quantity::COMMON.iter().chain(&Quantity::OF_SAMPLING).chain(&color).chain(lights.iter().take(20));
-            let names: Vec<String> = known.map(Quantity::name).collect();
-            Usage(format!("there is no channel `{name}`; allowed: {}", names.join(", "))).into()
-        })
-    };
-    names.iter().map(channel).collect()
-}
-
 /// The probes that the eye sees, where they appear in the map.
 fn marks(map: &Map, scene: &PreparedScene) -> Vec<Mark> {
     let window = map.window;
@@ -235,9 +204,4 @@ fn marks(map: &Map, scene: &PreparedScene) -> Vec<Mark> {
         (inside && seen).then(|| Mark { name: probe.name.clone(), x, y })
     };
     scene.scene().probes().iter().filter_map(mark).collect()
-}
-
-/// The unit of a quantity in a scene.
-pub fn unit(quantity: &Quantity, scene: &Scene) -> String {
-    quantity.unit(scene.convention(), scene.unit_system(), scene.length()).to_owned()
 }

@@ -5,18 +5,18 @@ use std::path::Path;
 
 use anyhow::Result;
 use isophote::analysis::section::{Sample, SectionLine};
-use isophote::export::atomic;
-use isophote::export::figure::{SectionOptions, SectionPoint, Series, section_figure_svg};
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::scene::Scene;
 use isophote::text::significant;
 use isophote::units::Keyword;
+use isophote_export::atomic;
+use isophote_export::figure::{SectionOptions, SectionPoint, Series, section_figure_svg};
 use serde::Serialize;
 
 use super::output::{FigureFormat, figure_format, refuse_twice, write_bytes, write_figure};
-use super::render::{channels, unit};
 use crate::args::SectionArguments;
+use crate::channels::{named, unit};
 use crate::failure::{self, Usage};
 use crate::table::{Align, table};
 use crate::{load, numbers};
@@ -94,7 +94,7 @@ fn line(arguments: &SectionArguments, scene: &Scene) -> SectionLine {
 }
 
 fn quantities(arguments: &SectionArguments, scene: &Scene) -> Result<Vec<Quantity>> {
-    let quantities = channels(&arguments.channel, scene)?;
+    let quantities = named(&arguments.channel, scene)?;
     let unsuitable = |quantity: &&Quantity| {
         !quantity.is_scalar() || matches!(quantity, Quantity::Light(_)) || Quantity::OF_SAMPLING.contains(quantity)
     };

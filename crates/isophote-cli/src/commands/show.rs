@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use isophote::export::FileMetadata;
 use isophote::text::significant;
+use isophote_export::FileMetadata;
 
 use crate::args::ShowArguments;
 use crate::load;

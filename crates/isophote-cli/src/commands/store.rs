@@ -11,12 +11,12 @@ use isophote::scene::{Scene, Syntax};
 use isophote_zarr::{Check, MapStatistics, Opening, Outcome, Request, Store, StoreError, Workers};
 use serde_json::json;
 
-use super::render::{DEFAULT_ISOPHOTES, channels};
 use super::summary::Summary;
-use crate::args::{MergeArguments, RenderArguments};
+use crate::args::{DEFAULT_ISOPHOTES, MergeArguments, RenderArguments};
+use crate::channels;
 use crate::failure::{self, Paused, Usage};
 use crate::progress::{Progress, end_in_order};
-use crate::{load, numbers};
+use crate::{load, numbers, threads};
 
 /// The store that is to be rendered, if one is; refuses what does not go with it, or not without it.
 pub fn asked_for(arguments: &RenderArguments) -> Result<Option<&Path>, Usage> {
@@ -52,8 +52,7 @@ pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
     let scene = PreparedScene::new(&load::scene_to_render(arguments)?);
     // From here on there may be a store, and Ctrl-C has to say how to go on with it.
     end_in_order();
-    let available = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-    let workers = Workers { threads: arguments.threads.unwrap_or(available), memory: arguments.store.memory };
+    let workers = Workers { threads: arguments.threads.unwrap_or_else(threads::all), memory: arguments.store.memory };
     let renderer = SimdRenderer::new(arguments.precision, Some(NonZeroUsize::MIN));
     let part = arguments.store.shard;
     let is_continued = arguments.store.resume || part.is_some();
@@ -110,7 +109,7 @@ fn printed(statistics: &MapStatistics, scene: &PreparedScene, as_json: bool) -> 
 
 /// The channels of the store: the brightness, and its colours if it has any, unless others are named.
 fn wanted(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Quantity>> {
-    let mut named = channels(&arguments.channel, scene)?;
+    let mut named = channels::named(&arguments.channel, scene)?;
     if named.is_empty() {
         named.push(Quantity::Brightness);
         named.extend(scene.color().map(|_| Quantity::Color));

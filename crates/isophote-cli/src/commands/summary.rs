@@ -9,8 +9,9 @@ use isophote::units::Keyword;
 use isophote_zarr::MapStatistics;
 use serde::Serialize;
 
-use super::probe::{self, ProbeJson};
-use super::render::unit;
+use super::reading_json::ProbeJson;
+use super::reading_table;
+use crate::channels::unit;
 
 /// The numbers of a map.
 pub struct Summary {
@@ -112,7 +113,7 @@ impl Summary {
             let rows: Vec<_> =
                 self.probes.iter().map(|(name, reading, published)| (name.as_str(), reading, *published)).collect();
             text.push('\n');
-            text.push_str(&probe::table_text(&rows, scene));
+            text.push_str(&reading_table::text(&rows, scene));
         }
         text
     }

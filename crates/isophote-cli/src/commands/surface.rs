@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 
 use anyhow::Result;
 use isophote::analysis::surface::{CellExtreme, Surface, SurfaceRequest, SurfaceTotals, depends_on_eye};
-use isophote::export::figure::FigureOptions;
 use isophote::map::{Coordinates, Map, Quantity};
 use isophote::prepare::PreparedScene;
 use isophote::scene::Scene;
@@ -12,11 +11,12 @@ use isophote::shape::Primitive;
 use isophote::text::significant;
 use isophote::units::Keyword;
 use isophote::vector::Vector;
+use isophote_export::figure::FigureOptions;
 use serde::Serialize;
 
 use super::cells::{CellFiles, place_text};
-use super::render::{channels, unit};
 use crate::args::SurfaceArguments;
+use crate::channels::{named, unit};
 use crate::failure::Usage;
 use crate::{load, numbers};
 
@@ -24,7 +24,7 @@ use crate::{load, numbers};
 pub fn run(arguments: &SurfaceArguments) -> Result<String> {
     let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.quiet)?);
     let files = CellFiles::new(&arguments.output, &arguments.figure, &arguments.style)?;
-    let mut wanted = channels(&arguments.channel, scene.scene())?;
+    let mut wanted = named(&arguments.channel, scene.scene())?;
     let main = wanted.first().cloned().unwrap_or(Quantity::Irradiance);
     if wanted.is_empty() {
         wanted.extend([Quantity::Irradiance, Quantity::Position, Quantity::Normal]);

@@ -3,8 +3,8 @@
 use std::fs;
 
 use isophote::analysis::statistics::{counts, statistics};
-use isophote::export::FileMetadata;
 use isophote::map::{Quantity, Resolution};
+use isophote_export::FileMetadata;
 
 use crate::common::{Job, TWO_LIGHTS, map, scene};
 

@@ -10,7 +10,8 @@ pub fn nice_levels(minimum: f64, maximum: f64, about: usize) -> Vec<f64> {
 }
 
 /// Ticks of an axis: as [`nice_levels`], but a round number at either end counts too.
-pub(crate) fn nice_ticks(minimum: f64, maximum: f64, about: usize) -> Vec<f64> {
+#[must_use]
+pub fn nice_ticks(minimum: f64, maximum: f64, about: usize) -> Vec<f64> {
     multiples_near(minimum, maximum, about, Ends::Included)
 }
 

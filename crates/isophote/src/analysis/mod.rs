@@ -3,7 +3,7 @@
 mod cells;
 mod explain;
 pub mod isophotes;
-pub(crate) mod levels;
+pub mod levels;
 pub mod measuring_grid;
 pub mod probe;
 pub mod section;

@@ -36,7 +36,8 @@ pub fn statistics(map: &Map, quantity: &Quantity) -> Option<Statistics> {
 }
 
 /// The largest value at pixels that see a surface; nothing if there is none.
-pub(crate) fn largest(mask: &Mask, values: Scalars<'_>) -> Option<f64> {
+#[must_use]
+pub fn largest(mask: &Mask, values: Scalars<'_>) -> Option<f64> {
     let of_run = |run: &Run| match values {
         Scalars::Double(values) => largest_of(&values[run.start..run.end]),
         Scalars::Single(values) => largest_of(&values[run.start..run.end]),

@@ -5,8 +5,7 @@
 
 mod space;
 
-pub(crate) use space::Matrix;
-pub use space::{Chromaticity, ColorSpace};
+pub use space::{Chromaticity, ColorSpace, Matrix};
 
 use crate::units::Keyword;
 

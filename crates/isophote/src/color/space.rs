@@ -80,9 +80,10 @@ impl ColorSpace {
     }
 
     /// From linear RGB of this space to linear RGB of sRGB's primaries, white to white (Bradford's adaptation where the
-    /// whites differ). The amounts may be negative: sRGB does not hold every colour.
+    /// whites differ); none where the primaries are those already. The amounts may be negative: sRGB does not hold every
+    /// colour.
     #[must_use]
-    pub(crate) fn to_srgb(self) -> Option<Matrix> {
+    pub fn to_srgb(self) -> Option<Matrix> {
         if self == Self::Rec709 {
             return None;
         }
@@ -114,12 +115,14 @@ fn adaptation(from: Chromaticity, to: Chromaticity) -> Matrix {
     CONES.inverse().times(scaled)
 }
 
-/// A matrix by its rows.
+/// A linear map between spaces: a matrix by its rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Matrix([[f64; 3]; 3]);
+pub struct Matrix([[f64; 3]; 3]);
 
 impl Matrix {
-    pub(crate) fn apply(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    /// The amounts in the other space.
+    #[must_use]
+    pub fn apply(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         self.0.map(|[a, b, c]| a * x + b * y + c * z)
     }
 

@@ -1,10 +1,12 @@
 //! The result of a render: named channels of linear values with units, and what made them.
 
+mod builder;
 mod coordinates;
 mod mask;
 mod totals;
 mod values;
 
+pub use builder::{MapBuilder, MapError};
 pub use coordinates::{CoordinateAxis, Coordinates};
 pub use mask::{Mask, Run};
 pub use totals::{Extreme, Totals, totals};
@@ -235,70 +237,7 @@ pub struct Map {
     pub(crate) channels: Vec<Channel>,
 }
 
-/// Why there is no map of these channels.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum MapError {
-    /// A channel with too few or too many values.
-    #[error("the channel ‘{name}’ has {values} values for {pixels} pixels")]
-    Length {
-        /// The channel.
-        name: String,
-        /// How many values it has.
-        values: usize,
-        /// How many it should have.
-        pixels: usize,
-    },
-    /// A value where no surface is.
-    #[error("the channel ‘{name}’ is not 0 at pixel {index}, where no surface is seen")]
-    Background {
-        /// The channel.
-        name: String,
-        /// The first such pixel: row × width + column.
-        index: usize,
-    },
-    /// Nothing says what is seen where.
-    #[error("there is no channel ‘shape’ with an index for each pixel")]
-    NoShape,
-}
-
 impl Map {
-    /// A map of a whole image, from numbers that were not rendered as one.
-    ///
-    /// # Errors
-    /// Channels whose lengths are not the number of pixels; none that holds the shapes; a value where no surface is.
-    pub fn new(
-        full: Resolution,
-        window: Window,
-        provenance: Provenance,
-        channels: Vec<Channel>,
-    ) -> Result<Self, MapError> {
-        let pixels = full.pixels();
-        for channel in &channels {
-            let values = channel.values.len();
-            if values != pixels {
-                return Err(MapError::Length { name: channel.quantity.name(), values, pixels });
-            }
-        }
-        let shapes = channels.iter().find_map(|channel| match &channel.values {
-            Values::Index(shapes) if channel.quantity == Quantity::Shape => Some(shapes),
-            _ => None,
-        });
-        let shapes = shapes.ok_or(MapError::NoShape)?;
-        for channel in &channels {
-            let is_empty = |index: usize| match &channel.values {
-                Values::Scalar(values) => values[index] == 0.0,
-                Values::Single(values) => values[index] == 0.0,
-                Values::Vector(values) => values[index] == [0.0; 3],
-                Values::Index(values) => values[index] < 0,
-            };
-            if let Some(index) = (0..pixels).find(|&index| shapes[index] < 0 && !is_empty(index)) {
-                return Err(MapError::Background { name: channel.quantity.name(), index });
-            }
-        }
-        let mask = Mask::of_shapes(full, shapes);
-        Ok(Self { full, region: Region::all(full), window, provenance, mask, channels })
-    }
-
     /// All channels, in the order in which they were asked for.
     #[must_use]
     pub fn channels(&self) -> &[Channel] {

@@ -1,0 +1,19 @@
+//! The arguments of `isophote merge`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+#[derive(Args)]
+pub struct MergeArguments {
+    /// A .zarr store whose parts were computed by `isophote render --shard`
+    pub store: PathBuf,
+
+    /// Read every shard and compare it with its checksums
+    #[arg(long)]
+    pub check: bool,
+
+    /// Print the results as JSON
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,23 @@
+//! The arguments of `isophote new`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use isophote::scene::library::Starter;
+
+use crate::args::parse;
+
+#[derive(Args)]
+pub struct NewArguments {
+    /// Which scene
+    #[arg(value_name = "NAME", value_parser = parse::keyword::<Starter>())]
+    pub name: Starter,
+
+    /// Write to FILE (by default NAME.toml), or - for standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+
+    /// Overwrite a file that exists
+    #[arg(short, long)]
+    pub force: bool,
+}

@@ -1,0 +1,16 @@
+//! `isophote check`: the scene as it is understood.
+
+mod amounts;
+mod json;
+mod text;
+
+use anyhow::Result;
+
+use crate::args::CheckArguments;
+use crate::{load, numbers};
+
+/// Checks a scene and prints it.
+pub fn run(arguments: &CheckArguments) -> Result<String> {
+    let scene = load::scene(&arguments.scene, arguments.quiet)?;
+    if arguments.json { numbers::json(&json::of(&scene)) } else { Ok(text::of(&scene)) }
+}

@@ -1,0 +1,82 @@
+//! Values at points, as a table for people.
+
+use std::fmt::Write;
+
+use isophote::analysis::probe::{ProbeReading, SeenFromEye};
+use isophote::color::Component;
+use isophote::prepare::PreparedScene;
+use isophote::scene::Scene;
+use isophote::text::significant;
+use isophote::units::Keyword;
+
+use crate::table::{Align, table};
+
+/// A table of readings, with the published values where there are any.
+pub fn text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &PreparedScene) -> String {
+    let description = scene.scene();
+    let length = description.length();
+    let convention = description.convention();
+    let unit = convention.unit(description.unit_system());
+    let point = format!("point, {}", length.name());
+    let irradiance = format!("E (3.1), {}", description.unit_system().irradiance_unit());
+    let brightness = format!("B ({}), {unit}", convention.formula_number());
+    let mut columns = vec![
+        ("probe", Align::Left),
+        (point.as_str(), Align::Left),
+        (irradiance.as_str(), Align::Right),
+        (brightness.as_str(), Align::Right),
+    ];
+    let has_published = readings.iter().any(|(_, _, published)| published.is_some());
+    if has_published {
+        columns.push(("published", Align::Right));
+    }
+    let row = |(name, reading, published): &(&str, &ProbeReading, Option<f64>)| {
+        let [x, y, z] = reading.position(length).map(|coordinate| significant(coordinate, 6));
+        let mut row = vec![
+            (*name).to_owned(),
+            format!("({x}, {y}, {z})"),
+            significant(reading.shading.irradiance, 15),
+            significant(reading.shading.brightness(), 15),
+        ];
+        if has_published {
+            row.push(published.map_or("–".into(), |value| significant(value, 15)));
+        }
+        row
+    };
+    let rows = readings.iter().flat_map(|reading| std::iter::once(row(reading)).chain(color_rows(reading.1)));
+    // Nobody publishes components: their rows end before that column.
+    let filled = |row: Vec<String>| row.into_iter().chain(has_published.then(String::new)).take(columns.len());
+    let rows: Vec<Vec<String>> = rows.map(|row| filled(row).collect()).collect();
+    let mut text = table(&columns, &rows);
+    if let Some(color) = description.color_label() {
+        // Writing to a text cannot fail.
+        let _ = writeln!(text, "  {color}");
+    }
+    for (name, reading, _) in readings {
+        if let Some(note) = unseen_note(reading, description) {
+            // Writing to a text cannot fail.
+            let _ = writeln!(text, "  {name} is not seen from the eye: {note}");
+        }
+    }
+    text
+}
+
+/// A row for each component, below that of the luminance.
+fn color_rows(reading: &ProbeReading) -> Vec<Vec<String>> {
+    let Some(readings) = reading.components.as_deref() else { return Vec::new() };
+    let row = |component: &Component| {
+        let shading = &readings.of(*component).shading;
+        let [irradiance, brightness] = [shading.irradiance, shading.brightness()].map(|value| significant(value, 15));
+        vec![format!("  {}", component.name()), String::new(), irradiance, brightness]
+    };
+    Component::ALL.iter().map(row).collect()
+}
+
+fn unseen_note(reading: &ProbeReading, scene: &Scene) -> Option<String> {
+    match reading.seen {
+        SeenFromEye::Seen => None,
+        SeenFromEye::Behind => Some("it is behind the plane of the eye".into()),
+        SeenFromEye::FacesAway => Some("the surface faces away there (θ_o ≥ 90°)".into()),
+        SeenFromEye::HiddenBy(other) => Some(format!("\"{}\" stands before it", scene.name_of(other))),
+    }
+}

@@ -1,0 +1,174 @@
+//! Values along a line as a figure.
+
+use crate::figure::error::FigureError;
+use crate::figure::frame::{Axis, Frame, TICK_SIZE};
+use crate::figure::page::{MARGIN, Page};
+use crate::figure::svg::{Anchor, Place, Rectangle, Svg, Text};
+use crate::figure::text;
+use crate::figure::ticks::{self, Ticks};
+
+const WIDTH: f64 = 520.0;
+const HEIGHT: f64 = 300.0;
+const LEGEND_SIZE: f64 = 10.0;
+const LEGEND_LINE: f64 = 17.0;
+/// Length in px of a line's sample in the legend, and the gap after it.
+const SAMPLE: [f64; 2] = [24.0, 6.0];
+const LEGEND_GAP: f64 = 20.0;
+
+/// M. Okabe and K. Ito, "Color universal design", 2008: seven colours that people with colour blindness tell apart.
+const COLORS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000"];
+/// One a round of the colours, so that 28 series differ.
+const DASHES: [&str; 4] = ["", "6 3", "2 2.5", "8 3 2 3"];
+
+/// A line of a section figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Written in the legend where there are several.
+    pub name: String,
+    /// In the order in which they are joined.
+    pub points: Vec<SectionPoint>,
+}
+
+/// A value at a place of the section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SectionPoint {
+    /// The place along the section, in the options' `x_unit`.
+    pub x: f64,
+    /// The value in the options' `y_unit`; `None` where no surface is seen, which interrupts the line.
+    pub value: Option<f64>,
+}
+
+/// The words of a section figure.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SectionOptions {
+    /// Above the figure; broken into lines where it is long. None where empty.
+    pub title: String,
+    /// What runs along the horizontal axis: "x".
+    pub x_label: String,
+    /// Its unit.
+    pub x_unit: String,
+    /// What the values are: "brightness B, lab (3.3)".
+    pub y_label: String,
+    /// Their unit.
+    pub y_unit: String,
+    /// The small line below: program and version, as in a map's provenance.
+    pub footer: String,
+}
+
+/// Series of values along a line as an SVG figure: axes with units, a light grid, gaps where nothing is seen, and a legend
+/// above the box where there are several series.
+///
+/// The vertical axis begins at 0 where that costs little room.
+///
+/// # Errors
+/// [`FigureError`]: a number is not finite, or there are no two places or no value at all.
+pub fn section_figure_svg(series: &[Series], options: &SectionOptions) -> Result<String, FigureError> {
+    let [x_range, y_range] = ranges(series)?;
+    let x_ticks = Ticks::side_by_side(x_range, WIDTH, TICK_SIZE);
+    let y_ticks = Ticks::stacked(y_range, HEIGHT);
+    let x = Axis { title: ticks::title(&options.x_label, &options.x_unit, x_ticks.exponent), ticks: x_ticks };
+    let y = Axis { title: ticks::title(&options.y_label, &options.y_unit, y_ticks.exponent), ticks: y_ticks };
+    // The last number below the box reaches beyond its right edge.
+    let right = 0.5 * text::widest(&x.ticks.labels, TICK_SIZE) + 2.0;
+    let width = 2.0 * MARGIN + y.width() + WIDTH + right;
+    let page = Page::new(width, &options.title, &options.footer);
+    let left = MARGIN + y.width();
+    let legend = legend(series, left);
+    let legend_height = legend.last().map_or(0.0, |entry| entry.y + LEGEND_LINE);
+    let top = page.top() + legend_height.max(0.5 * TICK_SIZE);
+    let rectangle = Rectangle { left, top, width: WIDTH, height: HEIGHT };
+    let frame = Frame { rectangle, x: x_range, y: y_range };
+    let bottom = frame.bottom() + Axis::height();
+
+    let mut svg = Svg::new();
+    frame.draw_grid(&mut svg, &x, &y);
+    for (index, line) in series.iter().enumerate() {
+        draw_series(&mut svg, &frame, &line.points, index);
+    }
+    frame.draw_axes(&mut svg, &x, &y);
+    for (index, (entry, line)) in legend.iter().zip(series).enumerate() {
+        let y = page.top() + entry.y + 0.4 * LEGEND_LINE;
+        let sample = [Place { x: entry.x, y }, Place { x: entry.x + SAMPLE[0], y }];
+        svg.path(&sample, false, &line_style(index));
+        let at = Place { x: entry.x + SAMPLE[0] + SAMPLE[1], y };
+        svg.text(&Text::new(&line.name, at, LEGEND_SIZE, Anchor::Start));
+    }
+    page.draw(&mut svg, left + 0.5 * WIDTH, bottom);
+    Ok(svg.finish(width, page.height(bottom)))
+}
+
+/// The ranges of both axes.
+fn ranges(series: &[Series]) -> Result<[[f64; 2]; 2], FigureError> {
+    let (mut x, mut y) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
+    for line in series {
+        for (index, point) in line.points.iter().enumerate() {
+            for (number, range) in [(Some(point.x), &mut x), (point.value, &mut y)] {
+                let Some(value) = number else { continue };
+                if !value.is_finite() {
+                    return Err(FigureError::NotFinite { name: format!("{}[{index}]", line.name), value });
+                }
+                *range = [range[0].min(value), range[1].max(value)];
+            }
+        }
+    }
+    if x[0] >= x[1] {
+        return Err(FigureError::EmptySection { what: "no two places" });
+    }
+    if y[0] > y[1] {
+        return Err(FigureError::EmptySection { what: "no value" });
+    }
+    Ok([x, padded(y)])
+}
+
+/// Some air above and below the values, from 0 where they come near it.
+fn padded([low, high]: [f64; 2]) -> [f64; 2] {
+    let span = high - low;
+    if span <= 1e-12 * high.abs().max(low.abs()) {
+        let half = if high == 0.0 { 1.0 } else { 0.5 * high.abs() };
+        return [low - half, high + half];
+    }
+    let foot = if low >= 0.0 && low < 0.3 * high { 0.0 } else { low - 0.05 * span };
+    [foot, high + 0.05 * span]
+}
+
+/// Draws each unbroken run as a line, and a value with gaps on both sides as a dot.
+fn draw_series(svg: &mut Svg, frame: &Frame, points: &[SectionPoint], index: usize) {
+    for run in points.split(|point| point.value.is_none()) {
+        let places: Vec<Place> = run.iter().filter_map(|point| Some(frame.place(point.x, point.value?))).collect();
+        match places[..] {
+            [] => {}
+            [alone] => svg.circle(alone, 1.6, &format!("fill=\"{}\"", COLORS[index % COLORS.len()])),
+            _ => svg.path(&places, false, &line_style(index)),
+        }
+    }
+}
+
+fn line_style(index: usize) -> String {
+    let color = COLORS[index % COLORS.len()];
+    let dash = match DASHES[index / COLORS.len() % DASHES.len()] {
+        "" => String::new(),
+        dash => format!(" stroke-dasharray=\"{dash}\""),
+    };
+    format!("stroke=\"{color}\" stroke-width=\"1.5\" stroke-linejoin=\"round\"{dash}")
+}
+
+/// Places of the legend's entries, `y` counted from its top; empty for a single series.
+fn legend(series: &[Series], left: f64) -> Vec<Place> {
+    if series.len() < 2 {
+        return Vec::new();
+    }
+    let mut next = Place { x: left, y: 0.0 };
+    let mut places = Vec::new();
+    for line in series {
+        let width = SAMPLE[0] + SAMPLE[1] + text::width(&line.name, LEGEND_SIZE);
+        if next.x > left && next.x + width > left + WIDTH {
+            next = Place { x: left, y: next.y + LEGEND_LINE };
+        }
+        places.push(next);
+        next.x += width + LEGEND_GAP;
+    }
+    places
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,34 @@
+//! Files: a [`Map`](isophote::map::Map) as a picture, as layers, as arrays, as a table, or as a figure for a report.
+//!
+//! Every writer takes the map and a place to write to, so that the caller decides on names, interrupts and progress;
+//! [`write_atomically`] puts the bytes under a name only when they are complete. Every file carries a
+//! [`FileMetadata`], which [`read_metadata`] finds again, and the same map gives the same bytes on every run.
+
+pub mod atomic;
+mod channel;
+mod color_scale;
+pub mod colormap;
+mod colormap_tables;
+pub mod csv;
+mod error;
+pub mod exr;
+pub mod figure;
+mod format;
+mod limits;
+pub mod metadata;
+pub mod names;
+pub mod npy;
+pub mod npz;
+pub mod png;
+pub mod read;
+#[cfg(test)]
+mod sample_map;
+#[cfg(test)]
+mod tests;
+mod text;
+
+pub use atomic::write_atomically;
+pub use error::ExportError;
+pub use format::Format;
+pub use metadata::{ChannelMetadata, FileMetadata, PictureMetadata};
+pub use read::{ReadError, read_metadata, read_metadata_from};

@@ -1,0 +1,117 @@
+//! What every file says about itself, in whatever format it is.
+
+use isophote::map::{Channel, Map, Region, Resolution, Window};
+use serde::{Deserialize, Serialize};
+
+/// The description that goes into every file as JSON, enough to read its numbers and to render them again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FileMetadata {
+    /// Version of this description: [`FileMetadata::VERSION`].
+    pub isophote: u32,
+    /// `isophote` and its version.
+    pub program: String,
+    /// The scene's title.
+    pub title: String,
+    /// The brightness convention and its formula number.
+    pub convention: String,
+    /// The renderer and its precision.
+    pub renderer: String,
+    /// The space of linear RGB that the scene's colours are amounts of; none where it has no colours.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color_space: Option<String>,
+    /// Size of the full image, of which the file may hold a part.
+    pub full: Resolution,
+    /// The part that the file holds.
+    pub region: Region,
+    /// The part's outer edges on the screen, in their unit.
+    pub window: Window,
+    /// The channels in the file.
+    pub channels: Vec<ChannelMetadata>,
+    /// How numbers became grey levels or colours; only pictures have it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub picture: Option<PictureMetadata>,
+    /// The scene, as a TOML scene file that renders the map again.
+    pub scene: String,
+}
+
+/// A channel of a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ChannelMetadata {
+    /// [`Quantity::name`](isophote::map::Quantity::name), with a light's name as the scene has it.
+    pub name: String,
+    /// Its unit: `"1"` for pure numbers, `""` for indices.
+    pub unit: String,
+    /// The names under which the file holds it, three for vectors; none where it is all that the file holds.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stored_as: Vec<String>,
+}
+
+/// How a picture shows its channel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PictureMetadata {
+    /// The values of black and white, in the channel's unit.
+    pub range: [f64; 2],
+    /// A value v of the way from black to white is shown as v^(1/gamma); 1 is proportional.
+    pub gamma: f64,
+    /// Bits of a sample: 8 or 16.
+    pub depth: u8,
+    /// Name of the colour map; none for grey, and for colours that are shown as they are.
+    pub colormap: Option<String>,
+    /// How those are encoded: `sRGB`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub encoding: Option<String>,
+}
+
+impl FileMetadata {
+    /// The version that this program writes, and the newest that it reads.
+    pub const VERSION: u32 = 1;
+
+    /// The description of a file with all channels of the map.
+    #[must_use]
+    pub fn of(map: &Map) -> Self {
+        Self {
+            isophote: Self::VERSION,
+            program: map.provenance.program.clone(),
+            title: map.provenance.title.clone(),
+            convention: map.provenance.convention.clone(),
+            renderer: map.provenance.renderer.clone(),
+            color_space: map.provenance.color_space.clone(),
+            full: map.full,
+            region: map.region,
+            window: map.window,
+            channels: map.channels().iter().map(ChannelMetadata::of).collect(),
+            picture: None,
+            scene: map.provenance.scene.clone(),
+        }
+    }
+
+    /// The description of a file with this channel of the map alone.
+    #[must_use]
+    pub fn of_channel(map: &Map, channel: &Channel) -> Self {
+        Self { channels: vec![ChannelMetadata::of(channel)], ..Self::of(map) }
+    }
+
+    /// The description of a file that holds all channels of the map under these names.
+    pub(crate) fn of_stored(map: &Map, stored_as: Vec<Vec<String>>) -> Self {
+        let mut metadata = Self::of(map);
+        for (channel, names) in metadata.channels.iter_mut().zip(stored_as) {
+            channel.stored_as = names;
+        }
+        metadata
+    }
+
+    /// As JSON on one line.
+    ///
+    /// # Panics
+    /// Never: only maps with keys other than texts have no JSON.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("texts, numbers and lists have a JSON form")
+    }
+}
+
+impl ChannelMetadata {
+    fn of(channel: &Channel) -> Self {
+        Self { name: channel.quantity.name(), unit: channel.unit.clone(), stored_as: vec![] }
+    }
+}

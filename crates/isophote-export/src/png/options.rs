@@ -1,0 +1,66 @@
+//! What a picture shows, and what it then tells.
+
+use isophote::map::Quantity;
+
+/// What a picture shows and how.
+#[derive(Clone)]
+pub struct PictureOptions<'a> {
+    /// The channel: a scalar one, or colours.
+    pub quantity: Quantity,
+    /// The values of black and white in the channel's unit; by default 0 and the greatest visible value.
+    pub range: Option<[f64; 2]>,
+    /// 1 is proportional, 2.2 lifts the dark parts; finite and above 0.
+    pub gamma: f64,
+    /// Bits of a sample.
+    pub depth: Depth,
+    /// Colours in place of grey levels, 8 bits only.
+    pub color: Option<PictureColor<'a>>,
+}
+
+impl PictureOptions<'_> {
+    /// Eight bits of grey, proportional to the channel, its greatest value white.
+    #[must_use]
+    pub fn new(quantity: Quantity) -> Self {
+        Self { quantity, range: None, gamma: 1.0, depth: Depth::Eight, color: None }
+    }
+}
+
+/// A named colour map.
+#[derive(Clone, Copy)]
+pub struct PictureColor<'a> {
+    /// Its name, for the file's description.
+    pub name: &'a str,
+    /// The sRGB colour of a number from 0 to 1.
+    pub color: &'a dyn Fn(f64) -> [u8; 3],
+}
+
+/// Bits of a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// 0 to 255.
+    Eight,
+    /// 0 to 65535.
+    Sixteen,
+}
+
+impl Depth {
+    /// 8 or 16.
+    #[must_use]
+    pub fn bits(self) -> u8 {
+        match self {
+            Self::Eight => 8,
+            Self::Sixteen => 16,
+        }
+    }
+}
+
+/// What became of the values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PictureReport {
+    /// The values of black and white in the channel's unit; both are 0 where no visible value is positive.
+    pub range: [f64; 2],
+    /// Visible pixels below black, shown as black.
+    pub clamped_below: usize,
+    /// Visible pixels above white, shown as white.
+    pub clamped_above: usize,
+}

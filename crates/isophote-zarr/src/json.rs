@@ -1,0 +1,16 @@
+//! JSON as stores have it.
+
+use serde_json::{Map, Value};
+
+/// JSON as people read it, with a line's end.
+pub fn pretty(value: &Value) -> Vec<u8> {
+    format!("{value:#}\n").into_bytes()
+}
+
+/// The keys of a JSON object.
+pub fn object(value: Value) -> Map<String, Value> {
+    match value {
+        Value::Object(keys) => keys,
+        _ => Map::new(),
+    }
+}

@@ -1,0 +1,148 @@
+//! Maps of numbers that were not rendered as one.
+
+use super::{Channel, Map, Mask, Provenance, Quantity, Region, Resolution, Values, Window};
+
+/// A map under construction: [`Map::builder`].
+#[derive(Clone, Debug)]
+pub struct MapBuilder {
+    full: Resolution,
+    region: Region,
+    window: Window,
+    provenance: Provenance,
+    shapes: Option<Vec<i32>>,
+    channels: Vec<Channel>,
+}
+
+/// Why there is no map of these channels.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum MapError {
+    /// The part is not one of the image.
+    #[error("the region of {width} × {height} pixels from column {column}, row {row} does not lie in the image",
+        width = region.size.width, height = region.size.height, column = region.corner.column, row = region.corner.row)]
+    Region {
+        /// The region asked for.
+        region: Region,
+    },
+    /// A channel with too few or too many values.
+    #[error("the channel ‘{name}’ has {values} values for {pixels} pixels")]
+    Length {
+        /// The channel.
+        name: String,
+        /// How many values it has.
+        values: usize,
+        /// How many it should have.
+        pixels: usize,
+    },
+    /// A value where no surface is.
+    #[error("the channel ‘{name}’ is not 0 at pixel {index}, where no surface is seen")]
+    Background {
+        /// The channel.
+        name: String,
+        /// The first such pixel: row × width + column.
+        index: usize,
+    },
+    /// Nothing says what is seen where.
+    #[error("there is no channel ‘shape’ with an index for each pixel")]
+    NoShape,
+    /// Two answers to what is seen.
+    #[error("the channel ‘shape’ is not what is seen at pixel {index}")]
+    OtherShape {
+        /// The first such pixel: row × width + column.
+        index: usize,
+    },
+}
+
+impl Map {
+    /// Begins a map of an image of this size: of all of it, unless another region is told. The window is that of the
+    /// region.
+    #[must_use]
+    pub fn builder(full: Resolution, window: Window, provenance: Provenance) -> MapBuilder {
+        MapBuilder { full, region: Region::all(full), window, provenance, shapes: None, channels: vec![] }
+    }
+}
+
+impl MapBuilder {
+    /// The part of the image that the map holds.
+    #[must_use]
+    pub fn region(mut self, region: Region) -> Self {
+        self.region = region;
+        self
+    }
+
+    /// The index of the shape that each pixel sees, −1 where none is: for maps without the channel that holds it.
+    #[must_use]
+    pub fn shapes(mut self, shapes: Vec<i32>) -> Self {
+        self.shapes = Some(shapes);
+        self
+    }
+
+    /// Adds a channel, after those that are there: row by row from the top, 0 (−1 for indices) where no surface is seen.
+    #[must_use]
+    pub fn channel(mut self, quantity: Quantity, unit: &str, values: Values) -> Self {
+        self.channels.push(Channel { quantity, unit: unit.into(), values });
+        self
+    }
+
+    /// The map.
+    ///
+    /// # Errors
+    /// A region that is not in the image; channels whose lengths are not its number of pixels; nothing that says which
+    /// shapes are seen, or two things that say it differently; a value where no surface is.
+    pub fn build(mut self) -> Result<Map, MapError> {
+        self.check_region()?;
+        self.check_lengths()?;
+        let shapes = self.shapes.take();
+        let seen = shapes.as_deref().or_else(|| shape_channel(&self.channels)).ok_or(MapError::NoShape)?;
+        self.check_values(seen)?;
+        let mask = Mask::of_shapes(self.region.size, seen);
+        let Self { full, region, window, provenance, channels, .. } = self;
+        Ok(Map { full, region, window, provenance, mask, channels })
+    }
+
+    fn check_region(&self) -> Result<(), MapError> {
+        let Region { corner, size } = self.region;
+        let lies_in = |start: u32, length: u32, whole: u32| start.checked_add(length).is_some_and(|end| end <= whole);
+        let is_inside =
+            lies_in(corner.column, size.width, self.full.width) && lies_in(corner.row, size.height, self.full.height);
+        if is_inside { Ok(()) } else { Err(MapError::Region { region: self.region }) }
+    }
+
+    fn check_lengths(&self) -> Result<(), MapError> {
+        let pixels = self.region.size.pixels();
+        let channels = self.channels.iter().map(|channel| (channel.quantity.name(), channel.values.len()));
+        let shapes = self.shapes.iter().map(|shapes| (Quantity::Shape.name(), shapes.len()));
+        match channels.chain(shapes).find(|(_, values)| *values != pixels) {
+            Some((name, values)) => Err(MapError::Length { name, values, pixels }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_values(&self, seen: &[i32]) -> Result<(), MapError> {
+        for channel in &self.channels {
+            let is_empty = |index: usize| match &channel.values {
+                Values::Scalar(values) => values[index] == 0.0,
+                Values::Single(values) => values[index] == 0.0,
+                Values::Vector(values) => values[index] == [0.0; 3],
+                Values::Index(values) => values[index] < 0,
+            };
+            if let Some(index) = (0..seen.len()).find(|&index| seen[index] < 0 && !is_empty(index)) {
+                return Err(MapError::Background { name: channel.quantity.name(), index });
+            }
+        }
+        let told = shape_channel(&self.channels).unwrap_or(seen);
+        match (0..seen.len()).find(|&index| seen[index] >= 0 && told[index] != seen[index]) {
+            Some(index) => Err(MapError::OtherShape { index }),
+            None => Ok(()),
+        }
+    }
+}
+
+fn shape_channel(channels: &[Channel]) -> Option<&[i32]> {
+    channels.iter().find_map(|channel| match &channel.values {
+        Values::Index(shapes) if channel.quantity == Quantity::Shape => Some(shapes.as_slice()),
+        _ => None,
+    })
+}
+
+#[cfg(test)]
+mod tests;
