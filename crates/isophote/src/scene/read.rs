@@ -5,7 +5,6 @@ mod files;
 mod shapes;
 
 use std::collections::{BTreeMap, HashSet};
-use std::path::PathBuf;
 
 use super::document::{Document, Entry, Node, Path, Value};
 use super::error::{Problem, ProblemKind, Target};
@@ -13,6 +12,7 @@ use super::source::{
     AmbientSource, Amount, CameraSource, GridSource, LightSource, MaterialSource, ProbeSource, SamplingSource,
     SceneSource, ScreenSource, ShadowSource, SphereSource, WindowSource,
 };
+use crate::import::Origin;
 use crate::units::Keyword;
 
 /// Reads a scene out of a document. What cannot be read is reported and left out.
@@ -28,7 +28,7 @@ pub fn read(document: &Document, problems: &mut Problems) -> SceneSource {
 
 fn read_scene(table: &mut Table<'_>) -> SceneSource {
     SceneSource {
-        directory: PathBuf::new(),
+        origin: Origin::default(),
         version: table.count("version"),
         title: table.text("title"),
         length: table.keyword("length"),

@@ -6,7 +6,6 @@ mod grid;
 mod shapes;
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 pub use amount::Amount;
 pub use files::{MeshSource, SpheresSource};
@@ -19,6 +18,7 @@ pub use shapes::{
 
 use crate::camera::Handedness;
 use crate::color::ColorSpace;
+use crate::import::Origin;
 use crate::reflectance::Convention;
 use crate::scene::Filter;
 use crate::units::{LengthUnit, UnitSystem};
@@ -28,9 +28,9 @@ use crate::units::{LengthUnit, UnitSystem};
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Isophote scene")]
 pub struct SceneSource {
-    /// Where relative paths in the scene start: the directory of its file.
+    /// Where the names of files in the scene start: in the directory of its own file, say.
     #[serde(skip)]
-    pub directory: PathBuf,
+    pub origin: Origin,
     /// Version of the scene format: 1.
     #[schemars(required, extend("const" = 1))]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,14 +1,15 @@
 //! Lights, each for itself.
 
 use super::names::Names;
-use super::{Checked, Validator, limits};
+use super::{Checked, Validator};
 use crate::light::{Ambient, Emission, Light, LightKind, ParallelLight, PointLight, Spot};
 use crate::scene::document::Path;
+use crate::scene::limits;
 use crate::scene::source::{EmissionName, LightSource, SceneSource};
 use crate::units::Keyword;
 use crate::vector::Vector;
 
-impl Validator {
+impl Validator<'_> {
     pub(super) fn lights(&mut self, source: &SceneSource) -> Checked<Light> {
         if !self.few_enough("light", source.light.len(), limits::LIGHTS) {
             return Vec::new();

@@ -18,7 +18,7 @@ impl Names {
     }
 
     /// The name of the thing at a path, or the default one, which is that path.
-    pub(super) fn check(&mut self, validator: &mut Validator, thing: &Path, name: Option<&str>) -> Option<String> {
+    pub(super) fn check(&mut self, validator: &mut Validator<'_>, thing: &Path, name: Option<&str>) -> Option<String> {
         let name = name.map_or_else(|| thing.to_string(), str::to_owned);
         let path = thing.key("name");
         if name.is_empty() || name.chars().any(char::is_control) {

@@ -16,7 +16,7 @@ const FISHEYE: std::ops::RangeInclusive<f64> = 1e-6..=360.0;
 /// The least width and height of a panorama, in degrees.
 const NARROWEST: f64 = 1e-6;
 
-impl Validator {
+impl Validator<'_> {
     pub(super) fn projection(
         &mut self,
         path: &Path,
