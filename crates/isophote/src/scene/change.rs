@@ -1,6 +1,6 @@
 //! Valid scenes made of valid scenes.
 
-use super::read::Problems;
+use super::problems::Problems;
 use super::source::{GridSource, SamplingSource};
 use super::{Scene, SceneError, SceneSource, validate};
 use crate::import::NoFiles;

@@ -1,5 +1,9 @@
 //! What a scene may hold. The bounds on numbers keep every formula far from overflow.
 
+use std::ops::RangeInclusive;
+
+use crate::light::Spot;
+
 /// Size of a scene file in bytes.
 pub const FILE_BYTES: u64 = 64 << 20;
 /// Pixels in a row, and rows. A map in memory has its own limits, [`crate::map::Resolution::fits_memory`].
@@ -23,6 +27,22 @@ pub const RELATIVE_DISTANCE: f64 = 1e9;
 /// Rays for a pixel, and directions in which ambient light is looked for.
 pub const SAMPLES: u32 = 4096;
 /// The allowed error of a pixel, as a part of the largest brightness.
-pub const TOLERANCE: std::ops::RangeInclusive<f64> = 1e-4..=1.0;
+pub const TOLERANCE: RangeInclusive<f64> = 1e-4..=1.0;
+/// The largest coefficient of a material.
+pub const COEFFICIENT: f64 = 1.0;
 /// The largest shininess.
 pub const SHININESS: f64 = 1e5;
+/// The field of view of a perspective camera, in degrees: beyond, its screen is a point or has no end.
+pub const PERSPECTIVE_FIELD: RangeInclusive<f64> = 1e-6..=179.9999;
+/// That of a fisheye.
+pub const FISHEYE_FIELD: RangeInclusive<f64> = 1e-6..=360.0;
+/// The farthest edges of a panorama in longitude, in degrees.
+pub const LONGITUDE: f64 = 360.0;
+/// The same in latitude.
+pub const LATITUDE: f64 = 90.0;
+/// Half the opening of a spot's cones, in degrees.
+pub const CONE: f64 = 90.0;
+/// The least difference between a spot's cones, in degrees.
+pub const CONE_STEP: f64 = Spot::SHARPEST.to_degrees();
+/// A mesh's factors of scale.
+pub const SCALE: RangeInclusive<f64> = 1e-12..=1e12;

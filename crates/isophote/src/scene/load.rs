@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::error::Lines;
-use super::read::{self, Problems};
+use super::problems::Problems;
 use super::{FileResolver, Problem, ProblemKind, Scene, SceneError, SceneSource, Syntax, validate};
 use crate::import::{NoFiles, Origin, Resolver};
 
@@ -35,7 +35,7 @@ impl Scene {
             syntax_problems[0].help = Some(help.into());
         }
         problems.extend(syntax_problems);
-        let source = SceneSource { origin: files.origin(), ..read::read(&document, &mut problems) };
+        let source = SceneSource { origin: files.origin(), ..SceneSource::read(&document, &mut problems) };
         let lines = Lines::new(text);
         let locate = |mut problem: Problem| {
             problem.locate(&lines, &document);

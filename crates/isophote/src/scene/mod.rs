@@ -10,9 +10,10 @@ pub mod library;
 pub mod limits;
 mod load;
 mod parts;
-mod read;
+mod problems;
 mod sampling;
 pub mod source;
+mod table;
 mod validate;
 
 pub use color::{Lighting, SceneColor};

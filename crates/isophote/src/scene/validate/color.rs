@@ -4,7 +4,7 @@ use super::Validator;
 use crate::color::{ColorSpace, Component, Rgb};
 use crate::scene::document::Path;
 use crate::scene::limits;
-use crate::scene::read::Problems;
+use crate::scene::problems::Problems;
 use crate::scene::source::{Amount, SceneSource};
 use crate::scene::{Lighting, SceneColor};
 use crate::units::Keyword;
@@ -69,7 +69,7 @@ impl Validator<'_> {
 
     /// A coefficient between 0 and 1.
     pub(super) fn coefficient(&mut self, path: &Path, amount: Amount) -> Option<f64> {
-        self.amount(path, amount, 1.0, "allowed: 0 to 1")
+        self.amount(path, amount, limits::COEFFICIENT, &format!("allowed: 0 to {}", limits::COEFFICIENT))
     }
 
     /// An intensity, a power, an irradiance or a radiance.

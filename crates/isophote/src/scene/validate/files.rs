@@ -9,7 +9,7 @@ use crate::reflectance::Convention;
 use crate::scene::Scene;
 use crate::scene::document::Path;
 use crate::scene::limits;
-use crate::scene::read::short;
+use crate::scene::problems::short;
 use crate::scene::source::{MeshSource, RotationSource, SceneSource, ShadowSource, SpheresSource};
 use crate::shape::{Geometry, Mesh, MeshData, MeshPlacing, Sphere, Spheres};
 use crate::vector::Vector;
@@ -215,9 +215,10 @@ impl Validator<'_> {
         let factors = mesh.scale.unwrap_or([1.0; 3]);
         let mut all_allowed = true;
         for (index, factor) in factors.into_iter().enumerate() {
-            if !(1e-12..=1e12).contains(&factor) {
+            if !limits::SCALE.contains(&factor) {
                 let place = path.key("scale").index(index);
-                self.wrong(&place, format!("`{place}` is {factor}"), "allowed: 1e-12 to 1e12");
+                let help = format!("allowed: {:e} to {:e}", limits::SCALE.start(), limits::SCALE.end());
+                self.wrong(&place, format!("`{place}` is {factor}"), &help);
                 all_allowed = false;
             }
         }

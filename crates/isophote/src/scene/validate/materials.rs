@@ -5,7 +5,7 @@ use crate::reflectance::{Convention, Reflectance};
 use crate::scene::Material;
 use crate::scene::document::Path;
 use crate::scene::limits;
-use crate::scene::read::{closest, short, suggestion};
+use crate::scene::problems::{closest, short, suggestion};
 use crate::scene::source::{Amount, MaterialSource, SceneSource};
 use crate::units::Keyword;
 

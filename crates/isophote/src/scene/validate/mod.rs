@@ -18,7 +18,7 @@ use std::collections::HashSet;
 use self::color::ComponentSelector;
 use super::document::Path;
 use super::error::{Problem, ProblemKind};
-use super::read::{Problems, short};
+use super::problems::{Problems, short};
 use super::source::SceneSource;
 use super::{Scene, Shape, limits};
 use crate::camera::{Camera, Extent, Projection};

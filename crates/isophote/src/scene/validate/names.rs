@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::Validator;
 use crate::scene::document::Path;
-use crate::scene::read::short;
+use crate::scene::problems::short;
 
 /// Names of one kind of thing, which must differ.
 pub(super) struct Names {
