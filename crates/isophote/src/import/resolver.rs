@@ -61,6 +61,7 @@ impl ReadFailure {
     pub fn help(&self) -> String {
         match self {
             Self::Unreadable(_) | Self::Directory | Self::NoFile => "a relative path starts at the scene file".into(),
+            Self::Unknown(known) if known.is_empty() => "there are no files".into(),
             Self::Unknown(known) => format!("allowed: {}", known.join(", ")),
             Self::NoFiles => "allowed: shapes whose numbers stand in the scene itself".into(),
         }

@@ -61,12 +61,12 @@ tables! {
         /// Which formula gives the brightness (3.1 to 3.6).
         #[schemars(extend("default" = "radiance"))]
         pub convention: Option<Convention>,
-        /// Whether shapes stand in each other's light.
-        #[schemars(extend("default" = false))]
-        pub shadows: Option<bool>,
         /// Whether lights are given in W and W/sr, or in lm and cd.
         #[schemars(extend("default" = "radiometric"))]
         pub quantities: Option<UnitSystem>,
+        /// Whether shapes stand in each other's light.
+        #[schemars(extend("default" = false))]
+        pub shadows: Option<bool>,
         /// Which lights the three numbers of an amount that is written as [R, G, B] are amounts of: a space of linear RGB.
         #[schemars(extend("default" = "rec709"))]
         pub color_space: Option<ColorSpace>,
