@@ -30,7 +30,7 @@ pub fn render(
     let renderer = renderer(py, keyword(py, "precision", precision)?, threads)?;
     let region = region.map_or_else(|| Region::all(scene.core().camera().resolution), region_of);
     let content = scene.content();
-    let total = region.size.pixels() as u64;
+    let total = region.size.count();
     // Waiting for another thread would take longer than many a small map.
     let progress = Progress { function: progress, total };
     let quick = content.prepared_at_once().filter(|prepared| renderer.is_quick(prepared, region));

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use isophote::map::Resolution;
 use isophote::prepare::PreparedScene;
 use isophote::scene::library::Starter;
-use isophote::scene::{Scene as CoreScene, SceneError, Syntax};
+use isophote::scene::{FileResolver, Scene as CoreScene, SceneError, Syntax};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -106,7 +106,7 @@ impl Scene {
         let before = origin.clone();
         let scene = Self::read(py, names_files, move || {
             let earlier = before.as_ref().map(|before| &before.scene);
-            CoreScene::from_text_reusing(earlier, &directory, "the scene", &text, Syntax::Json)
+            CoreScene::from_text_with(&FileResolver::new(directory), earlier, "the scene", &text, Syntax::Json)
         })?;
         let scene = scene.map_err(|mut error| {
             for problem in &mut error.problems {
@@ -138,7 +138,8 @@ impl Scene {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, PathBuf))> {
         let scene = slf.get();
         let again = slf.get_type().getattr("from_json")?;
-        Ok((again, (scene.to_json(slf.py())?, scene.core().source().directory.clone())))
+        let directory = scene.core().source().origin.directory().map_or(PathBuf::new(), PathBuf::from);
+        Ok((again, (scene.to_json(slf.py())?, directory)))
     }
 
     fn to_toml(&self) -> String {

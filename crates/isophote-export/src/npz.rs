@@ -26,7 +26,7 @@ pub fn write(map: &Map, out: impl Write + Seek) -> Result<(), ExportError> {
     let mut archive = ZipWriter::new(SilentAfterError::new(out));
     start(&mut archive, "metadata", 0)?;
     write_text(&mut archive, &FileMetadata::of_stored(map, stored_as).to_json())?;
-    start(&mut archive, "mask", size.pixels() as u64)?;
+    start(&mut archive, "mask", size.count())?;
     archive.write_all(&npy::header("|b1", &format!("({}, {})", size.height, size.width)))?;
     let mut mask = vec![0; size.pixels()];
     for run in map.mask().runs() {

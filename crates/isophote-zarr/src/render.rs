@@ -50,7 +50,7 @@ impl Store {
         let mut pixels = [0, 0];
         for ((shard, &is_done), index) in self.plan().shards().zip(&self.was_done).zip(0..) {
             if part.is_none_or(|part| part.has(index)) {
-                let count = self.plan().region(shard).size.pixels() as u64;
+                let count = self.plan().region(shard).size.count();
                 pixels[0] += if is_done { count } else { 0 };
                 pixels[1] += count;
             }

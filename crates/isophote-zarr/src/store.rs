@@ -225,7 +225,7 @@ impl Store {
             preview.add(plan.region(shard), &record.preview).map_err(damaged)?;
             shards.push(record.statistics);
         }
-        let statistics = MapStatistics::new(plan.full.pixels() as u64, &quantities, &shards);
+        let statistics = MapStatistics::new(plan.full.count(), &quantities, &shards);
         if let (Some(main), Some(channel)) = (quantities.first(), metadata.channels.first())
             && main.is_scalar()
         {

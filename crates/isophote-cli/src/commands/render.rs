@@ -127,7 +127,7 @@ impl<'a> Job<'a> {
         let quantities =
             self.wanted.iter().cloned().chain([Quantity::Irradiance, self.main.clone()]).chain(sampled).collect();
         let region = arguments.region.unwrap_or(Region::all(scene.scene().camera().resolution));
-        let progress = Progress::new(region.size.pixels() as u64, arguments.quiet);
+        let progress = Progress::new(region.size.count(), arguments.quiet);
         let settings = RenderSettings { region: Some(region), quantities, observer: Some(&progress) };
         let map = SimdRenderer::new(arguments.precision, arguments.threads).render(scene, &settings);
         progress.finish();

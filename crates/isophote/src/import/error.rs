@@ -1,29 +1,19 @@
 //! What can be wrong with a file of meshes or points, and where.
 
-use std::{fmt, io, path::PathBuf};
+use std::{fmt, path::PathBuf};
+
+use super::ReadFailure;
 
 /// Why a file could not be imported.
 #[derive(Debug, thiserror::Error)]
 pub enum ImportError {
-    /// The file cannot be opened or read.
-    #[error("cannot read ‘{}’: {reason}", file.display())]
-    Unreadable {
+    /// Its contents cannot be had.
+    #[error("{}", failure.describe(file))]
+    Unread {
         /// The file asked for.
         file: PathBuf,
-        /// What the system said.
-        reason: io::Error,
-    },
-    /// The path is that of a directory.
-    #[error("‘{}’ is a directory; a file is needed", file.display())]
-    Directory {
-        /// The path asked for.
-        file: PathBuf,
-    },
-    /// The path is that of a pipe or a device.
-    #[error("‘{}’ is a pipe or a device; a file is needed", file.display())]
-    NoFile {
-        /// The path asked for.
-        file: PathBuf,
+        /// Why.
+        failure: ReadFailure,
     },
     /// The suffix of its name is that of no format which could be read here.
     #[error("‘{}’: its suffix names no format that can be read here; allowed are {allowed}", file.display())]

@@ -1,6 +1,6 @@
 //! The format of a file: chosen by its suffix, checked by its contents.
 
-use std::{fs::File, io::Read, path::Path};
+use std::path::Path;
 
 use super::{Fault, FilePosition, FileProblem, ImportError};
 
@@ -74,21 +74,6 @@ impl SpheresFormat {
             Self::Ply => Format::Ply,
         }
     }
-}
-
-/// The whole file.
-pub(super) fn contents(path: &Path) -> Result<Vec<u8>, ImportError> {
-    let unreadable = |reason| ImportError::Unreadable { file: path.into(), reason };
-    if path.is_dir() {
-        return Err(ImportError::Directory { file: path.into() });
-    }
-    if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
-        // A pipe may never end, and a device has no end.
-        return Err(ImportError::NoFile { file: path.into() });
-    }
-    let mut bytes = Vec::new();
-    File::open(path).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(unreadable)?;
-    Ok(bytes)
 }
 
 /// Refuses nothing that is of this format; most of what is of another one is told by name.

@@ -9,6 +9,7 @@ mod format;
 mod materials;
 mod mesh;
 mod ply;
+mod resolver;
 mod spheres;
 #[cfg(test)]
 mod tests;
@@ -20,26 +21,37 @@ pub use error::{Fault, FilePosition, FileProblem, ImportError};
 pub use format::{MeshFormat, SpheresFormat};
 pub use materials::MaterialSlots;
 pub use mesh::TriangleMesh;
+pub use resolver::{MemoryFiles, NoFiles, Origin, ReadFailure, Resolver};
 pub use spheres::SphereList;
 
 /// The triangles of a file whose suffix is `.obj`, `.ply`, `.stl` or `.glb`.
 ///
 /// # Errors
 /// [`ImportError`]: another suffix; a file that cannot be read; all that [`mesh_from_bytes`] refuses.
-pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ImportError> {
-    let format = MeshFormat::from_suffix(path)?;
-    let bytes = format::contents(path)?;
-    mesh_from_bytes(&bytes, format).map_err(|fault| ImportError::Content { file: path.into(), fault: fault.into() })
+pub fn read_mesh(files: &dyn Resolver, name: &str) -> Result<TriangleMesh, ImportError> {
+    read(files, name, MeshFormat::from_suffix, mesh_from_bytes)
 }
 
 /// The spheres of a file whose suffix is `.csv`, `.npy` or `.ply`.
 ///
 /// # Errors
 /// [`ImportError`]: another suffix; a file that cannot be read; all that [`spheres_from_bytes`] refuses.
-pub fn read_spheres(path: &Path) -> Result<SphereList, ImportError> {
-    let format = SpheresFormat::from_suffix(path)?;
-    let bytes = format::contents(path)?;
-    spheres_from_bytes(&bytes, format).map_err(|fault| ImportError::Content { file: path.into(), fault: fault.into() })
+pub fn read_spheres(files: &dyn Resolver, name: &str) -> Result<SphereList, ImportError> {
+    read(files, name, SpheresFormat::from_suffix, spheres_from_bytes)
+}
+
+fn read<F, T>(
+    files: &dyn Resolver,
+    name: &str,
+    format: impl FnOnce(&Path) -> Result<F, ImportError>,
+    content: impl FnOnce(&[u8], F) -> Result<T, Fault>,
+) -> Result<T, ImportError> {
+    let file = files.full_name(name);
+    let format = format(&file)?;
+    match files.read(name) {
+        Ok(bytes) => content(&bytes, format).map_err(|fault| ImportError::Content { file, fault: fault.into() }),
+        Err(failure) => Err(ImportError::Unread { file, failure }),
+    }
 }
 
 /// The triangles of a file's contents.

@@ -27,21 +27,28 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// Number of pixels.
+    /// Number of pixels, of an image of any size.
+    #[must_use]
+    pub fn count(self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+
+    /// Number of pixels of a map in memory. Of an image that no address space holds it is the largest number there is,
+    /// for which no memory can be had, and not what is left of a product that wrapped around.
     #[must_use]
     pub fn pixels(self) -> usize {
-        self.width as usize * self.height as usize
+        usize::try_from(self.count()).unwrap_or(usize::MAX)
     }
 
     /// The longest side of a map in memory: what the formats of pictures and their readers take.
     pub const LONGEST_IN_MEMORY: u32 = 65_536;
     /// Pixels of a map in memory: a channel of this many doubles takes 1 GiB.
-    pub const MOST_IN_MEMORY: usize = 1 << 27;
+    pub const MOST_IN_MEMORY: u64 = 1 << 27;
 
     /// Whether a map of this size may be held in memory as a whole; larger images are rendered region by region.
     #[must_use]
     pub fn fits_memory(self) -> bool {
-        self.width.max(self.height) <= Self::LONGEST_IN_MEMORY && self.pixels() <= Self::MOST_IN_MEMORY
+        self.width.max(self.height) <= Self::LONGEST_IN_MEMORY && self.count() <= Self::MOST_IN_MEMORY
     }
 }
 
@@ -274,5 +281,25 @@ impl Map {
         let width = self.region.size.width as usize;
         let corner = self.region.corner;
         Pixel { column: corner.column + (index % width) as u32, row: corner.row + (index / width) as u32 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// On 32 bits as on 64: 65536² there is 0 in the arithmetic of addresses.
+    #[test]
+    fn images_larger_than_any_memory_have_their_number_of_pixels() {
+        let square = |side| Resolution { width: side, height: side };
+        assert_eq!(square(65_536).count(), 1 << 32);
+        assert_eq!(square(1_000_000).count(), 1_000_000_000_000);
+        assert_eq!(square(65_536).pixels(), usize::try_from(1_u64 << 32).unwrap_or(usize::MAX));
+        for side in [65_536, 65_537, 1_000_000, u32::MAX] {
+            assert!(!square(side).fits_memory(), "{side}");
+        }
+        assert!(Resolution { width: 65_536, height: 2048 }.fits_memory());
+        assert!(!Resolution { width: 65_536, height: 2049 }.fits_memory());
+        assert!(!Resolution { width: 65_537, height: 1 }.fits_memory());
     }
 }

@@ -1,14 +1,13 @@
-//! Files on a disk: their names, and contents of other formats under them.
-
-use std::fs;
+//! Files by their names, and contents of other formats under them.
 
 use super::{
     mesh_fault, spheres_fault,
     write::{binary_stl, glb},
 };
 use crate::import::{
-    ImportError,
+    ImportError, MemoryFiles,
     MeshFormat::{self, Glb, Obj, Ply, Stl},
+    Resolver,
     SpheresFormat::{self, Csv, Npy},
     read_mesh, read_spheres,
 };
@@ -17,33 +16,25 @@ const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 #[test]
 fn a_format_is_chosen_by_the_suffix_in_either_case() {
-    let folder = tempfile::tempdir().unwrap();
-    let mesh = folder.path().join("Triangle.OBJ");
-    fs::write(&mesh, TRIANGLE).unwrap();
-    assert_eq!(read_mesh(&mesh).unwrap().triangles.len(), 1);
-    let points = folder.path().join("points.csv");
-    fs::write(&points, "x,y,z,radius\n1,2,3,4\n").unwrap();
-    assert_eq!(read_spheres(&points).unwrap().radii, [4.0]);
+    let files = MemoryFiles::from_iter([("Triangle.OBJ", TRIANGLE), ("points.csv", "x,y,z,radius\n1,2,3,4\n")]);
+    assert_eq!(read_mesh(&files, "Triangle.OBJ").unwrap().triangles.len(), 1);
+    assert_eq!(read_spheres(&files, "points.csv").unwrap().radii, [4.0]);
 }
 
 #[test]
-fn what_is_wrong_with_a_file_is_said_with_its_name() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name);
-    let message = |error: ImportError| error.to_string().replace(&folder.path().display().to_string(), "…");
-    fs::create_dir(path("folder.obj")).unwrap();
-    fs::write(path("scene.blend"), TRIANGLE).unwrap();
-    fs::write(path("wrong.obj"), "v 0 0 zero\n").unwrap();
-    fs::write(path("points.csv"), "x,y,z,radius\n0,0,0,-1\n").unwrap();
-    let mesh = |name: &str| message(read_mesh(&path(name)).unwrap_err());
-    let spheres = |name: &str| message(read_spheres(&path(name)).unwrap_err());
-    assert_eq!(mesh("folder.obj"), "‘…/folder.obj’ is a directory; a file is needed");
-    assert!(mesh("nothing.obj").starts_with("cannot read ‘…/nothing.obj’: "));
-    let suffix = "its suffix names no format that can be read here; allowed are";
-    assert_eq!(mesh("scene.blend"), format!("‘…/scene.blend’: {suffix} .obj, .ply, .stl and .glb"));
-    assert_eq!(spheres("wrong.obj"), format!("‘…/wrong.obj’: {suffix} .csv, .npy and .ply"));
-    assert_eq!(mesh("wrong.obj"), "‘…/wrong.obj’, line 1: z is ‘zero’; a number is needed");
-    assert_eq!(spheres("points.csv"), "‘…/points.csv’, line 2: radius is -1; it must be greater than 0");
+fn a_file_that_is_not_at_hand_is_called_by_its_name() {
+    let files = MemoryFiles::from_iter([("triangle.obj", TRIANGLE), ("square.obj", TRIANGLE)]);
+    let error = read_mesh(&files, "circle.obj").unwrap_err();
+    assert_eq!(error.to_string(), "there is no file ‘circle.obj’ here");
+    let ImportError::Unread { failure, .. } = error else { panic!("{error}") };
+    assert_eq!(failure.help(), "allowed: square.obj, triangle.obj");
+}
+
+#[test]
+fn files_in_memory_are_told_apart_by_what_they_hold() {
+    let files = |content: &str| MemoryFiles::from_iter([("triangle.obj", content)]).origin();
+    assert!(files(TRIANGLE).is_same_place(&files(TRIANGLE)));
+    assert!(!files(TRIANGLE).is_same_place(&files("")));
 }
 
 #[test]

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::SceneSource;
 use crate::color::{Component, Rgb};
+use crate::scene::limits;
 
 /// One number for all components of the light, or one for each.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -86,7 +87,7 @@ impl JsonSchema for Coefficient {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        one_or_three(&json_schema!({"type": "number", "minimum": 0.0, "maximum": 1.0}))
+        one_or_three(&json_schema!({"type": "number", "minimum": 0.0, "maximum": limits::COEFFICIENT}))
     }
 }
 
@@ -100,7 +101,7 @@ impl JsonSchema for Strength {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        one_or_three(&json_schema!({"type": "number", "minimum": 0.0}))
+        one_or_three(&json_schema!({"type": "number", "minimum": 0.0, "maximum": limits::INTENSITY}))
     }
 }
 

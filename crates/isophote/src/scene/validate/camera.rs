@@ -1,14 +1,15 @@
 //! The observer.
 
+use super::Validator;
 use super::numbers::vector_text;
-use super::{Validator, limits};
 use crate::camera::{Camera, Handedness};
 use crate::map::Resolution;
 use crate::scene::document::Path;
+use crate::scene::limits;
 use crate::scene::source::{CameraSource, SceneSource};
 use crate::vector::Vector;
 
-impl Validator {
+impl Validator<'_> {
     pub(super) fn camera(&mut self, source: &SceneSource) -> Option<Camera> {
         let path = Path::root().key("camera");
         let Some(camera) = &source.camera else {

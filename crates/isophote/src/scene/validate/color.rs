@@ -1,9 +1,10 @@
 //! Coefficients and strengths that may be three numbers.
 
-use super::{Validator, limits};
+use super::Validator;
 use crate::color::{ColorSpace, Component, Rgb};
 use crate::scene::document::Path;
-use crate::scene::read::Problems;
+use crate::scene::limits;
+use crate::scene::problems::Problems;
 use crate::scene::source::{Amount, SceneSource};
 use crate::scene::{Lighting, SceneColor};
 use crate::units::Keyword;
@@ -27,7 +28,7 @@ impl ComponentSelector {
     }
 }
 
-impl Validator {
+impl Validator<'_> {
     /// What depends on the component, of a scene in which any amount is written as three numbers; its other parts, and
     /// all mistakes, have been found by then.
     pub(super) fn color(&mut self, source: &SceneSource) -> Option<SceneColor> {
@@ -54,7 +55,7 @@ impl Validator {
             convention: self.convention,
             shadows: self.shadows,
             collapse: ComponentSelector::Component(component),
-            directory: self.directory.clone(),
+            files: self.files,
             materials: Vec::new(),
             problems: Problems::default(),
             warnings: Problems::default(),
@@ -68,7 +69,7 @@ impl Validator {
 
     /// A coefficient between 0 and 1.
     pub(super) fn coefficient(&mut self, path: &Path, amount: Amount) -> Option<f64> {
-        self.amount(path, amount, 1.0, "allowed: 0 to 1")
+        self.amount(path, amount, limits::COEFFICIENT, &format!("allowed: 0 to {}", limits::COEFFICIENT))
     }
 
     /// An intensity, a power, an irradiance or a radiance.

@@ -1,15 +1,15 @@
 //! Shapes that are read from files of their own.
 
-use std::path::Path as FilePath;
 use std::sync::Arc;
 
+use super::Validator;
 use super::shapes::{ShapeSource, shape_head};
-use super::{Validator, limits};
-use crate::import::{self, ImportError, MaterialSlots, TriangleMesh};
+use crate::import::{self, ImportError, MaterialSlots, Resolver, TriangleMesh};
 use crate::reflectance::Convention;
 use crate::scene::Scene;
 use crate::scene::document::Path;
-use crate::scene::read::short;
+use crate::scene::limits;
+use crate::scene::problems::short;
 use crate::scene::source::{MeshSource, RotationSource, SceneSource, ShadowSource, SpheresSource};
 use crate::shape::{Geometry, Mesh, MeshData, MeshPlacing, Sphere, Spheres};
 use crate::vector::Vector;
@@ -21,7 +21,7 @@ impl ShapeSource for MeshSource {
         true
     }
 
-    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+    fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         if let Some((_, geometry)) = validator.kept.meshes.iter().find(|(form, _)| *form == MeshForm::of(self)) {
             return Some(geometry.clone());
         }
@@ -59,7 +59,7 @@ impl ShapeSource for SpheresSource {
         true
     }
 
-    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+    fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         if let Some((_, geometry)) = validator.kept.clouds.iter().find(|(form, _)| *form == CloudForm::of(self)) {
             return Some(geometry.clone());
         }
@@ -136,7 +136,7 @@ impl GeometryCache {
     pub(super) fn of(earlier: &Scene, source: &SceneSource) -> Self {
         let before = &earlier.source;
         let uses_material = source.convention.unwrap_or(Convention::Radiance).uses_material();
-        let is_alike = is_same_place(&before.directory, &source.directory)
+        let is_alike = before.origin.is_same_place(&source.origin)
             && before.length == source.length
             && before.material.keys().eq(source.material.keys())
             && earlier.convention.uses_material() == uses_material;
@@ -154,33 +154,27 @@ impl GeometryCache {
     }
 }
 
-fn is_same_place(one: &FilePath, other: &FilePath) -> bool {
-    let absolute =
-        |path: &FilePath| std::path::absolute(if path.as_os_str().is_empty() { FilePath::new(".") } else { path });
-    one == other || matches!((absolute(one), absolute(other)), (Ok(one), Ok(other)) if one == other)
-}
-
-impl Validator {
+impl Validator<'_> {
     /// What a file holds; a relative path starts at the scene file.
     fn imported<T>(
         &mut self,
         path: &Path,
         file: Option<&str>,
-        read: impl FnOnce(&std::path::Path) -> Result<T, ImportError>,
+        read: impl FnOnce(&dyn Resolver, &str) -> Result<T, ImportError>,
     ) -> Option<T> {
         let Some(file) = file else {
             self.problems.missing(path, "file", "write `file = \"…\"`, a path that starts at the scene file");
             return None;
         };
-        match read(&self.directory.join(file)) {
+        match read(self.files, file) {
             Ok(content) => Some(content),
             Err(error) => {
                 let help = match &error {
-                    ImportError::Suffix { .. } => "the suffix says how the file is read",
-                    ImportError::Content { .. } => "mend the file, or name another one",
-                    _ => "a relative path starts at the scene file",
+                    ImportError::Unread { failure, .. } => failure.help(),
+                    ImportError::Suffix { .. } => "the suffix says how the file is read".into(),
+                    ImportError::Content { .. } => "mend the file, or name another one".into(),
                 };
-                self.wrong(&path.key("file"), error.to_string(), help);
+                self.wrong(&path.key("file"), error.to_string(), &help);
                 None
             }
         }
@@ -221,9 +215,10 @@ impl Validator {
         let factors = mesh.scale.unwrap_or([1.0; 3]);
         let mut all_allowed = true;
         for (index, factor) in factors.into_iter().enumerate() {
-            if !(1e-12..=1e12).contains(&factor) {
+            if !limits::SCALE.contains(&factor) {
                 let place = path.key("scale").index(index);
-                self.wrong(&place, format!("`{place}` is {factor}"), "allowed: 1e-12 to 1e12");
+                let help = format!("allowed: {:e} to {:e}", limits::SCALE.start(), limits::SCALE.end());
+                self.wrong(&place, format!("`{place}` is {factor}"), &help);
                 all_allowed = false;
             }
         }

@@ -1,17 +1,18 @@
 //! Grids, each for itself.
 
 use super::names::Names;
-use super::{Checked, Validator, limits};
+use super::{Checked, Validator};
 use crate::map::Resolution;
 use crate::scene::Grid;
 use crate::scene::document::Path;
+use crate::scene::limits;
 use crate::scene::source::{GridSource, SceneSource};
 use crate::vector::Vector;
 
 /// How far from a right angle the edges of a grid may be: the cosine between them.
 const RIGHT_ANGLE: f64 = 1e-9;
 
-impl Validator {
+impl Validator<'_> {
     pub(super) fn grids(&mut self, source: &SceneSource) -> Checked<Grid> {
         if !self.few_enough("grid", source.grid.len(), limits::GRIDS) {
             return Vec::new();

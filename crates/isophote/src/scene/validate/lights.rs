@@ -1,14 +1,15 @@
 //! Lights, each for itself.
 
 use super::names::Names;
-use super::{Checked, Validator, limits};
+use super::{Checked, Validator};
 use crate::light::{Ambient, Emission, Light, LightKind, ParallelLight, PointLight, Spot};
 use crate::scene::document::Path;
+use crate::scene::limits;
 use crate::scene::source::{EmissionName, LightSource, SceneSource};
 use crate::units::Keyword;
 use crate::vector::Vector;
 
-impl Validator {
+impl Validator<'_> {
     pub(super) fn lights(&mut self, source: &SceneSource) -> Checked<Light> {
         if !self.few_enough("light", source.light.len(), limits::LIGHTS) {
             return Vec::new();
@@ -79,21 +80,22 @@ impl Validator {
                 self.problems.missing(path, key, format!("write `{key} = …`, in degrees from the axis: {what}"));
                 return None;
             };
-            if (0.0..=90.0).contains(&angle) {
+            if (0.0..=limits::CONE).contains(&angle) {
                 return Some(angle);
             }
             let message = format!("`{path}.{key}` is {angle}");
-            self.wrong(&path.key(key), message, "allowed: 0 to 90 degrees, from the axis to the edge of the cone");
+            let help = format!("allowed: 0 to {} degrees, from the axis to the edge of the cone", limits::CONE);
+            self.wrong(&path.key(key), message, &help);
             None
         };
         let inner = angle("inner_angle", light.inner_angle, "inside, the spot has its full intensity");
         let outer = angle("outer_angle", light.outer_angle, "outside, the spot sends nothing");
         let [inner, outer] = [inner?, outer?];
         // So that a difference that is written as half a degree is one.
-        if outer.to_radians() - inner.to_radians() < Spot::SHARPEST * (1.0 - 1e-9) {
+        if outer - inner < limits::CONE_STEP * (1.0 - 1e-9) {
             let message = format!("`{path}` has cones from {inner} to {outer} degrees");
-            let help = "allowed: `outer_angle` at least 0.5 degrees more than `inner_angle`";
-            self.wrong(&path.key("outer_angle"), message, help);
+            let help = format!("allowed: `outer_angle` at least {} degrees more than `inner_angle`", limits::CONE_STEP);
+            self.wrong(&path.key("outer_angle"), message, &help);
             return None;
         }
         Some([inner.to_radians(), outer.to_radians()])

@@ -1,14 +1,15 @@
 //! Materials.
 
-use super::{Checked, Validator, limits};
+use super::{Checked, Validator};
 use crate::reflectance::{Convention, Reflectance};
 use crate::scene::Material;
 use crate::scene::document::Path;
-use crate::scene::read::{closest, short, suggestion};
+use crate::scene::limits;
+use crate::scene::problems::{closest, short, suggestion};
 use crate::scene::source::{Amount, MaterialSource, SceneSource};
 use crate::units::Keyword;
 
-impl Validator {
+impl Validator<'_> {
     pub(super) fn materials(&mut self, source: &SceneSource) -> Checked<Material> {
         source.material.iter().map(|(name, material)| self.material(name, material)).collect()
     }

@@ -14,52 +14,23 @@ mod projection;
 mod shapes;
 
 use std::collections::HashSet;
-use std::path::PathBuf;
 
 use self::color::ComponentSelector;
 use super::document::Path;
 use super::error::{Problem, ProblemKind};
-use super::read::{Problems, short};
+use super::problems::{Problems, short};
 use super::source::SceneSource;
-use super::{Scene, Shape};
+use super::{Scene, Shape, limits};
 use crate::camera::{Camera, Extent, Projection};
+use crate::import::Resolver;
 use crate::reflectance::Convention;
 use crate::scene::Sampling;
 use crate::units::{LengthUnit, ScreenUnit, UnitSystem};
 
-/// What a scene may hold. The bounds on numbers keep every formula far from overflow.
-pub mod limits {
-    /// Size of a scene file in bytes.
-    pub const FILE_BYTES: u64 = 64 << 20;
-    /// Pixels in a row, and rows. A map in memory has its own limits, [`crate::map::Resolution::fits_memory`].
-    pub const SIDE: u32 = 1_000_000;
-    /// Lights in a scene.
-    pub const LIGHTS: usize = 100_000;
-    /// Shapes in a scene, of all kinds together.
-    pub const SHAPES: usize = 100_000;
-    /// Probes in a scene.
-    pub const PROBES: usize = 100_000;
-    /// Grids in a scene.
-    pub const GRIDS: usize = 1000;
-    /// The largest coordinate, in metres: a tenth of a light year.
-    pub const COORDINATE: f64 = 1e15;
-    /// The smallest radius and screen, in metres.
-    pub const SMALLEST: f64 = 1e-12;
-    /// The largest intensity, power, irradiance and radiance.
-    pub const INTENSITY: f64 = 1e30;
-    /// How many sizes of a shape the eye may be away before a warning says that the promised digits are not kept.
-    pub const RELATIVE_DISTANCE: f64 = 1e9;
-    /// Rays for a pixel, and directions in which ambient light is looked for.
-    pub const SAMPLES: u32 = 4096;
-    /// The allowed error of a pixel, as a part of the largest brightness.
-    pub const TOLERANCE: std::ops::RangeInclusive<f64> = 1e-4..=1.0;
-    /// The largest shininess.
-    pub const SHININESS: f64 = 1e5;
-}
-
 /// Checks a scene, given what is already known to be wrong with it. Files that an earlier one has read alike are not read again.
 pub(super) fn validate(
     source: SceneSource,
+    files: &dyn Resolver,
     problems: Problems,
     earlier: Option<&Scene>,
 ) -> Result<Scene, Vec<Problem>> {
@@ -69,7 +40,7 @@ pub(super) fn validate(
         convention: source.convention.unwrap_or(Convention::Radiance),
         shadows: source.shadows.unwrap_or(false),
         collapse: ComponentSelector::Luminance(source.color_space.unwrap_or_default()),
-        directory: source.directory.clone(),
+        files,
         materials: source.material.keys().cloned().collect(),
         problems,
         warnings: Problems::default(),
@@ -115,14 +86,14 @@ pub(super) fn validate(
 /// Lists keep the places of items that are wrong, as `None`, so that indices stay those of the file.
 type Checked<T> = Vec<Option<T>>;
 
-struct Validator {
+struct Validator<'f> {
     length: LengthUnit,
     convention: Convention,
     shadows: bool,
     /// Which one number three become.
     collapse: ComponentSelector,
-    /// Where relative paths start.
-    directory: PathBuf,
+    /// Those that the scene names.
+    files: &'f dyn Resolver,
     /// The names of the materials, in their order.
     materials: Vec<String>,
     /// What need not be read again.
@@ -131,7 +102,7 @@ struct Validator {
     warnings: Problems,
 }
 
-impl Validator {
+impl Validator<'_> {
     fn head(&mut self, source: &SceneSource) {
         let root = Path::root();
         match source.version {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::Validator;
 use crate::scene::document::Path;
-use crate::scene::read::short;
+use crate::scene::problems::short;
 
 /// Names of one kind of thing, which must differ.
 pub(super) struct Names {
@@ -18,7 +18,7 @@ impl Names {
     }
 
     /// The name of the thing at a path, or the default one, which is that path.
-    pub(super) fn check(&mut self, validator: &mut Validator, thing: &Path, name: Option<&str>) -> Option<String> {
+    pub(super) fn check(&mut self, validator: &mut Validator<'_>, thing: &Path, name: Option<&str>) -> Option<String> {
         let name = name.map_or_else(|| thing.to_string(), str::to_owned);
         let path = thing.key("name");
         if name.is_empty() || name.chars().any(char::is_control) {

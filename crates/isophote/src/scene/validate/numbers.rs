@@ -1,10 +1,11 @@
 //! Points, sizes, directions and fractions.
 
-use super::{Validator, limits};
+use super::Validator;
 use crate::scene::document::Path;
+use crate::scene::limits;
 use crate::vector::Vector;
 
-impl Validator {
+impl Validator<'_> {
     pub(super) fn required_point(&mut self, path: &Path, key: &str, point: Option<[f64; 3]>) -> Option<Vector> {
         let Some(point) = point else {
             self.problems.missing(path, key, format!("write `{key} = [x, y, z]`"));

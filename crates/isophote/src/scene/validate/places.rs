@@ -1,13 +1,14 @@
 //! Where things stand to each other.
 
-use super::{Checked, Validator, limits};
+use super::{Checked, Validator};
 use crate::camera::{Camera, Projection};
 use crate::light::Light;
 use crate::scene::document::Path;
+use crate::scene::limits;
 use crate::scene::{Probe, Shape};
 use crate::shape::surface_at;
 
-impl Validator {
+impl Validator<'_> {
     pub(super) fn eye_against_shapes(&mut self, camera: Option<&Camera>, shapes: &Checked<Shape>) {
         let Some(camera) = camera else { return };
         // Parallel rays start all over a plane, which may well cut through shapes.

@@ -1,12 +1,13 @@
 //! Probes.
 
 use super::names::Names;
-use super::{Checked, Validator, limits};
+use super::{Checked, Validator};
 use crate::scene::Probe;
 use crate::scene::document::Path;
+use crate::scene::limits;
 use crate::scene::source::{ProbeSource, SceneSource};
 
-impl Validator {
+impl Validator<'_> {
     pub(super) fn probes(&mut self, source: &SceneSource) -> Checked<Probe> {
         if !self.few_enough("probe", source.probe.len(), limits::PROBES) {
             return Vec::new();

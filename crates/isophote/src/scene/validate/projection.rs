@@ -4,19 +4,14 @@ use super::Validator;
 use crate::camera::{Extent, Fisheye, Mapping, Projection, Screen};
 use crate::map::Resolution;
 use crate::scene::document::Path;
+use crate::scene::limits;
 use crate::scene::source::{CameraSource, ProjectionName, ScreenSource, WindowSource};
 use crate::units::Keyword;
-
-/// The fields of view of a perspective camera, in degrees: beyond, the screen is a point or has no end.
-const PERSPECTIVE: std::ops::RangeInclusive<f64> = 1e-6..=179.9999;
-
-/// Those of a fisheye.
-const FISHEYE: std::ops::RangeInclusive<f64> = 1e-6..=360.0;
 
 /// The least width and height of a panorama, in degrees.
 const NARROWEST: f64 = 1e-6;
 
-impl Validator {
+impl Validator<'_> {
     pub(super) fn projection(
         &mut self,
         path: &Path,
@@ -48,7 +43,7 @@ impl Validator {
                 None
             }
             (None, Some(field_of_view)) => {
-                let field_of_view = self.field_of_view(path, field_of_view, PERSPECTIVE)?;
+                let field_of_view = self.field_of_view(path, field_of_view, limits::PERSPECTIVE_FIELD)?;
                 let distance = self.length.to_metres(1.0);
                 Some(Screen::of_field_of_view(field_of_view, distance, resolution?))
             }
@@ -87,7 +82,7 @@ impl Validator {
             self.problems.missing(path, "field_of_view", help);
             return None;
         };
-        Some(Fisheye { mapping, field_of_view: self.field_of_view(path, field_of_view, FISHEYE)? })
+        Some(Fisheye { mapping, field_of_view: self.field_of_view(path, field_of_view, limits::FISHEYE_FIELD)? })
     }
 
     fn field_of_view(&mut self, path: &Path, value: f64, allowed: std::ops::RangeInclusive<f64>) -> Option<f64> {
@@ -101,8 +96,8 @@ impl Validator {
     }
 
     fn panorama(&mut self, path: &Path, camera: &CameraSource) -> Option<Extent> {
-        let x = self.angles(path, "longitude", camera.longitude.unwrap_or([-180.0, 180.0]), 360.0);
-        let y = self.angles(path, "latitude", camera.latitude.unwrap_or([-90.0, 90.0]), 90.0);
+        let x = self.angles(path, "longitude", camera.longitude.unwrap_or([-180.0, 180.0]), limits::LONGITUDE);
+        let y = self.angles(path, "latitude", camera.latitude.unwrap_or([-90.0, 90.0]), limits::LATITUDE);
         Some(Extent { x: x?, y: y? })
     }
 

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use super::names::Names;
 use super::numbers::vector_text;
-use super::{Checked, Validator, limits};
+use super::{Checked, Validator};
 use crate::scene::Shape;
 use crate::scene::document::Path;
+use crate::scene::limits;
 use crate::scene::source::{
     ConeSource, CuboidSource, CylinderSource, DiskSource, EllipsoidSource, PlaneSource, RectangleSource,
     RotationSource, SceneSource, ShadowSource, SphereSource,
@@ -29,7 +30,7 @@ pub(super) trait ShapeSource {
     }
 
     /// Its form and place.
-    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry>;
+    fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry>;
 }
 
 /// [`ShapeSource::head`], of the fields that all have.
@@ -74,7 +75,7 @@ pub(super) fn count(source: &SceneSource) -> usize {
     written(source).count()
 }
 
-impl Validator {
+impl Validator<'_> {
     pub(super) fn shapes(&mut self, source: &SceneSource) -> Checked<Shape> {
         if let Some((path, _)) = written(source).nth(limits::SHAPES) {
             let message = format!("the scene has {} shapes", count(source));
@@ -140,7 +141,7 @@ impl Validator {
 impl ShapeSource for SphereSource {
     shape_head!();
 
-    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+    fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
         let radius = validator.required_size(path, "radius", self.radius);
         Some(Geometry::Sphere(Sphere { center: center?, radius: radius? }))
@@ -150,7 +151,7 @@ impl ShapeSource for SphereSource {
 impl ShapeSource for EllipsoidSource {
     shape_head!();
 
-    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+    fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
         let radii = validator.required_sizes(path, "radii", self.radii);
         let rotation = validator.rotation(path, self.rotation);
@@ -161,7 +162,7 @@ impl ShapeSource for EllipsoidSource {
 impl ShapeSource for CuboidSource {
     shape_head!();
 
-    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+    fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
         let size = validator.required_sizes(path, "size", self.size);
         let rotation = validator.rotation(path, self.rotation);
@@ -172,7 +173,7 @@ impl ShapeSource for CuboidSource {
 impl ShapeSource for CylinderSource {
     shape_head!();
 
-    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+    fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         let ends = validator.ends(path, ["from", "to"], [self.from, self.to]);
         let radius = validator.required_size(path, "radius", self.radius);
         let [from, to] = ends?;
@@ -183,7 +184,7 @@ impl ShapeSource for CylinderSource {
 impl ShapeSource for ConeSource {
     shape_head!();
 
-    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+    fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         let ends = validator.ends(path, ["base", "apex"], [self.base, self.apex]);
         let radius = validator.required_size(path, "radius", self.radius);
         let apex_radius = match self.apex_radius {
@@ -203,7 +204,7 @@ impl ShapeSource for ConeSource {
 impl ShapeSource for PlaneSource {
     shape_head!();
 
-    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+    fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         let point = validator.required_point(path, "point", self.point);
         let normal = validator.required_direction(path, "normal", self.normal);
         Some(Geometry::Plane(Arc::new(Plane::new(point?, normal?))))
@@ -213,7 +214,7 @@ impl ShapeSource for PlaneSource {
 impl ShapeSource for RectangleSource {
     shape_head!();
 
-    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+    fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
         let facing = validator.facing(path, self);
         let width = validator.required_size(path, "width", self.width);
@@ -226,7 +227,7 @@ impl ShapeSource for RectangleSource {
 impl ShapeSource for DiskSource {
     shape_head!();
 
-    fn geometry(&self, validator: &mut Validator, path: &Path) -> Option<Geometry> {
+    fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         let center = validator.required_point(path, "center", self.center);
         let normal = validator.required_direction(path, "normal", self.normal);
         let radius = validator.required_size(path, "radius", self.radius);

@@ -1,0 +1,83 @@
+//! Where the files that a scene names come from: the caller says, so that nothing else here knows a file system.
+
+mod memory;
+mod origin;
+
+use std::borrow::Cow;
+use std::io;
+use std::path::PathBuf;
+
+pub use memory::MemoryFiles;
+pub use origin::Origin;
+
+/// Gives the contents of files by the names that a scene has for them.
+pub trait Resolver {
+    /// The contents of a file.
+    ///
+    /// # Errors
+    /// Why there are none.
+    fn read(&self, name: &str) -> Result<Cow<'_, [u8]>, ReadFailure>;
+
+    /// Where names start. What was read of one origin is not read again of an equal one.
+    fn origin(&self) -> Origin;
+
+    /// The file as messages call it.
+    fn full_name(&self, name: &str) -> PathBuf {
+        name.into()
+    }
+}
+
+/// Why the contents of a file cannot be had.
+#[derive(Debug)]
+pub enum ReadFailure {
+    /// It cannot be opened or read; the system's reason.
+    Unreadable(io::Error),
+    /// Its path is that of a directory.
+    Directory,
+    /// Its path is that of a pipe, which may never end, or of a device, which has no end.
+    NoFile,
+    /// It is not among the files at hand, which have these names.
+    Unknown(Vec<String>),
+    /// No file at all can be read here.
+    NoFiles,
+}
+
+impl ReadFailure {
+    /// What is wrong with a file, as people read it.
+    #[must_use]
+    pub fn describe(&self, file: &std::path::Path) -> String {
+        let file = file.display();
+        match self {
+            Self::Unreadable(reason) => format!("cannot read ‘{file}’: {reason}"),
+            Self::Directory => format!("‘{file}’ is a directory; a file is needed"),
+            Self::NoFile => format!("‘{file}’ is a pipe or a device; a file is needed"),
+            Self::Unknown(_) => format!("there is no file ‘{file}’ here"),
+            Self::NoFiles => format!("the scene names the file ‘{file}’; none can be read here"),
+        }
+    }
+
+    /// What is allowed, or what to do.
+    #[must_use]
+    pub fn help(&self) -> String {
+        match self {
+            Self::Unreadable(_) | Self::Directory | Self::NoFile => "a relative path starts at the scene file".into(),
+            Self::Unknown(known) if known.is_empty() => "there are no files".into(),
+            Self::Unknown(known) => format!("allowed: {}", known.join(", ")),
+            Self::NoFiles => "allowed: shapes whose numbers stand in the scene itself".into(),
+        }
+    }
+}
+
+/// No files at all, as in a browser: a scene that names one is refused.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoFiles;
+
+impl Resolver for NoFiles {
+    fn read(&self, _: &str) -> Result<Cow<'_, [u8]>, ReadFailure> {
+        Err(ReadFailure::NoFiles)
+    }
+
+    fn origin(&self) -> Origin {
+        Origin::Named("no files".into())
+    }
+}

@@ -1,0 +1,40 @@
+//! Where the names of files start.
+
+use std::path::{Path, PathBuf, absolute};
+
+/// Where the names of files in a scene start.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// In this directory of the file system.
+    Directory(PathBuf),
+    /// Elsewhere. Two that are named alike must give the same contents for the same names.
+    Named(String),
+}
+
+impl Default for Origin {
+    /// The working directory.
+    fn default() -> Self {
+        Self::Directory(PathBuf::new())
+    }
+}
+
+impl Origin {
+    /// The directory, if it is one.
+    #[must_use]
+    pub fn directory(&self) -> Option<&Path> {
+        match self {
+            Self::Directory(directory) => Some(directory),
+            Self::Named(_) => None,
+        }
+    }
+
+    /// Whether the same name is that of the same file, however a directory is written.
+    #[must_use]
+    pub fn is_same_place(&self, other: &Self) -> bool {
+        let absolute = |path: &Path| absolute(if path.as_os_str().is_empty() { Path::new(".") } else { path });
+        let is_same_directory =
+            |one, other| matches!((absolute(one), absolute(other)), (Ok(one), Ok(other)) if one == other);
+        self == other
+            || self.directory().zip(other.directory()).is_some_and(|(one, other)| is_same_directory(one, other))
+    }
+}

@@ -1,0 +1,50 @@
+//! Valid scenes made of valid scenes.
+
+use super::problems::Problems;
+use super::source::{GridSource, SamplingSource};
+use super::{Scene, SceneError, SceneSource, validate};
+use crate::import::NoFiles;
+use crate::map::Resolution;
+
+impl Scene {
+    /// The scene with another number of pixels.
+    ///
+    /// # Errors
+    /// A resolution out of the [`limits`](super::limits).
+    pub fn with_resolution(&self, resolution: Resolution) -> Result<Self, SceneError> {
+        self.changed(|source| {
+            source.camera.get_or_insert_default().resolution =
+                Some([u64::from(resolution.width), u64::from(resolution.height)]);
+        })
+    }
+
+    /// The scene with what is given here in place of its own sampling.
+    ///
+    /// # Errors
+    /// Numbers out of the [`limits`](super::limits).
+    pub fn with_sampling(&self, given: &SamplingSource) -> Result<Self, SceneError> {
+        self.changed(|source| {
+            let sampling = source.sampling.get_or_insert_default();
+            sampling.samples = given.samples.or(sampling.samples);
+            sampling.tolerance = given.tolerance.or(sampling.tolerance);
+            sampling.filter = given.filter.or(sampling.filter);
+        })
+    }
+
+    /// The scene with this grid in place of its own.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the grid.
+    pub fn with_grid(&self, grid: GridSource) -> Result<Self, SceneError> {
+        self.changed(|source| source.grid = vec![grid])
+    }
+
+    /// The scene with something else written in it that has nothing to do with its files: none is read again.
+    fn changed(&self, change: impl FnOnce(&mut SceneSource)) -> Result<Self, SceneError> {
+        let mut source = self.source.clone();
+        change(&mut source);
+        let name = "the scene".into();
+        validate::validate(source, &NoFiles, Problems::default(), Some(self))
+            .map_err(|problems| SceneError { name, problems })
+    }
+}

@@ -1,0 +1,48 @@
+//! What a scene may hold. The bounds on numbers keep every formula far from overflow.
+
+use std::ops::RangeInclusive;
+
+use crate::light::Spot;
+
+/// Size of a scene file in bytes.
+pub const FILE_BYTES: u64 = 64 << 20;
+/// Pixels in a row, and rows. A map in memory has its own limits, [`crate::map::Resolution::fits_memory`].
+pub const SIDE: u32 = 1_000_000;
+/// Lights in a scene.
+pub const LIGHTS: usize = 100_000;
+/// Shapes in a scene, of all kinds together.
+pub const SHAPES: usize = 100_000;
+/// Probes in a scene.
+pub const PROBES: usize = 100_000;
+/// Grids in a scene.
+pub const GRIDS: usize = 1000;
+/// The largest coordinate, in metres: a tenth of a light year.
+pub const COORDINATE: f64 = 1e15;
+/// The smallest radius and screen, in metres.
+pub const SMALLEST: f64 = 1e-12;
+/// The largest intensity, power, irradiance and radiance.
+pub const INTENSITY: f64 = 1e30;
+/// How many sizes of a shape the eye may be away before a warning says that the promised digits are not kept.
+pub const RELATIVE_DISTANCE: f64 = 1e9;
+/// Rays for a pixel, and directions in which ambient light is looked for.
+pub const SAMPLES: u32 = 4096;
+/// The allowed error of a pixel, as a part of the largest brightness.
+pub const TOLERANCE: RangeInclusive<f64> = 1e-4..=1.0;
+/// The largest coefficient of a material.
+pub const COEFFICIENT: f64 = 1.0;
+/// The largest shininess.
+pub const SHININESS: f64 = 1e5;
+/// The field of view of a perspective camera, in degrees: beyond, its screen is a point or has no end.
+pub const PERSPECTIVE_FIELD: RangeInclusive<f64> = 1e-6..=179.9999;
+/// That of a fisheye.
+pub const FISHEYE_FIELD: RangeInclusive<f64> = 1e-6..=360.0;
+/// The farthest edges of a panorama in longitude, in degrees.
+pub const LONGITUDE: f64 = 360.0;
+/// The same in latitude.
+pub const LATITUDE: f64 = 90.0;
+/// Half the opening of a spot's cones, in degrees.
+pub const CONE: f64 = 90.0;
+/// The least difference between a spot's cones, in degrees.
+pub const CONE_STEP: f64 = Spot::SHARPEST.to_degrees();
+/// A mesh's factors of scale.
+pub const SCALE: RangeInclusive<f64> = 1e-12..=1e12;

@@ -1,0 +1,82 @@
+//! Problems of a scene as they are found, and the words that their messages are made of.
+
+use std::collections::HashSet;
+
+use super::document::Path;
+use super::error::{Problem, ProblemKind, Target};
+
+/// Problems as they are found, each place at most once.
+#[derive(Default)]
+pub struct Problems {
+    pub(super) list: Vec<Problem>,
+    pub(super) reported: HashSet<Path>,
+}
+
+impl Problems {
+    /// Notes a problem, unless something around its place is already known to be wrong.
+    pub fn push(&mut self, kind: ProblemKind, path: &Path, message: impl Into<String>, help: impl Into<String>) {
+        if !self.reported.contains(path) {
+            self.reported.insert(path.clone());
+            let problem = Problem::new(kind, Target::Value(path.clone()), message.into());
+            self.list.push(problem.with_help(help));
+        }
+    }
+
+    /// Notes that a key is missing from a table, unless the key is there and already known to be wrong.
+    pub fn missing(&mut self, table: &Path, key: &str, help: impl Into<String>) {
+        if self.reported.insert(table.key(key)) {
+            let target = Target::Table(table.clone());
+            let place = if *table == Path::root() { String::new() } else { format!(" in `{table}`") };
+            let message = format!("the key `{key}` is missing{place}");
+            let mut problem = Problem::new(ProblemKind::MissingKey, target, message).with_help(help);
+            problem.path = table.key(key).to_string();
+            self.list.push(problem);
+        }
+    }
+
+    /// Notes problems that were found before the scene was read.
+    pub fn extend(&mut self, problems: impl IntoIterator<Item = Problem>) {
+        self.list.extend(problems);
+    }
+
+    /// All problems, in the order in which they were found.
+    pub fn into_list(self) -> Vec<Problem> {
+        self.list
+    }
+
+    /// Whether the thing at a path is known to be wrong.
+    pub fn has(&self, path: &Path) -> bool {
+        self.reported.contains(path)
+    }
+
+    /// Whether nothing was found.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+}
+
+/// The known word that is closest to the written one, if any is close.
+pub(super) fn closest<'w>(written: &str, known: &[&'w str]) -> Option<&'w str> {
+    let written = written.to_lowercase();
+    known
+        .iter()
+        .map(|word| (strsim::damerau_levenshtein(&written, word), *word))
+        .filter(|(distance, word)| *distance <= 1 + word.chars().count() / 4)
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, word)| word)
+}
+
+/// `; did you mean …?`
+pub(super) fn suggestion(meant: Option<&str>) -> String {
+    meant.map_or(String::new(), |word| format!("; did you mean `{word}`?"))
+}
+
+/// A text from the file, fit to stand in a message.
+pub(super) fn short(text: &str) -> String {
+    const LENGTH: usize = 40;
+    let mut short: String = text.chars().take(LENGTH).flat_map(char::escape_debug).collect();
+    if text.chars().nth(LENGTH).is_some() {
+        short.push('…');
+    }
+    short
+}

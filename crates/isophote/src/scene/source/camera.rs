@@ -1,0 +1,102 @@
+//! The observer, as it is written.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::declare::tables;
+use crate::scene::limits;
+use crate::units::Keyword;
+
+tables! {
+    /// The observer.
+    #[serde(deny_unknown_fields)]
+    pub struct CameraSource {
+        /// Where the eye is.
+        #[schemars(required)]
+        pub eye: Option<[f64; 3]>,
+        /// Direction of view, of any length but zero. Either this or `target`.
+        pub forward: Option<[f64; 3]>,
+        /// A point to look at. Either this or `forward`.
+        pub target: Option<[f64; 3]>,
+        /// A direction that appears vertical; not parallel to the direction of view.
+        #[schemars(extend("default" = [0, 1, 0]))]
+        pub up: Option<[f64; 3]>,
+        /// How directions become places in the image (formulas 2.1, 2.7 to 2.10).
+        #[schemars(extend("default" = "perspective"))]
+        pub projection: Option<ProjectionName>,
+        /// The window of a perspective camera. Either this or `field_of_view`.
+        pub screen: Option<ScreenSource>,
+        /// The angle that the width of a perspective image spans, below 180; or the angle across the circle of a fisheye, up to
+        /// 360; in degrees.
+        #[schemars(range(min = *limits::FISHEYE_FIELD.start(), max = *limits::FISHEYE_FIELD.end()))]
+        pub field_of_view: Option<f64>,
+        /// The window of an orthographic camera, on the plane through the eye.
+        pub window: Option<WindowSource>,
+        /// Left and right edge of a panorama, in degrees from the direction of view towards the right.
+        #[schemars(extend("default" = [-180, 180]), inner(range(min = -limits::LONGITUDE, max = limits::LONGITUDE)))]
+        pub longitude: Option<[f64; 2]>,
+        /// Lower and upper edge of a panorama, in degrees from the direction of view towards `up`.
+        #[schemars(extend("default" = [-90, 90]), inner(range(min = -limits::LATITUDE, max = limits::LATITUDE)))]
+        pub latitude: Option<[f64; 2]>,
+        /// Width and height of the image in pixels.
+        #[schemars(extend("default" = [800, 600]))]
+        #[schemars(inner(range(min = 1, max = limits::SIDE)))]
+        pub resolution: Option<[u64; 2]>,
+    }
+
+    /// The window on the screen plane.
+    #[serde(deny_unknown_fields)]
+    pub struct ScreenSource {
+        /// Distance of the screen plane from the eye.
+        #[schemars(required, extend("exclusiveMinimum" = 0))]
+        pub distance: Option<f64>,
+        /// Left and right edge of the window; the first is smaller.
+        #[schemars(required)]
+        pub x: Option<[f64; 2]>,
+        /// Lower and upper edge of the window; the first is smaller.
+        #[schemars(required)]
+        pub y: Option<[f64; 2]>,
+    }
+
+    /// The window of an orthographic camera.
+    #[serde(deny_unknown_fields)]
+    pub struct WindowSource {
+        /// Left and right edge, from the eye; the first is smaller.
+        #[schemars(required)]
+        pub x: Option<[f64; 2]>,
+        /// Lower and upper edge, from the eye; the first is smaller.
+        #[schemars(required)]
+        pub y: Option<[f64; 2]>,
+    }
+}
+
+/// The projections by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ProjectionName {
+    /// Straight lines through the eye and a window.
+    Perspective,
+    /// Parallel rays from the plane through the eye.
+    Orthographic,
+    /// A cone of directions in a circle, whose radius is the angle from the axis.
+    FisheyeEquidistant,
+    /// A cone of directions in a circle, whose areas are solid angles.
+    FisheyeEqualArea,
+    /// Longitude and latitude.
+    Panorama,
+}
+
+impl Keyword for ProjectionName {
+    const ALL: &'static [Self] =
+        &[Self::Perspective, Self::Orthographic, Self::FisheyeEquidistant, Self::FisheyeEqualArea, Self::Panorama];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Perspective => "perspective",
+            Self::Orthographic => "orthographic",
+            Self::FisheyeEquidistant => "fisheye-equidistant",
+            Self::FisheyeEqualArea => "fisheye-equal-area",
+            Self::Panorama => "panorama",
+        }
+    }
+}

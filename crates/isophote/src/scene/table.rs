@@ -1,0 +1,249 @@
+//! A table of a scene file while it is read: types and keys. What they may hold is checked in `validate`.
+
+use std::collections::BTreeMap;
+
+use super::document::{Document, Entry, Node, Path, Value};
+use super::error::{Problem, ProblemKind};
+use super::problems::{Problems, closest, short, suggestion};
+use super::source::Amount;
+use crate::units::Keyword;
+
+/// Reads the table that a document is.
+pub fn read_root<T: Default>(
+    document: &Document,
+    problems: &mut Problems,
+    read: impl FnOnce(&mut Table<'_>) -> T,
+) -> T {
+    let Value::Table(entries) = &document.root.value else { return T::default() };
+    let mut table = Table { entries, path: Path::root(), known: Vec::new(), problems };
+    let value = read(&mut table);
+    table.refuse_unknown_keys();
+    value
+}
+
+/// A table while it is read.
+pub struct Table<'t> {
+    entries: &'t [Entry],
+    path: Path,
+    known: Vec<&'static str>,
+    problems: &'t mut Problems,
+}
+
+impl<'t> Table<'t> {
+    fn find(&mut self, key: &'static str) -> Option<&'t Node> {
+        self.known.push(key);
+        self.entries.iter().find(|entry| entry.key == key).map(|entry| &entry.node)
+    }
+
+    /// The value of a key by `convert`; one that has none is reported as not being `expected`.
+    fn value<T>(&mut self, key: &'static str, expected: &str, convert: impl FnOnce(&Value) -> Option<T>) -> Option<T> {
+        let node = self.find(key)?;
+        let value = convert(&node.value);
+        if value.is_none() {
+            self.wrong_type(&self.path.key(key), &node.value, expected);
+        }
+        value
+    }
+
+    fn wrong_type(&mut self, path: &Path, value: &Value, expected: &str) {
+        let message = format!("`{path}` is {}", value.describe());
+        self.problems.push(ProblemKind::WrongType, path, message, format!("allowed: {expected}"));
+    }
+
+    pub(super) fn text(&mut self, key: &'static str) -> Option<String> {
+        self.value(key, "a text in quotes", |value| match value {
+            Value::Text(text) => Some(text.clone()),
+            _ => None,
+        })
+    }
+
+    pub(super) fn number(&mut self, key: &'static str) -> Option<f64> {
+        let number = self.value(key, "a number", as_number)?;
+        self.finite(&self.path.key(key), number)
+    }
+
+    /// A number, or three.
+    pub(super) fn amount(&mut self, key: &'static str) -> Option<Amount> {
+        const EXPECTED: &str = "a number, or a list of three: [red, green, blue]";
+        let entry = self.entries.iter().find(|entry| entry.key == key);
+        if entry.is_some_and(|entry| matches!(entry.node.value, Value::Array(_))) {
+            return self.numbers_expected(key, EXPECTED).map(Amount::Rgb);
+        }
+        let number = self.value(key, EXPECTED, as_number)?;
+        self.finite(&self.path.key(key), number).map(Amount::Number)
+    }
+
+    pub(super) fn boolean(&mut self, key: &'static str) -> Option<bool> {
+        self.value(key, "true or false", |value| match value {
+            Value::Boolean(value) => Some(*value),
+            _ => None,
+        })
+    }
+
+    pub(super) fn count(&mut self, key: &'static str) -> Option<u64> {
+        self.value(key, "a whole number, not negative", as_count)
+    }
+
+    pub(super) fn numbers<const N: usize>(&mut self, key: &'static str) -> Option<[f64; N]> {
+        self.numbers_expected(key, &format!("a list of {N} numbers"))
+    }
+
+    fn numbers_expected<const N: usize>(&mut self, key: &'static str, expected: &str) -> Option<[f64; N]> {
+        let numbers: [f64; N] = self.list(key, expected, as_number)?;
+        let mut all_finite = true;
+        for (index, number) in numbers.into_iter().enumerate() {
+            all_finite &= self.finite(&self.path.key(key).index(index), number).is_some();
+        }
+        if !all_finite {
+            self.problems.reported.insert(self.path.key(key));
+        }
+        all_finite.then_some(numbers)
+    }
+
+    pub(super) fn counts<const N: usize>(&mut self, key: &'static str) -> Option<[u64; N]> {
+        self.list(key, &format!("a list of {N} whole numbers, not negative"), as_count)
+    }
+
+    fn list<T: Copy + Default, const N: usize>(
+        &mut self,
+        key: &'static str,
+        expected: &str,
+        convert: impl Fn(&Value) -> Option<T>,
+    ) -> Option<[T; N]> {
+        let node = self.find(key)?;
+        let path = self.path.key(key);
+        let Value::Array(items) = &node.value else {
+            self.wrong_type(&path, &node.value, expected);
+            return None;
+        };
+        if items.len() != N {
+            self.wrong_type(&path, &node.value, expected);
+            return None;
+        }
+        let mut list = [T::default(); N];
+        let mut complete = true;
+        for (index, item) in items.iter().enumerate() {
+            if let Some(value) = convert(&item.value) {
+                list[index] = value;
+            } else {
+                self.wrong_type(&path.index(index), &item.value, &format!("`{key}` is {expected}"));
+                complete = false;
+            }
+        }
+        // The whole key is then known to be wrong, and not to be missing.
+        if !complete {
+            self.problems.reported.insert(path);
+        }
+        complete.then_some(list)
+    }
+
+    pub(super) fn keyword<C: Keyword>(&mut self, key: &'static str) -> Option<C> {
+        let text = self.text(key)?;
+        let choice = C::from_name(&text);
+        if choice.is_none() {
+            let names: Vec<&str> = C::ALL.iter().map(|choice| choice.name()).collect();
+            let path = self.path.key(key);
+            let message = format!("`{path}` cannot be \"{}\"", short(&text));
+            let help = format!("allowed: {}{}", names.join(", "), suggestion(closest(&text, &names)));
+            self.problems.push(ProblemKind::Value, &path, message, help);
+        }
+        choice
+    }
+
+    pub(super) fn table<T>(&mut self, key: &'static str, read: impl FnOnce(&mut Table<'_>) -> T) -> Option<T> {
+        let path = self.path.key(key);
+        let node = self.find(key)?;
+        self.read_table(node, path, read)
+    }
+
+    fn read_table<T>(&mut self, node: &Node, path: Path, read: impl FnOnce(&mut Table<'_>) -> T) -> Option<T> {
+        let Value::Table(entries) = &node.value else {
+            self.wrong_type(&path, &node.value, "a table");
+            return None;
+        };
+        let mut table = Table { entries, path, known: Vec::new(), problems: self.problems };
+        let value = read(&mut table);
+        table.refuse_unknown_keys();
+        Some(value)
+    }
+
+    pub(super) fn tables<T: Default>(&mut self, key: &'static str, read: impl Fn(&mut Table<'_>) -> T) -> Vec<T> {
+        let path = self.path.key(key);
+        let Some(node) = self.find(key) else {
+            return Vec::new();
+        };
+        let Value::Array(items) = &node.value else {
+            let help = format!("a list of tables, each headed by [[{key}]]");
+            self.wrong_type(&path, &node.value, &help);
+            return Vec::new();
+        };
+        let read_item = |(index, item)| {
+            let path = path.index(index);
+            // An item that is no table keeps its place, so that the others keep their numbers.
+            self.read_table(item, path, &read).unwrap_or_default()
+        };
+        items.iter().enumerate().map(read_item).collect()
+    }
+
+    pub(super) fn named_tables<T>(
+        &mut self,
+        key: &'static str,
+        read: impl Fn(&mut Table<'_>) -> T,
+    ) -> BTreeMap<String, T> {
+        let path = self.path.key(key);
+        let Some(node) = self.find(key) else {
+            return BTreeMap::new();
+        };
+        let Value::Table(tables) = &node.value else {
+            self.wrong_type(&path, &node.value, &format!("tables with names, each headed by [{key}.NAME]"));
+            return BTreeMap::new();
+        };
+        let read_entry = |entry: &Entry| {
+            let value = self.read_table(&entry.node, path.key(&entry.key), &read)?;
+            Some((entry.key.clone(), value))
+        };
+        tables.iter().filter_map(read_entry).collect()
+    }
+
+    fn finite(&mut self, path: &Path, number: f64) -> Option<f64> {
+        if number.is_finite() {
+            return Some(number);
+        }
+        let message = format!("`{path}` is {number}");
+        self.problems.push(ProblemKind::Value, path, message, "allowed: finite numbers");
+        None
+    }
+
+    fn refuse_unknown_keys(&mut self) {
+        for entry in self.entries {
+            if !self.known.contains(&entry.key.as_str()) {
+                let path = self.path.key(&entry.key);
+                let place = if self.path == Path::root() { "a scene".into() } else { format!("`{}`", self.path) };
+                let message = format!("{place} has no key `{}`", short(&entry.key));
+                let meant = closest(&entry.key, &self.known);
+                // The key that was meant is then not missing as well.
+                self.problems.reported.extend(meant.map(|key| self.path.key(key)));
+                let help = format!("allowed: {}{}", self.known.join(", "), suggestion(meant));
+                let mut problem = Problem::at_span(ProblemKind::UnknownKey, Some(entry.key_span.clone()), message);
+                problem.path = path.to_string();
+                self.problems.list.push(problem.with_help(help));
+            }
+        }
+    }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "a number with more than 15 digits is rounded, as every double is")]
+fn as_number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Integer(number) => Some(*number as f64),
+        Value::Float(number) => Some(*number),
+        _ => None,
+    }
+}
+
+fn as_count(value: &Value) -> Option<u64> {
+    match value {
+        Value::Integer(number) => u64::try_from(*number).ok(),
+        _ => None,
+    }
+}
