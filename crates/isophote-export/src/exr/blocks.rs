@@ -48,14 +48,14 @@ pub(super) fn write<W: io::Write + io::Seek>(
 
 /// Who compresses: this thread, or a pool of the writer's own. rayon's shared pool would have as many threads as it likes.
 enum Workers {
-    Alone(Scratch),
+    Alone(Box<Scratch>),
     Together(rayon::ThreadPool),
 }
 
 impl Workers {
     fn new(threads: NonZeroUsize) -> io::Result<Self> {
         if threads == NonZeroUsize::MIN {
-            return Ok(Self::Alone(Scratch::new(LEVEL)));
+            return Ok(Self::Alone(Box::new(Scratch::new(LEVEL))));
         }
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build();
         pool.map(Self::Together).map_err(io::Error::other)

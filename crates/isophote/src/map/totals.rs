@@ -6,9 +6,9 @@ use crate::sum::Sum;
 /// What the statistics of a part of an image are put together from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Totals {
-    /// See [`Statistics::max`].
+    /// The largest value; the first one in reading order where several are equal.
     pub max: Extreme,
-    /// See [`Statistics::min`].
+    /// The smallest value, likewise.
     pub min: Extreme,
     /// The sum over the visible pixels.
     pub sum: f64,
