@@ -28,8 +28,15 @@ CLASSES = {
     **{kind.KEY: [kind] for kind in shapes.KINDS},
     "box/rotation": [iso.Rotation],
 }
-SEVERAL = {"materials": ["material"], "shapes": [kind.KEY for kind in shapes.KINDS], "lights": ["light"], "probes": ["probe"]}
-SEVERAL |= {"grids": ["grid"], "directory": []}
+# Fields of a scene that are not one key with the same name.
+SEVERAL = {
+    "materials": ["material"],
+    "shapes": [kind.KEY for kind in shapes.KINDS],
+    "lights": ["light"],
+    "probes": ["probe"],
+    "grids": ["grid"],
+    "directory": [],
+}
 
 
 def resolved(rule):
@@ -97,6 +104,8 @@ def limits(rule, value, place=(), way=()):
     for choice in rule.get("anyOf", []):
         if (choice["type"] == "array") == isinstance(value, list):
             yield from limits(choice, value, place, way)
+    if "anyOf" in rule:
+        return
     for name in ("minimum", "exclusiveMinimum", "maximum"):
         if name in rule and "const" not in rule:
             yield (*place, name), way, rule[name]
