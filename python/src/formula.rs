@@ -1,5 +1,6 @@
 //! The bare formula, for those who bring their own geometry.
 
+use isophote::light::{Ambient, Emitters};
 use isophote::reflectance::{BrightnessFormula, Convention};
 use isophote::shade::shade;
 use isophote::shape::SurfacePoint;
@@ -7,11 +8,14 @@ use isophote::units::Keyword;
 use isophote::vector::Vector;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use rayon::prelude::*;
 
 use crate::error;
 use crate::job::{self, Progress};
 use crate::scene::Scene;
+use crate::threads::threads;
+
+/// Points that are computed by one thread at a time.
+const CHUNK: usize = 4096;
 
 /// The brightness (3.1) to (3.6) of points with given normals (n × 3 each, lengths in metres, normals of
 /// length 1), by the lights, the convention and the first material of a scene, without shadows. `eyes` has one row, or one
@@ -35,8 +39,8 @@ pub fn brightness<'py>(
     let (positions, normals, eyes) = (rows(&positions), rows(&normals), rows(&eyes));
     let content = scene.content();
     let values: Vec<f64> = job::run(py, &Progress::none(), move |watch| {
-        let lights = content.scene().lights();
-        let ambient = content.scene().ambient().map_or(0.0, isophote::light::Ambient::unobstructed_irradiance);
+        let emitters = Emitters::of(content.scene().lights());
+        let ambient = content.scene().ambient().map_or(0.0, Ambient::unobstructed_irradiance);
         let value = |index: usize| {
             if watch.is_stopped() {
                 return f64::NAN;
@@ -51,9 +55,11 @@ pub fn brightness<'py>(
                 view,
                 cos_theta_o: normal.dot(view),
             };
-            shade(&point, lights, &formula, ambient, |_| 1.0, |_, _| {}).brightness()
+            shade(&point, emitters.all(), &formula, ambient, |_| 1.0, |_, _| {}).brightness()
         };
-        (0..positions.len()).into_par_iter().map(value).collect()
+        let starts: Vec<usize> = (0..positions.len()).step_by(CHUNK).collect();
+        let chunk = |start: usize| -> Vec<f64> { (start..(start + CHUNK).min(positions.len())).map(value).collect() };
+        threads().map::<_, _, Vec<Vec<f64>>>(starts, chunk).concat()
     })?;
     Ok(values.into_pyarray(py))
 }

@@ -4,7 +4,7 @@ use std::any::Any;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, OnceLock, mpsc};
+use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 use isophote::render::Observer;
@@ -110,7 +110,7 @@ fn named() -> std::thread::Builder {
 }
 
 fn outcome<T: Send>(job: impl FnOnce() -> T + Send) -> Outcome<T> {
-    catch_unwind(AssertUnwindSafe(|| apart_from_the_parent(job)))
+    catch_unwind(AssertUnwindSafe(job))
 }
 
 /// What ended the waiting, and the way to hear of the job's own end, if that is still to come.
@@ -154,21 +154,6 @@ fn wait<T: Send>(
                 return Err(error::internal(py, "the work ended without a word").into());
             }
         }
-    }
-}
-
-/// Runs a job, in a process that was forked off on threads of its own: those of the parent's pool do not exist there, and
-/// who waits for them waits for ever.
-fn apart_from_the_parent<T: Send>(job: impl FnOnce() -> T + Send) -> T {
-    static FIRST_PROCESS: OnceLock<u32> = OnceLock::new();
-    let process = std::process::id();
-    if *FIRST_PROCESS.get_or_init(|| process) == process {
-        return job();
-    }
-    match rayon::ThreadPoolBuilder::new().build() {
-        Ok(pool) => pool.install(job),
-        // No threads are to be had: as well here.
-        Err(_) => job(),
     }
 }
 

@@ -12,6 +12,7 @@ mod read;
 mod render;
 mod scene;
 mod store;
+mod threads;
 
 use pyo3::prelude::*;
 

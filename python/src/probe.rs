@@ -13,11 +13,11 @@ use isophote::vector::Vector;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rayon::prelude::*;
 
 use crate::error;
 use crate::job::{self, Progress, Watch};
 use crate::scene::Scene;
+use crate::threads::threads;
 
 /// Points that one thread takes at a time.
 const CHUNK: usize = 1024;
@@ -71,16 +71,16 @@ pub fn probe_values<'py>(
         (vec![0.0; points.len()], vec![0.0; points.len()], vec![0; points.len()]);
     let progress = Progress { function: progress, total: points.len() as u64 };
     let misses = job::run_to_its_end(py, &progress, |watch| {
-        let values = brightness.par_chunks_mut(CHUNK).zip(irradiance.par_chunks_mut(CHUNK));
-        let values = values.zip(shape.par_chunks_mut(CHUNK)).zip(points.par_chunks(CHUNK));
-        let fill = values.map(|(((brightness, irradiance), shape), points)| {
+        let values = brightness.chunks_mut(CHUNK).zip(irradiance.chunks_mut(CHUNK));
+        let values = values.zip(shape.chunks_mut(CHUNK)).zip(points.chunks(CHUNK));
+        let misses: Vec<usize> = threads().map(values.collect(), |(((brightness, irradiance), shape), points)| {
             if watch.is_stopped() {
                 return 0;
             }
             advance(watch, points.len());
             kernel.fill(points, snaps, &mut PointValues { brightness, irradiance, shape })
         });
-        fill.sum::<usize>()
+        misses.into_iter().sum::<usize>()
     })?;
     Ok(Some((brightness.into_pyarray(py), irradiance.into_pyarray(py), shape.into_pyarray(py), misses)))
 }
@@ -139,7 +139,7 @@ fn probe_places<'py>(
             advance(watch, places.len());
             (columns, refusals)
         };
-        places.par_chunks(CHUNK).map(chunk).collect::<Vec<_>>()
+        threads().map::<_, _, Vec<_>>(places.chunks(CHUNK).collect(), chunk)
     })?;
     let mut all = Columns::new(count, lights, has_color);
     let mut refusals = Vec::new();

@@ -13,6 +13,7 @@ use pyo3::types::PyDict;
 use crate::error;
 use crate::job::{self, Progress};
 use crate::render::{keyword, quantities};
+use crate::threads::threads;
 
 /// A scene that is valid.
 #[pyclass(frozen, module = "isophote._isophote")]
@@ -41,7 +42,7 @@ impl Content {
                 Some(origin) if PreparedScene::builds_tree(&self.scene) => {
                     PreparedScene::reusing(&origin.prepared(), &self.scene)
                 }
-                _ => PreparedScene::new(&self.scene),
+                _ => PreparedScene::on_threads(&self.scene, &threads()),
             })
         };
         Arc::clone(self.prepared.get_or_init(prepare))

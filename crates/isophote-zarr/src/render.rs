@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use isophote::prepare::PreparedScene;
 use isophote::render::{Observer, RenderError, RenderSettings, Renderer};
+use isophote::threads::ThreadsError;
 use rayon::ThreadPool;
 
 use crate::describe::{need, rendered};
@@ -121,7 +122,7 @@ impl Store {
 fn pools(count: usize) -> Result<Vec<ThreadPool>, RenderError> {
     let pool = |_| rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pools = (0..count).map(pool).collect::<Result<_, _>>();
-    pools.map_err(|error| RenderError::Threads { threads: count, reason: error.to_string() })
+    pools.map_err(|error| ThreadsError { threads: count, reason: error.to_string() }.into())
 }
 
 /// Runs the work on the thread of each pool, at the same time.

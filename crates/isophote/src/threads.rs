@@ -7,13 +7,20 @@ use std::sync::{Arc, OnceLock};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// So many threads, started when they are first needed and shared by clones. With one thread, or where the system has none,
-/// the caller's does all the work.
+/// So many threads, started when they are first needed and shared by clones. With one thread, where the system
+/// has none, or in a process that was forked off from theirs, the caller's does all the work.
 #[derive(Clone, Debug)]
 pub struct Threads {
     count: usize,
-    /// None where the system refused to start them.
-    pool: Arc<OnceLock<Result<ThreadPool, String>>>,
+    pool: Arc<OnceLock<Pool>>,
+}
+
+/// Threads that were started, or why they were not, and in which process: those of a parent do not exist in one that was
+/// forked off, and who waits for them waits for ever.
+#[derive(Debug)]
+struct Pool {
+    process: u32,
+    threads: Result<ThreadPool, String>,
 }
 
 /// The threads could not be started.
@@ -65,10 +72,14 @@ impl Threads {
         if self.count == 1 {
             return Ok(None);
         }
-        let start = || ThreadPoolBuilder::new().num_threads(self.count).build().map_err(|error| error.to_string());
+        let start = || Pool {
+            process: std::process::id(),
+            threads: ThreadPoolBuilder::new().num_threads(self.count).build().map_err(|error| error.to_string()),
+        };
         match self.pool.get_or_init(start) {
-            Ok(pool) => Ok(Some(pool)),
-            Err(reason) => Err(ThreadsError { threads: self.count, reason: reason.clone() }),
+            Pool { process, .. } if *process != std::process::id() => Ok(None),
+            Pool { threads: Ok(pool), .. } => Ok(Some(pool)),
+            Pool { threads: Err(reason), .. } => Err(ThreadsError { threads: self.count, reason: reason.clone() }),
         }
     }
 

@@ -8,6 +8,7 @@ use isophote::map::{Map, Quantity, Region};
 use isophote::prepare::PreparedScene;
 use isophote::render::{RenderError, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::Scene;
+use isophote::threads::Threads;
 use isophote_export::FileMetadata;
 use isophote_export::csv::Rows;
 use isophote_export::figure::{self, FigureOptions, Mark};
@@ -25,7 +26,8 @@ use crate::{load, numbers, threads};
 
 /// Renders a scene into memory.
 pub fn run(arguments: &RenderArguments) -> Result<String> {
-    let scene = PreparedScene::new(&load::scene_to_render(arguments)?);
+    let threads = Threads::new(arguments.threads);
+    let scene = PreparedScene::on_threads(&load::scene_to_render(arguments)?, &threads);
     let job = Job::new(arguments, scene.scene())?;
     let mut map = job.render(&scene)?;
     let summary = Summary::new(&map, &job.main, &scene);

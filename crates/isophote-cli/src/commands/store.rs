@@ -8,6 +8,7 @@ use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::render::{RenderError, SimdRenderer};
 use isophote::scene::{Scene, Syntax};
+use isophote::threads::Threads;
 use isophote_zarr::{Check, MapStatistics, Opening, Outcome, Request, Store, StoreError, Workers};
 use serde_json::json;
 
@@ -49,7 +50,8 @@ pub fn asked_for(arguments: &RenderArguments) -> Result<Option<&Path>, Usage> {
 
 /// Renders a scene into a store.
 pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
-    let scene = PreparedScene::new(&load::scene_to_render(arguments)?);
+    let threads = Threads::new(arguments.threads);
+    let scene = PreparedScene::on_threads(&load::scene_to_render(arguments)?, &threads);
     // From here on there may be a store, and Ctrl-C has to say how to go on with it.
     end_in_order();
     let workers = Workers { threads: arguments.threads.unwrap_or_else(threads::all), memory: arguments.store.memory };

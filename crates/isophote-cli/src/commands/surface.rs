@@ -84,7 +84,7 @@ fn towards(name: &str, primitive: Primitive, scene: &Scene) -> Result<Vector> {
     })?;
     let bounds = scene.shapes()[primitive.shape].geometry.bounds(primitive.part).unwrap_or_default();
     let middle = (bounds.least + bounds.greatest) * 0.5;
-    let direction: Vector = light.from_place(middle, Vector::default());
+    let direction = light.seen_from(middle);
     let is_somewhere = direction.length() > 0.0;
     let nowhere = || Usage(format!("--towards: the light \"{name}\" stands in the middle of the shape")).into();
     is_somewhere.then_some(direction).ok_or_else(nowhere)

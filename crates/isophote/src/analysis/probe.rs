@@ -196,11 +196,15 @@ impl PreparedScene {
     }
 
     fn reading(&self, hit: Hit, seen_at: Option<ScreenPosition>, seen: SeenFromEye) -> ProbeReading {
-        let lights = self.scene().lights().len();
-        let mut terms = Vec::with_capacity(lights);
-        let shading = self.shade(&hit, seen_at, |_, term| terms.push(*term));
+        // One for each light, whatever number of emitters it is.
+        let mut terms: Vec<LightTerm> = Vec::with_capacity(self.scene().lights().len());
+        let shading = self.shade(&hit, seen_at, |light, term| match terms.get_mut(light) {
+            Some(known) => known.add(term),
+            None => terms.push(*term),
+        });
         let blocker = |(light, term): (usize, &LightTerm)| {
-            if term.visibility > 0.0 { None } else { self.blocking(&hit, light).blocker }
+            let mut emitters = self.emitters().of_light(light);
+            if term.visibility > 0.0 { None } else { emitters.find_map(|emitter| self.blocking(&hit, emitter).blocker) }
         };
         let blockers = terms.iter().enumerate().map(blocker).collect();
         ProbeReading { hit, shading, terms, blockers, seen, components: None }
@@ -217,5 +221,44 @@ impl PreparedScene {
             Some(first) if first != hit.primitive => SeenFromEye::HiddenBy(first),
             _ => SeenFromEye::Seen,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::Quantity;
+    use crate::render::{ReferenceRenderer, RenderSettings, Renderer};
+    use crate::scene::{Scene, Syntax};
+
+    /// What is told of a light is what all of its emitters send.
+    #[test]
+    fn a_light_of_two_emitters_is_told_as_one_light() {
+        let text = include_str!("../../../../scenes/shadows.toml");
+        let scene = Scene::from_text("shadows", text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+        let whole = PreparedScene::new(&scene).at_resolution(crate::map::Resolution { width: 24, height: 18 });
+        let halved = whole.clone().with_emitters_halved();
+        let lights = scene.lights().iter().map(|light| Quantity::Light(light.name.clone()));
+        let settings = RenderSettings {
+            quantities: lights.chain([Quantity::Brightness]).collect(),
+            ..RenderSettings::default()
+        };
+        let [one, other] = [&whole, &halved].map(|scene| ReferenceRenderer.render(scene, &settings).unwrap());
+        let mut compared = 0;
+        for index in one.mask().indices() {
+            for quantity in &settings.quantities {
+                let [expected, found] = [&one, &other].map(|map| map.scalar(quantity).unwrap().at(index));
+                assert!((found - expected).abs() <= 1e-15 * expected.abs(), "{quantity:?}: {found:e} {expected:e}");
+            }
+            let place = ProbePosition::Pixel(one.pixel(index));
+            let [expected, found] = [&whole, &halved].map(|scene| scene.probe(&place).unwrap());
+            assert_eq!(expected.blockers, found.blockers);
+            for (expected, found) in expected.terms.iter().zip(&found.terms) {
+                assert!((found.irradiance - expected.irradiance).abs() <= 1e-15 * expected.irradiance);
+                assert_eq!((found.visibility, found.intensity), (expected.visibility, expected.intensity));
+                compared += 1;
+            }
+        }
+        assert!(compared > 100, "{compared}");
     }
 }

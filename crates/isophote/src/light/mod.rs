@@ -48,6 +48,15 @@ impl Light {
         }
     }
 
+    /// The way from a place to the light, in metres; of a parallel light L, a unit vector.
+    #[must_use]
+    pub fn seen_from(&self, place: Vector) -> Vector {
+        match &self.kind {
+            LightKind::Point(light) => light.position - place,
+            LightKind::Parallel(light) => -light.direction,
+        }
+    }
+
     /// The largest part of its strength by which it grows per radian at an edge of its own: 0 where it has none.
     #[must_use]
     pub fn steepest_edge(&self) -> f64 {

@@ -41,4 +41,10 @@ impl PreparedScene {
         other.components = self.components.as_ref().map(|components| components.map(|one| one.with_view(change)));
         other
     }
+
+    /// The same with each light as two emitters of half its strength.
+    #[cfg(test)]
+    pub(crate) fn with_emitters_halved(self) -> Self {
+        Self { emitters: self.emitters.halved(), ..self }
+    }
 }
