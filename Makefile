@@ -21,7 +21,7 @@ FUZZ_TARGETS := $(notdir $(basename $(wildcard fuzz/fuzz_targets/*.rs)))
 FUZZ_SECONDS := 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-python check check-python bench bench-python bench-instructions compare growth audit fuzz docs generate generated-is-current
+.PHONY: help demo test test-python test-wasm check check-python check-wasm bench bench-python bench-instructions compare growth audit fuzz docs generate generated-is-current
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-18s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -32,12 +32,25 @@ demo: ## Render the lab's scene: its numbers, lab.png, and lab-figure.png with a
 test: python-env ## Run every test (those in Python, and with it as a foreign reader, where there is Python 3.10 or later)
 	@if [ -e $(PYTHON_ENV)/ready ]; then export ISOPHOTE_PYTHON="$(PYTHON)"; fi; \
 	$(CARGO) test --workspace
+	@if command -v node >/dev/null; then $(MAKE) --no-print-directory test-wasm; else echo "no Node here: the tests as WebAssembly are skipped"; fi
 	@[ ! -e $(PYTHON_ENV)/ready ] || $(MAKE) --no-print-directory test-python
+
+WASM := wasm32-wasip1
+WASM_RUNNER := node --no-warnings $(CURDIR)/validation/wasm/run.mjs
+
+test-wasm: ## Run the conformance suite as WebAssembly (needs Node from 20; installs the target for Rust)
+	@rustup target list --installed 2>/dev/null | grep -qx $(WASM) || rustup target add $(WASM)
+	CARGO_TARGET_WASM32_WASIP1_RUSTFLAGS="-C target-feature=+simd128" CARGO_TARGET_WASM32_WASIP1_RUNNER="$(WASM_RUNNER)" \
+		$(CARGO) test --target $(WASM) -p isophote-wasm
+
+check-wasm: ## Build the core for browsers
+	@rustup target list --installed 2>/dev/null | grep -qx wasm32-unknown-unknown || rustup target add wasm32-unknown-unknown
+	$(CARGO) build --release --target wasm32-unknown-unknown -p isophote
 
 test-python: python-env python-module ## Run the tests of the Python package alone
 	cd python && PYTHONPATH="$(CURDIR)/python" $(PYTHON) -m pytest
 
-check: generated-is-current check-python ## Formatting, lints, documentation without warnings, generated files up to date
+check: generated-is-current check-python check-wasm ## Formatting, lints, documentation without warnings, generated files up to date
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets -- -D warnings
 	$(CARGO) clippy --workspace --bench instructions -- -D warnings

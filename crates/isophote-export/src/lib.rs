@@ -3,6 +3,24 @@
 //! Every writer takes the map and a place to write to, so that the caller decides on names, interrupts and progress;
 //! [`write_atomically`] puts the bytes under a name only when they are complete. Every file carries a
 //! [`FileMetadata`], which [`read_metadata`] finds again, and the same map gives the same bytes on every run.
+//!
+//! ```
+//! use isophote::lanes::Precision;
+//! use isophote::map::Quantity;
+//! use isophote::prepare::PreparedScene;
+//! use isophote::render::{RenderSettings, Renderer, SimdRenderer};
+//! use isophote::scene::{Scene, Syntax, library::Starter};
+//! use isophote_export::png::PictureOptions;
+//!
+//! let scene = PreparedScene::new(&Scene::from_text("lab", Starter::Lab.text(), Syntax::Toml)?);
+//! let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
+//! let map = SimdRenderer::new(Precision::Double, None).render(&scene, &settings)?;
+//! let mut picture = Vec::new();
+//! isophote_export::png::write(&map, &PictureOptions::new(Quantity::Brightness), &mut picture)?;
+//! let metadata = isophote_export::read_metadata_from(&mut std::io::Cursor::new(picture), std::path::Path::new("lab.png"))?;
+//! assert_eq!(metadata.channels[0].unit, "W/m²");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod atomic;
 mod channel;

@@ -23,6 +23,9 @@ struct Pool {
     threads: Result<ThreadPool, String>,
 }
 
+/// WebAssembly has none, unless it is compiled for shared memory.
+const HAS_THREADS: bool = cfg!(any(not(target_family = "wasm"), target_feature = "atomics"));
+
 /// The threads could not be started.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ThreadsError {
@@ -53,7 +56,7 @@ impl Threads {
     pub fn new(count: Option<NonZeroUsize>) -> Self {
         // Told outright: a pool would otherwise take its size from an environment variable.
         let count = count.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-        Self { count, pool: Arc::default() }
+        Self { count: if HAS_THREADS { count } else { 1 }, pool: Arc::default() }
     }
 
     /// The caller's alone.

@@ -239,10 +239,8 @@ mod tests {
         let whole = PreparedScene::new(&scene).at_resolution(crate::map::Resolution { width: 24, height: 18 });
         let halved = whole.clone().with_emitters_halved();
         let lights = scene.lights().iter().map(|light| Quantity::Light(light.name.clone()));
-        let settings = RenderSettings {
-            quantities: lights.chain([Quantity::Brightness]).collect(),
-            ..RenderSettings::default()
-        };
+        let settings =
+            RenderSettings { quantities: lights.chain([Quantity::Brightness]).collect(), ..RenderSettings::default() };
         let [one, other] = [&whole, &halved].map(|scene| ReferenceRenderer.render(scene, &settings).unwrap());
         let mut compared = 0;
         for index in one.mask().indices() {
