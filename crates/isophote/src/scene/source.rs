@@ -61,12 +61,12 @@ tables! {
         /// Which formula gives the brightness (3.1 to 3.6).
         #[schemars(extend("default" = "radiance"))]
         pub convention: Option<Convention>,
-        /// Whether lights are given in W and W/sr, or in lm and cd.
-        #[schemars(extend("default" = "radiometric"))]
-        pub quantities: Option<UnitSystem>,
         /// Whether shapes stand in each other's light.
         #[schemars(extend("default" = false))]
         pub shadows: Option<bool>,
+        /// Whether lights are given in W and W/sr, or in lm and cd.
+        #[schemars(extend("default" = "radiometric"))]
+        pub quantities: Option<UnitSystem>,
         /// Which lights the three numbers of an amount that is written as [R, G, B] are amounts of: a space of linear RGB.
         #[schemars(extend("default" = "rec709"))]
         pub color_space: Option<ColorSpace>,
@@ -99,15 +99,15 @@ tables! {
         /// The rectangles.
         #[schemars(default, extend("default" = []))]
         pub rectangle: Vec<RectangleSource>,
-        /// The disks.
-        #[schemars(default, extend("default" = []))]
-        pub disk: Vec<DiskSource>,
         /// The meshes.
         #[schemars(default, extend("default" = []))]
         pub mesh: Vec<MeshSource>,
         /// Files of many spheres.
         #[schemars(default, extend("default" = []))]
         pub spheres: Vec<SpheresSource>,
+        /// The disks.
+        #[schemars(default, extend("default" = []))]
+        pub disk: Vec<DiskSource>,
         /// The lights.
         #[schemars(default, extend("default" = []))]
         pub light: Vec<LightSource>,
