@@ -318,15 +318,18 @@ impl Light<'_> {
 
     /// The emitters as this layer has them. Blocks are those of all of them, whichever are above the horizon.
     fn choose<E: Element>(&self, center: Vector, radius: f64, chosen: &mut Chosen<E>) {
-        chosen.clear();
+        // Reciprocals, where rows divide: the last digits stay what they were.
+        let (per_unit, per_square) = (1.0 / radius, 1.0 / (radius * radius));
         let mut block = 0;
+        chosen.clear();
         for (place, index) in self.chosen {
             if place / BLOCK != block {
                 block = place / BLOCK;
                 chosen.end_block();
             }
-            let placed: PlacedEmitter = self.layer.emitters().all()[*index].seen_from(center).in_unit(radius);
-            chosen.push(self.layer, self.lighting, *index, &placed);
+            let seen: PlacedEmitter = self.layer.emitters().all()[*index].seen_from(center);
+            let (position, intensity) = (seen.position * per_unit, seen.intensity * per_square);
+            chosen.push(self.layer, self.lighting, *index, &PlacedEmitter { position, intensity, ..seen });
         }
         chosen.end_block();
     }
