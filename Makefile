@@ -1,8 +1,8 @@
-# `make help` lists what can be made. Everything a target needs beyond Rust and make it installs itself, under target/.
+# `make help` lists the targets. What a target needs beyond Rust and make, it installs itself under target/.
 
 CARGO := cargo
 ISOPHOTE := $(CARGO) run --quiet --release --
-# As the tests build it, so that nothing is compiled twice.
+# The build that the tests use, so that nothing is compiled twice.
 TESTED_BUILD := $(CARGO) build --quiet --workspace --lib --bins --tests
 TESTED_DIR := $(or $(CARGO_TARGET_DIR),target)/debug
 TESTED := $(TESTED_DIR)/isophote
@@ -12,9 +12,9 @@ PYTHON_MODULE := python/isophote/_isophote.abi3.so
 GENERATED := target/generated
 DOCS_ENV := target/docs-python
 DOCS_SITE := target/docs-site
-# The scenes of docs/gallery.md that are rendered as they are.
+# The scenes of docs/gallery.md that are all rendered the same way.
 GALLERY := solids room mesh spheres shadows overcast spot color sun orthographic fisheye panorama
-# gungraun refuses a runner of another version than its own.
+# gungraun requires a runner of its own version.
 GUNGRAUN := 0.20.0
 GUNGRAUN_RUNNER := target/gungraun/bin/gungraun-runner
 FUZZ_TARGETS := $(notdir $(basename $(wildcard fuzz/fuzz_targets/*.rs)))
@@ -29,7 +29,7 @@ help: ## List the targets
 demo: ## Render the lab's scene: its numbers, lab.png, and lab-figure.png with axes and isophotes
 	$(ISOPHOTE) render -o lab.png --figure lab-figure.png
 
-test: python-env ## Run every test (those in Python, and with it as a foreign reader, where there is Python 3.10 or later)
+test: python-env ## Run every test (those that use Python need 3.10 or later)
 	@if [ -e $(PYTHON_ENV)/ready ]; then export ISOPHOTE_PYTHON="$(PYTHON)"; fi; \
 	$(CARGO) test --workspace
 	@if command -v node >/dev/null; then $(MAKE) --no-print-directory test-wasm; else echo "no Node here: the tests as WebAssembly are skipped"; fi
@@ -38,7 +38,7 @@ test: python-env ## Run every test (those in Python, and with it as a foreign re
 WASM := wasm32-wasip1
 WASM_RUNNER := node --no-warnings $(CURDIR)/validation/wasm/run.mjs
 
-test-wasm: ## Run the conformance suite as WebAssembly (needs Node from 20; installs the target for Rust)
+test-wasm: ## Run the conformance suite as WebAssembly (needs Node 20 or later; installs the Rust target)
 	@rustup target list --installed 2>/dev/null | grep -qx $(WASM) || rustup target add $(WASM)
 	CARGO_TARGET_WASM32_WASIP1_RUSTFLAGS="-C target-feature=+simd128" CARGO_TARGET_WASM32_WASIP1_RUNNER="$(WASM_RUNNER)" \
 		$(CARGO) test --target $(WASM) -p isophote-wasm
@@ -56,22 +56,22 @@ check: generated-is-current check-python check-wasm ## Formatting, lints, docume
 	$(CARGO) clippy --workspace --bench instructions -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --quiet
 
-check-python: python-env python-module ## The same of the Python package: formatting, lints, types, and the stubs beside the module
+check-python: python-env python-module ## Check the Python package: formatting, lints, types, stubs of the compiled module
 	@[ -e $(PYTHON_ENV)/ready ] || exit 0; cd python && \
 	$(PYTHON) -m ruff format --check --quiet . && $(PYTHON) -m ruff check --quiet . && \
 	$(PYTHON) -m mypy && $(PYTHON) -m mypy.stubtest isophote._isophote --mypy-config-file pyproject.toml
 
-bench: ## Time every stage, the whole program from start to picture, and all that beside other programs
+bench: ## Time every stage and the whole program from start to picture, then compare with other programs
 	$(CARGO) bench --workspace
 	@$(MAKE) --no-print-directory bench-python
 	@$(MAKE) --no-print-directory compare
 
-bench-python: ## Time the Python package as pip installs it: calls, loading, points, sweeps beside Numba
+bench-python: ## Time the Python package as pip installs it: calls, loading, points, sweeps compared with Numba
 	rm -rf target/bench-python && python3 -m venv target/bench-python
 	target/bench-python/bin/python -m pip install --quiet --disable-pip-version-check ".[xarray]" numba
 	target/bench-python/bin/python validation/python/speed.py
 
-compare: ## Measure beside NumPy, Numba, Dr.Jit, Mitsuba, Radiance and POV-Ray, and write docs/speed.md (20 minutes)
+compare: ## Compare with NumPy, Numba, Dr.Jit, Mitsuba, Radiance and POV-Ray, and write docs/speed.md (20 minutes)
 	python3 validation/speed/compare.py
 
 growth: ## Measure how the cost grows with spheres and samples, and write docs/growth.md (5 minutes)
@@ -82,12 +82,13 @@ bench-instructions: ## Count the instructions of every stage (needs valgrind; in
 	@[ -x $(GUNGRAUN_RUNNER) ] || $(CARGO) install --locked --root target/gungraun gungraun-runner@$(GUNGRAUN)
 	GUNGRAUN_RUNNER="$(CURDIR)/$(GUNGRAUN_RUNNER)" $(CARGO) bench --workspace --bench instructions
 
-audit: ## Licences, sources and bans of all dependencies (installs cargo-deny if it is missing)
+audit: ## Check licences, sources and bans of all dependencies (installs cargo-deny if it is missing)
 	@$(CARGO) deny --version >/dev/null 2>&1 || $(CARGO) install --locked cargo-deny
 	$(CARGO) deny check licenses sources bans
 
-# What a run finds goes on under target/; fuzz/corpus holds small seeds only. The limit on memory finds headers that lie.
-fuzz: ## Feed every reader of files damaged ones, FUZZ_SECONDS=60 each (installs cargo-fuzz and a nightly Rust)
+# Inputs found by a run are kept under target/; fuzz/corpus holds only small seeds. The memory limit catches headers
+# that lie.
+fuzz: ## Feed damaged files to every reader, for FUZZ_SECONDS=60 each (installs cargo-fuzz and a nightly Rust)
 	@rustup run nightly rustc --version >/dev/null 2>&1 || rustup toolchain install nightly --profile minimal
 	@$(CARGO) fuzz --version >/dev/null 2>&1 || $(CARGO) install --locked cargo-fuzz
 	@for target in $(FUZZ_TARGETS); do \
@@ -97,11 +98,11 @@ fuzz: ## Feed every reader of files damaged ones, FUZZ_SECONDS=60 each (installs
 			-max_total_time=$(FUZZ_SECONDS) -timeout=10 -malloc_limit_mb=256 -print_final_stats=1 -verbosity=0 || exit 1; \
 	done
 
-docs: generate docs-site ## Regenerate what is generated; build the site of docs/, and the documentation of the library
+docs: generate docs-site ## Regenerate generated files; build the site of docs/, and the documentation of the library
 	$(CARGO) doc --workspace --no-deps
 	@echo "guide: $(DOCS_SITE)/index.html; library: target/doc/isophote/index.html"
 
-# Examples and notebooks need the package: notebooks run while the site is built. A warning is an error.
+# Examples and notebooks need the package: notebooks run while the site is built. Warnings are errors.
 .PHONY: docs-site
 docs-site: python-module $(DOCS_ENV)/ready
 	$(DOCS_ENV)/bin/python -m sphinx -W --keep-going -n -q -b html -d target/docs-doctrees docs $(DOCS_SITE)
@@ -111,12 +112,12 @@ $(DOCS_ENV)/ready: docs/requirements.txt
 	$(DOCS_ENV)/bin/python -m pip install --quiet --disable-pip-version-check -r docs/requirements.txt
 	touch $@
 
-# The pictures of the tutorial, as its own examples draw them; to be looked at before they are committed.
+# The tutorial's pictures, drawn by its own examples; look at them before committing.
 .PHONY: docs-figures
-docs-figures: python-module $(DOCS_ENV)/ready ## Draw the tutorial's pictures anew
+docs-figures: python-module $(DOCS_ENV)/ready ## Redraw the tutorial's pictures
 	PYTHONPATH=python $(DOCS_ENV)/bin/python python/tests/test_docs.py
 
-generate: ## Make the generated files anew: schema/, docs/images/ (the gallery too)
+generate: ## Rewrite the generated files: schema/, docs/images/ (the gallery too)
 	@$(MAKE) --no-print-directory $(GENERATED)
 	cp -r $(GENERATED)/. .
 
@@ -142,7 +143,7 @@ $(GENERATED):
 	$(TESTED) surface --quiet scenes/surface.toml --figure $@/docs/images/gallery/surface.png > /dev/null
 	$(TESTED) grid --quiet scenes/grid.toml --name floor --figure $@/docs/images/gallery/grid.png > /dev/null
 
-# The compiled part of the Python package, where Python finds it in the source.
+# The compiled part of the Python package, placed where Python finds it in the source tree.
 .PHONY: python-module
 python-module:
 	$(TESTED_BUILD)
@@ -150,7 +151,8 @@ python-module:
 		[ ! -e "$$module" ] || cmp -s "$$module" $(PYTHON_MODULE) || { rm -f $(PYTHON_MODULE); cp "$$module" $(PYTHON_MODULE); }; \
 	done
 
-# Without Python the tests of its package do not run, two others say that they are skipped, and all the rest runs.
+# Without Python, the tests of its package do not run, two others report that they are skipped, and everything else
+# runs.
 .PHONY: python-env
 python-env:
 	@cmp -s python/requirements-dev.txt $(PYTHON_ENV)/ready || { \

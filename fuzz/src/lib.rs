@@ -1,11 +1,11 @@
-//! What every file that a reader accepts must keep to.
+//! What must hold for every file that a reader accepts.
 
 use isophote::{
     import::{MaterialSlots, MeshFormat, SpheresFormat, mesh_from_bytes, spheres_from_bytes},
     scene::{Scene, Syntax},
 };
 
-/// Whatever the bytes, a mesh is sound or refused with a message.
+/// Whatever the bytes, they give a valid mesh or an error message.
 pub fn check_mesh(bytes: &[u8], format: MeshFormat) {
     let mesh = match mesh_from_bytes(bytes, format) {
         Ok(mesh) => mesh,
@@ -25,7 +25,7 @@ pub fn check_mesh(bytes: &[u8], format: MeshFormat) {
     check_materials(mesh.materials.as_ref(), mesh.triangles.len());
 }
 
-/// Whatever the bytes, a list of spheres is sound or refused with a message.
+/// Whatever the bytes, they give a valid list of spheres or an error message.
 pub fn check_spheres(bytes: &[u8], format: SpheresFormat) {
     let list = match spheres_from_bytes(bytes, format) {
         Ok(list) => list,
@@ -38,7 +38,7 @@ pub fn check_spheres(bytes: &[u8], format: SpheresFormat) {
     check_materials(list.materials.as_ref(), list.centers.len());
 }
 
-/// Whatever the text, it is a scene or there is a report of its mistakes.
+/// Whatever the text, it gives a scene or a report of its mistakes.
 pub fn check_scene(bytes: &[u8], syntax: Syntax) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     if let Err(error) = Scene::from_text("scene", text, syntax) {

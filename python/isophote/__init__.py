@@ -1,4 +1,4 @@
-"""Brightness of surfaces lit by point lights, parallel and ambient light: maps, exact values at points, with units.
+"""Brightness of surfaces lit by point, parallel and ambient light: maps, and exact values at points, with units.
 
 >>> import isophote as iso
 >>> scene = iso.scenes.lab()
@@ -116,7 +116,7 @@ __all__ = [
     "sweep",
 ]
 
-# Nothing is loaded before it is used: NumPy alone takes longer than the command does for most of its work.
+# Modules are loaded on first use: importing NumPy alone takes longer than most commands run.
 _NAMES = {
     "analysis": ("GridMap", "SurfaceMap", "SurfaceTotals", "grid", "surface"),
     "camera": ("Camera", "Sampling", "Screen", "Window"),

@@ -1,4 +1,4 @@
-"""``python -m isophote`` is the command ``isophote``."""
+"""``python -m isophote`` runs the command ``isophote``."""
 
 from __future__ import annotations
 

@@ -8,5 +8,5 @@ from . import _isophote
 
 
 def main() -> int:
-    """Runs the command; gives its exit code."""
+    """Runs the command; returns its exit code."""
     return _isophote.command(["isophote", *sys.argv[1:]])

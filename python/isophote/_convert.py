@@ -1,5 +1,5 @@
-"""From what users write to what scenes hold: floats, tuples of floats, words. Arrays become tuples, so that parts of scenes
-never change and can be compared."""
+"""Converts user input to what scenes hold: floats, tuples of floats, strings. Arrays become tuples, so that parts of
+scenes never change and can be compared."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def number(value: Any) -> float:
 
 
 def whole(value: Any) -> int:
-    """A whole number."""
+    """An integer."""
     if isinstance(value, (bool, np.bool_)):
         raise Invalid(f"is {value!r}", "allowed: a whole number")
     try:
@@ -70,7 +70,7 @@ def pair(value: Any) -> tuple[float, ...]:
 
 
 def size(value: Any) -> tuple[int, ...]:
-    """Two whole numbers."""
+    """Two integers."""
     return _several(value, 2, whole, "two whole numbers (columns, rows)")
 
 
@@ -82,7 +82,7 @@ def amount(value: Any) -> float | tuple[float, ...]:
 
 
 def word(value: Any) -> str:
-    """A text; whether it is one of those allowed is checked with the scene."""
+    """A string; whether it is one of the allowed ones is checked with the scene."""
     if not isinstance(value, str):
         raise Invalid(f"is {value!r}", "allowed: a text")
     return str(value.value) if hasattr(value, "value") else str(value)
@@ -95,12 +95,12 @@ def flag(value: Any) -> bool:
     return bool(value)
 
 
-# What fields of parts are declared as: the type, and the function that makes it of what users write.
+# The declared types of part fields: the type, and the function that converts user input to it.
 Number = Annotated[float, number]
 Whole = Annotated[int, whole]
 Word = Annotated[str, word]
 Flag = Annotated[bool, flag]
-# Arrays and lists are taken, and tuples kept.
+# Arrays and lists are accepted, and stored as tuples.
 Vector = Annotated[tuple[float, float, float] | list[float] | NDArray[Any], vector]
 Pair = Annotated[tuple[float, float] | list[float] | NDArray[Any], pair]
 Size = Annotated[tuple[int, int] | list[int] | NDArray[Any], size]

@@ -1,17 +1,17 @@
-"""What notebooks show."""
+"""HTML for notebooks."""
 
 from __future__ import annotations
 
 
 def escaped(text: str) -> str:
-    """A text as HTML has it."""
+    """Text escaped for HTML."""
     import html
 
     return html.escape(text)
 
 
 def image(png: bytes, description: str) -> str:
-    """A picture within the page."""
+    """An image embedded in the page."""
     import base64
 
     data = base64.b64encode(png).decode("ascii")
@@ -19,6 +19,6 @@ def image(png: bytes, description: str) -> str:
 
 
 def table(rows: list[tuple[str, str]]) -> str:
-    """Two columns: what, and how much."""
+    """A two-column table of names and values."""
     cells = (f"<tr><th style='text-align:left'>{escaped(a)}</th><td>{escaped(b)}</td></tr>" for a, b in rows)
     return f"<table>{''.join(cells)}</table>"

@@ -1,4 +1,4 @@
-"""What all parts of a scene have in common."""
+"""The base class of all parts of a scene."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ PartType = TypeVar("PartType", bound="Part")
 
 @dataclasses.dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Part:
-    """A part of a scene. It never changes; :meth:`replace` gives another one."""
+    """A part of a scene. It is immutable; :meth:`replace` returns a modified copy."""
 
     _FIXED: ClassVar[Mapping[str, Any]] = MappingProxyType({})
-    """What the scene file says of every such part."""
+    """Keys that have the same value in the scene file for every such part."""
     _KEYS: ClassVar[Mapping[str, str]] = MappingProxyType({})
-    """The keys of scene files that fields have other names for."""
+    """Scene file keys of fields that are named differently."""
 
     def __post_init__(self) -> None:
         problems = []
@@ -39,11 +39,11 @@ class Part:
             raise SceneError("\n".join(str(problem) for problem in problems), problems)
 
     def replace(self: PartType, **changes: Any) -> PartType:
-        """The same with other values."""
+        """A copy with some values changed."""
         return dataclasses.replace(self, **changes)
 
     def to_dict(self) -> dict[str, Any]:
-        """What a scene file says of it, without what is so by default."""
+        """The part as in a scene file, without default values."""
         written = dict(self._FIXED)
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
@@ -58,12 +58,12 @@ class Part:
 
     @classmethod
     def key_of(cls, field: str) -> str:
-        """The key of a scene file for a field."""
+        """The scene file key of a field."""
         return cls._KEYS.get(field, field)
 
     @classmethod
     def from_dict(cls: type[PartType], written: Mapping[str, Any]) -> PartType:
-        """The part of which a scene file says this."""
+        """The part described by this table of a scene file."""
         names = {key: name for name, key in cls._KEYS.items()}
         for key, fixed in cls._FIXED.items():
             if written.get(key, fixed) != fixed:
@@ -78,7 +78,7 @@ class Part:
     def _values(self) -> tuple[Any, ...]:
         return tuple(getattr(self, field.name) for field in dataclasses.fields(self))
 
-    # Once for all parts: a dataclass would compile them anew for each.
+    # Defined once for all parts: a dataclass would compile them for every class.
     def __eq__(self, other: object) -> bool:
         return self._values() == other._values() if isinstance(other, Part) and type(other) is type(self) else NotImplemented
 
@@ -103,7 +103,7 @@ _KNOWN: dict[type[Part], dict[str, Converter]] = {}
 
 
 def converters(part: type[Part]) -> dict[str, Converter]:
-    """How each field becomes what it holds, by its declared type."""
+    """The converter of each field, by its declared type."""
     if part not in _KNOWN:
         hints = typing.get_type_hints(part, include_extras=True)
         _KNOWN[part] = {field.name: _converter(hints[field.name]) for field in dataclasses.fields(part)}
@@ -121,7 +121,7 @@ def _converter(hint: Any) -> Converter:
 
 
 def _nested(kind: type[Part]) -> Converter:
-    """A part within another one, which may be given as its dictionary."""
+    """Converts a part within another one, which may be given as its dictionary."""
 
     def convert(value: Any) -> Part:
         if isinstance(value, kind):

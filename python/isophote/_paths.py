@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 @dataclasses.dataclass(frozen=True)
 class Pointer:
-    """Where a value stands in the dictionary of a scene, and how it is converted."""
+    """The location of a value in a scene's dictionary, and how it is converted."""
 
     path: str
     keys: tuple[str | int, ...]
     convert: Converter
 
     def put(self, written: dict[str, Any], value: Any) -> None:
-        """Puts a value there; ``None`` takes away what is there."""
+        """Sets the value there; ``None`` removes it."""
         container: Any = written
         for key in self.keys[:-1]:
             container = container[key]
@@ -42,7 +42,7 @@ class Pointer:
 
 
 def locate(scene: Scene, path: str) -> Pointer:
-    """Where a path leads in a scene."""
+    """The location that a path refers to in a scene."""
     match = re.fullmatch(r"(?P<table>\w+)(?:\[(?P<index>\d+)\])?(?:\.(?P<rest>.+))?", path, re.DOTALL)
     if match is None:
         example = "such as light.lamp.position, material.clay.shininess, camera.eye"
@@ -98,7 +98,7 @@ _TABLES: Mapping[str, tuple[str, type[Part]]] = {
 def _find(
     scene: Scene, field: str, table: str, kind: type[Part], index: str | None, rest: str, path: str
 ) -> tuple[int, list[str]]:
-    """The number of a thing among those of its field, and what follows its name or its number in the path."""
+    """The index of an item in its field, and the part of the path after its name or index."""
     items = getattr(scene, field)
     of_kind = [number for number, item in enumerate(items) if isinstance(item, kind)]
     if index is not None:
@@ -106,7 +106,7 @@ def _find(
             raise ArgumentError(f"{path!r}: the scene has {len(of_kind)} {table}, counted from 0")
         return of_kind[int(index)], rest.split(".")
     names = scene.core.describe()[field]
-    # Names may have dots in them, and one may begin like another.
+    # Names may contain dots, and one name may be a prefix of another.
     for number in sorted(of_kind, key=lambda number: -len(names[number])):
         if rest.startswith(names[number] + "."):
             return number, rest[len(names[number]) + 1 :].split(".")

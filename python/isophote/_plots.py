@@ -1,4 +1,4 @@
-"""Figures by matplotlib."""
+"""Figures drawn with matplotlib."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def plot_map(
     ax.set_xlabel(horizontal.label)
     ax.set_ylabel(vertical.label)
     ax.set_title(of.scene.title)
-    # Nothing there is not the same as dark: what sees no surface is hatched.
+    # No surface is not the same as dark: pixels that see no surface are hatched.
     ax.set_facecolor("0.93")
     ax.patch.set(hatch="///", edgecolor="0.75")
     mask = of.mask
@@ -57,7 +57,7 @@ def plot_map(
 
 
 def _height_by_width(of: Map) -> float:
-    """So that the colour bar is as high as the picture."""
+    """The aspect ratio of the map, for a colour bar as high as the picture."""
     horizontal, vertical = of.axes
     return abs((vertical.edges[1] - vertical.edges[0]) / (horizontal.edges[1] - horizontal.edges[0]))
 
@@ -72,13 +72,13 @@ def _draw_isophotes(of: Map, name: str, levels: int | Sequence[float], ax: matpl
             longest = max(isophote.lines, key=len)
             x, y = longest[len(longest) // 3]
             text = ax.annotate(f"{isophote.level:g}", (x, y), color="white", fontsize="small", ha="center", va="center")
-            # Legible on every colour.
+            # Readable on any colour.
             text.set_path_effects([withStroke(linewidth=2, foreground="black")])
             bar.ax.axhline(isophote.level, color="white", linewidth=0.8)
 
 
 def _srgb(linear: Any) -> Any:
-    """What screens show."""
+    """Encodes linear RGB as sRGB for the screen."""
     low = 12.92 * linear
     return np.clip(np.where(linear <= 0.0031308, low, 1.055 * np.power(np.maximum(linear, 0.0), 1 / 2.4) - 0.055), 0, 1)
 

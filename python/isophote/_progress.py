@@ -1,4 +1,4 @@
-"""How far long work has got."""
+"""Progress of long-running work."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from contextlib import contextmanager
 from typing import Any
 
 Progress = bool | Callable[[int, int], Any] | None
-"""Called with what is done and with all there is, in between and at the end; ``True`` for a bar by tqdm, if it is there."""
+"""Called with the work done and the total, repeatedly and at the end; ``True`` for a tqdm bar, if tqdm is installed."""
 
 
 @contextmanager
 def reporter(progress: Progress, what: str) -> Iterator[Callable[[int, int], Any] | None]:
-    """The function to call, if one is wanted."""
+    """The progress function to call, or ``None``."""
     if progress is None or progress is False:
         yield None
     elif progress is True:

@@ -1,4 +1,4 @@
-"""What becomes of the maps of a sweep: a Dataset in memory, or a Zarr store."""
+"""Where the maps of a sweep go: a Dataset in memory, or a Zarr store."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Template:
-    """The Dataset without its values."""
+    """The Dataset without its data."""
 
     parameters: int
-    """How many of the dimensions, the first ones, are parameters."""
+    """The number of leading dimensions that are parameters."""
     sizes: dict[str, int]
     coordinates: dict[str, Any]
     variables: dict[str, tuple[tuple[str, ...], np.dtype[Any], dict[str, str]]]
@@ -45,13 +45,14 @@ class Template:
         return xarray.Dataset(variables, self.coordinates, self.attributes)
 
     def identity(self) -> str:
-        """What makes it this sweep and no other."""
+        """A string that identifies this sweep."""
         coordinates = {name: coordinate.values.tolist() for name, coordinate in self.dataset({}).coords.items()}
         variables = {name: (dims, str(dtype)) for name, (dims, dtype, _) in self.variables.items()}
         return json.dumps([str(self.attributes.get("scene")), coordinates, variables], sort_keys=True, default=str)
 
     def numbered(self) -> xarray.Dataset:
-        """The same with numbers for words, which Zarr has no settled form for; the words are in the attribute ``labels``."""
+        """The Dataset with numbers for strings, for which Zarr has no settled format; the strings are in the attribute
+        ``labels``."""
         dataset = self.dataset({})
         for name, coordinate in dataset.coords.items():
             if coordinate.dtype.kind == "U":
@@ -68,7 +69,7 @@ def template(sweep: Sweep, values: Mapping[str, Sequence[Any]], first: Map) -> T
         coordinates.update(_coordinate(path, several, pointer))
     is_same_window = not any(_moves_pixels(pointer) for pointer in sweep.pointers)
     for axis, counted in zip(first.axes, ("column", "row")):
-        # Where the maps do not lie in the same place, their pixels are counted.
+        # If the maps cover different places, their pixels are numbered instead.
         numbers = (axis.name, np.arange(image.sizes[axis.name]), {"units": "1", "long_name": f"{counted}, from 0"})
         coordinates[axis.name] = image[axis.name] if is_same_window else numbers
     for key, coordinate in image.coords.items():
@@ -83,25 +84,25 @@ def template(sweep: Sweep, values: Mapping[str, Sequence[Any]], first: Map) -> T
         if name != "visible":
             units = [core.unit(name) for core in sweep.cores]
             if len(set(units)) > 1:
-                # A unit of each map, beside the values that make it so.
+                # One unit per map, indexed by the parameters that it depends on.
                 del attrs["units"]
                 coordinates[f"{name}.units"] = (tuple(values), np.array(units).reshape(sweep.sizes))
         variables[name] = (dims, variable.dtype, attrs)
     about = attributes(first.metadata)
     if any(pointer.keys[0] in ("convention", "quantities") for pointer in sweep.pointers):
         del about["convention"]
-    # The scene is that of the first map; what the others have instead is in the coordinates.
+    # The scene is that of the first map; the values in which the others differ are in the coordinates.
     return Template(len(values), sizes, coordinates, variables, about)
 
 
 def _moves_pixels(pointer: Pointer) -> bool:
-    """Whether the places of pixels on the screen, or their unit, depend on a value."""
+    """Whether the positions of pixels on the screen, or their unit, depend on a value."""
     within = ("screen", "field_of_view", "window", "longitude", "latitude", "projection")
     return pointer.keys[0] == "length" or (pointer.keys[0] == "camera" and pointer.keys[1] in within)
 
 
 def _coordinate(path: str, several: Sequence[Any], pointer: Pointer) -> dict[str, Any]:
-    """What stands along a dimension: the values themselves, or numbers and the values beside them."""
+    """The coordinate along a dimension: the values themselves, or numbers with the values beside them."""
     plain = [pointer.convert(value) if value is not None else None for value in several]
     if all(isinstance(value, str) for value in plain):
         return {path: np.array(plain)}
@@ -115,12 +116,12 @@ def _coordinate(path: str, several: Sequence[Any], pointer: Pointer) -> dict[str
 
 
 class Memory:
-    """Arrays for all maps."""
+    """Arrays in memory for all maps."""
 
     done: frozenset[int] = frozenset()
 
     def __init__(self, form: Template) -> None:
-        # What no map sees is never written: memory that nobody touches costs nothing.
+        # Pixels that no map sees are never written: untouched memory costs nothing.
         self.arrays = {name: np.zeros(form.shape(name), of[1]) for name, of in form.variables.items()}
 
     def put(self, index: tuple[int, ...], of: _isophote.Map) -> None:
@@ -132,12 +133,12 @@ class Memory:
 
 
 RENDERED = "rendered"
-"""The array of a store that says of each map whether it is there; written after the map itself."""
+"""The array of a store that records which maps are complete; written after the map itself."""
 
 
 @dataclass(frozen=True)
 class Store:
-    """A Zarr store with a chunk for each map and channel: who writes a chunk writes all of it, and nobody else does."""
+    """A Zarr store with one chunk per map and channel: every chunk has a single writer, which writes it whole."""
 
     path: str
     done: frozenset[int]

@@ -17,7 +17,7 @@ COMPONENTS: dict[str, tuple[str, list[str]]] = {
     "normal": ("axis", ["x", "y", "z"]),
     "color": ("component", ["red", "green", "blue"]),
 }
-"""The third dimension of vectors, and what runs along it."""
+"""The third dimension of vectors, and its labels."""
 
 
 def dataset(of: Map) -> xarray.Dataset:
@@ -43,7 +43,7 @@ def dataset(of: Map) -> xarray.Dataset:
 
 
 def needed(module: str) -> Any:
-    """A module of another package, or a word about how to get it."""
+    """Imports a module of another package, or says how to install it."""
     try:
         return importlib.import_module(module)
     except ImportError as error:
@@ -51,7 +51,7 @@ def needed(module: str) -> Any:
 
 
 def attributes(metadata: dict[str, Any]) -> dict[str, str]:
-    """What made a map, as attributes."""
+    """The metadata of a map as attributes."""
     return {
         name: metadata[name]
         for name in ("title", "convention", "renderer", "program", "scene", "color_space")

@@ -1,4 +1,4 @@
-"""Maps that belong to no camera: over a shape's own surface, over a grid of points."""
+"""Maps without a camera: over a shape's own surface, or over a grid of points."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ __all__ = ["GridMap", "SurfaceMap", "SurfaceTotals", "grid", "surface"]
 
 @dataclass(frozen=True)
 class SurfaceTotals:
-    """What a channel amounts to over a surface, each cell weighted by its exact area: ``integral`` in the channel's unit
-    times m² (for the irradiance the flux in W or lm), over ``area`` m²."""
+    """Totals of a channel over a surface, each cell weighted by its exact area: ``integral`` in the channel's unit times
+    m² (for the irradiance, the flux in W or lm), over ``area`` m²."""
 
     integral: float
     min: float
@@ -28,12 +28,12 @@ class SurfaceTotals:
 
     @property
     def mean(self) -> float:
-        """The integral over the area."""
+        """The integral divided by the area."""
         return self.integral / self.area
 
 
 class SurfaceMap(Map):
-    """A map over the surface of a shape. ``area`` is that of the surface in m²; ``totals`` has each channel's."""
+    """A map over the surface of a shape. ``area`` is the surface area in m²; ``totals`` has the totals of each channel."""
 
     def __init__(self, core: _isophote.Map, scene: Scene, area: float, totals: dict[str, Any]) -> None:
         super().__init__(core, scene)
@@ -46,7 +46,7 @@ class GridMap(Map):
 
     @property
     def uniformity(self) -> float:
-        """The least irradiance over the mean."""
+        """The minimum irradiance divided by the mean."""
         return self.min("irradiance") / self.mean("irradiance")
 
 
@@ -63,7 +63,7 @@ def surface(
 ) -> SurfaceMap:
     """The map over the surface of a shape: a sphere, a rectangle, a disk or a cylinder.
 
-    ``shape``: its name or its number; may be left out where there is one. ``part``: which sphere of a cloud.
+    ``shape``: its name or index; may be omitted if there is only one. ``part``: which sphere of a cloud.
     ``projection``: ``"equirectangular"`` or ``"equal-area"``. ``side``: ``"front"`` or ``"back"``.
     ``axis``: where a sphere's latitude is 90°, +y by default. ``size``: columns and rows.
     """
@@ -82,7 +82,7 @@ def surface(
 
 
 def grid(scene: Scene, *, name: str | int | None = None, channels: Channels = ("irradiance", "position")) -> GridMap:
-    """The map over a grid of the scene, by its name or its number; it may be left out where there is one."""
+    """The map over a grid of the scene, given by name or index, which may be omitted if there is only one grid."""
     names = scene.core.describe()["grids"]
     core = _isophote.grid(scene.core, _named(names, name, "grid"), channel_names(scene, channels))
     return GridMap(core, scene)

@@ -12,7 +12,7 @@ __all__ = ["Camera", "Sampling", "Screen", "Window"]
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Screen(Part):
-    """The window of a perspective camera: left and right edge ``x``, lower and upper edge ``y``, on the plane at
+    """The window of a perspective camera: left and right edges ``x``, lower and upper edges ``y``, on the plane at
     ``distance`` from the eye."""
 
     distance: Number
@@ -53,8 +53,8 @@ class Camera(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Sampling(Part):
-    """How many rays a pixel's value is made of (2.6): ``samples`` of them, or as many as a ``tolerance`` takes, which is the
-    error that is allowed as a part of the largest brightness. ``filter`` is ``"box"``, ``"triangle"``, ``"gaussian"`` or
+    """How many rays make up a pixel's value (2.6): ``samples`` rays, or as many as needed for ``tolerance``, which is the
+    allowed error as a fraction of the maximum brightness. ``filter`` is ``"box"``, ``"triangle"``, ``"gaussian"`` or
     ``"mitchell"``."""
 
     samples: Whole | None = None

@@ -1,6 +1,6 @@
-"""What can go wrong, as one family: every exception of the package is an :class:`Error`.
+"""The exceptions of the package, all of which are subclasses of :class:`Error`.
 
-A file that cannot be read or written is an :class:`OSError`, as everywhere in Python.
+A file that cannot be read or written raises an :class:`OSError`, as everywhere in Python.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Place:
-    """A place in a scene file: line and column from 1, and the text of the line."""
+    """A position in a scene file: line and column, counted from 1, and the text of the line."""
 
     line: int
     column: int
@@ -33,10 +33,10 @@ class Place:
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong with a scene.
+    """A single problem in a scene.
 
     ``kind`` is ``"unreadable"``, ``"syntax"``, ``"unknown-key"``, ``"missing-key"``, ``"wrong-type"``, ``"value"`` or
-    ``"warning"``; ``path`` names the thing concerned, such as ``sphere[0].radius``; ``help`` says what is allowed.
+    ``"warning"``; ``path`` names the item concerned, such as ``sphere[0].radius``; ``help`` says what is allowed.
     """
 
     kind: str
@@ -51,7 +51,7 @@ class Problem:
 
     @property
     def line(self) -> int | None:
-        """The line in the scene file, from 1; none where the scene was no text."""
+        """The line in the scene file, counted from 1; ``None`` if the scene was not text."""
         return None if self.place is None else self.place.line
 
     def __str__(self) -> str:
@@ -59,11 +59,11 @@ class Problem:
 
 
 class Error(Exception):
-    """What all exceptions of the package are."""
+    """The base class of all exceptions of the package."""
 
 
 class SceneError(Error, ValueError):
-    """A scene that is not valid. ``problems`` has everything that is wrong with it."""
+    """An invalid scene. ``problems`` lists everything that is wrong with it."""
 
     problems: tuple[Problem, ...]
 
@@ -76,11 +76,11 @@ class SceneError(Error, ValueError):
 
 
 class ArgumentError(Error, ValueError):
-    """An argument that makes no sense, or not for this scene."""
+    """An argument that is invalid, in general or for this scene."""
 
 
 class ProbeError(Error, ValueError):
-    """Points at which there is no value. ``indices`` has their places among the points that were asked for."""
+    """Points that have no value. ``indices`` holds their indices among the requested points."""
 
     indices: tuple[int, ...]
 
@@ -101,8 +101,8 @@ class StoreError(Error, RuntimeError):
 
 
 class InternalError(RenderError):
-    """A fault of this program."""
+    """A bug in this program."""
 
 
 class SceneWarning(UserWarning):
-    """What is allowed in a scene but deserves a word."""
+    """Something that is allowed in a scene but worth a warning."""

@@ -1,4 +1,4 @@
-"""Files of maps."""
+"""Reading map files."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ __all__ = ["MapFile", "read"]
 
 
 class MapFile(Mapping[str, NDArray[Any]]):
-    """A file or store that Isophote wrote: what it says about itself, and its channels as arrays where the format holds
-    them (EXR, NPZ, NPY, CSV and Zarr; a PNG holds a picture, of which no values can be taken)."""
+    """A file or store written by Isophote: its metadata, and its channels as arrays if the format holds them (EXR, NPZ,
+    NPY, CSV and Zarr; a PNG is a picture, from which no values can be read)."""
 
     def __init__(self, path: str, directory: str | None = None) -> None:
         self.path = path
-        # The working directory may be another one when the values are read.
+        # The working directory may have changed by the time the values are read.
         self._place = os.path.abspath(path)
         self._directory = os.path.dirname(self._place) if directory is None else os.path.abspath(directory)
         self.metadata: dict[str, Any] = json.loads(_isophote.read_metadata(path))
@@ -75,7 +75,7 @@ class MapFile(Mapping[str, NDArray[Any]]):
             stored = dict(_isophote.read_exr(self._place))
             return {name: self._joined(stored, name) for name in self._channels}
         if start.startswith(b"PK\x03\x04"):
-            # Modules that take long to load are loaded where they are needed.
+            # Modules that are slow to load are imported where they are needed.
             import zipfile
 
             with zipfile.ZipFile(self._place) as archive:
@@ -112,9 +112,9 @@ class MapFile(Mapping[str, NDArray[Any]]):
 
 
 def read(path: str | os.PathLike[str], *, directory: str | os.PathLike[str] | None = None) -> MapFile:
-    """What a file or store of Isophote holds: its scene, and its channels.
+    """Opens a file or store written by Isophote, with its scene and its channels.
 
-    ``directory``: where relative names of files in the scene start; the directory of the file by default.
+    ``directory``: the base directory for relative file names in the scene; by default the directory of the file.
     """
     return MapFile(os.fspath(path), None if directory is None else os.fspath(directory))
 

@@ -1,4 +1,4 @@
-"""The bare formula, for those who bring their own geometry."""
+"""The bare formula, for callers with their own geometry."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def brightness(
     """The brightness (3.1) to (3.6) at points with given unit normals, summed over the lights, without shadows.
 
     ``normals`` and ``positions``: arrays of any shape (…, 3), in metres; the result has the shape (…). ``eye``: one point
-    (3,), or one for each position. The lights' places are in metres too. A normal must be of length 1 within 1e-6.
+    (3,), or one per position. Light positions are in metres too. Normals must have length 1 to within 1e-6.
     """
     placed, directions, eyes = _vectors(positions, "positions"), _vectors(normals, "normals"), _vectors(eye, "eye")
     try:
@@ -57,7 +57,7 @@ def brightness(
     for light in of_scene:
         if not isinstance(light, Light):
             raise ArgumentError(f"lights has {light!r} in it; allowed: lights")
-    # The formula needs neither camera nor shapes: the eye is given, and nothing is traced.
+    # The formula needs neither a camera nor shapes: the eye is given, and no rays are traced.
     written = {
         "version": 1,
         "length": "m",
@@ -81,7 +81,7 @@ def brightness(
 
 
 _FARTHEST = 1e15
-"""As far as anything of a scene may be."""
+"""The largest distance allowed in a scene."""
 
 
 def _vectors(values: ArrayLike, name: str) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Lights. Places and directions are in the scene's axes, lengths in its unit, angles in degrees.
+"""Lights. Positions and directions are in the scene's axes, lengths in its unit, angles in degrees.
 
 Strengths are in W and W/sr, or in lm and cd in a photometric scene: a number, or one for each of red, green and blue.
 """
@@ -17,7 +17,7 @@ __all__ = ["Ambient", "LambertianLight", "Light", "ParallelLight", "PointLight",
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Light(Part):
-    """What all lights have: a name of their own, and whether shapes keep their light from each other."""
+    """The fields common to all lights: a name, and whether shapes block their light."""
 
     name: Word | None = None
     casts_shadows: Flag = True
@@ -25,7 +25,7 @@ class Light(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class PointLight(Light):
-    """A point that sends the same in every direction (3.1): either ``intensity``, or ``power`` = 4π times it."""
+    """A point that emits equally in all directions (3.1): either ``intensity``, or ``power`` = 4π · ``intensity``."""
 
     position: Vector
     intensity: Amount | None = None
@@ -34,7 +34,7 @@ class PointLight(Light):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class LambertianLight(Light):
-    """A point that sends I₀ cosγ (3.1), γ the angle from its axis: either ``intensity`` I₀, or ``power`` = π I₀.
+    """A point that emits I₀ cosγ (3.1), with γ the angle from its axis: either ``intensity`` I₀, or ``power`` = π I₀.
 
     It is aimed by its ``axis``, or by the point ``target``."""
 
@@ -48,8 +48,8 @@ class LambertianLight(Light):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class SpotLight(Light):
-    """A point that sends its full intensity up to ``inner_angle`` from its axis, nothing beyond ``outer_angle``, and a
-    smooth step between (3.7); aimed by its ``axis``, or by the point ``target``."""
+    """A point that emits its full intensity up to ``inner_angle`` from its axis, nothing beyond ``outer_angle``, and a
+    smooth transition in between (3.7); aimed by its ``axis``, or by the point ``target``."""
 
     _FIXED = MappingProxyType({"emission": "spot"})
     position: Vector
@@ -63,8 +63,8 @@ class SpotLight(Light):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class ParallelLight(Light):
-    """Light from one direction, without loss, like the sun's (3.8): ``direction`` is the one in which it travels,
-    ``irradiance`` what a plane at right angles to it receives, in W/m² or lx."""
+    """Light from one direction without attenuation, like sunlight (3.8): ``direction`` is the one in which it travels,
+    ``irradiance`` the irradiance on a plane perpendicular to it, in W/m² or lx."""
 
     _FIXED = MappingProxyType({"emission": "parallel"})
     direction: Vector
@@ -73,8 +73,8 @@ class ParallelLight(Light):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Ambient(Part):
-    """Light from all around (3.9), of the same ``radiance`` (W/(m²·sr) or cd/m²) from every direction; with ``obstructed``,
-    each point looks in ``samples`` directions for shapes that are in the way."""
+    """Light from all around (3.9), with the same ``radiance`` (W/(m²·sr) or cd/m²) from every direction; with
+    ``obstructed``, each point looks in ``samples`` directions for shapes that block it."""
 
     radiance: Amount
     obstructed: Flag = False
@@ -91,6 +91,6 @@ _BY_EMISSION: dict[Any, type[Light]] = {
 
 
 def light_from_dict(written: dict[str, Any]) -> Light:
-    """The light of which a scene file says this."""
+    """The light described by this table of a scene file."""
     kind = _BY_EMISSION[written.get("emission")]
     return kind.from_dict({key: value for key, value in written.items() if key != "emission"})

@@ -27,7 +27,7 @@ __all__ = ["Axis", "Isophote", "Map"]
 
 @dataclass(frozen=True)
 class Axis:
-    """One direction of a map: its name, its unit, its first and its last edge."""
+    """One direction of a map: its name, its unit, its first and last edges."""
 
     name: str
     title: str
@@ -36,25 +36,25 @@ class Axis:
 
     @property
     def label(self) -> str:
-        """What is written along it in figures."""
+        """The axis label in figures."""
         return self.title if self.unit in ("", "1") else f"{self.title}, {self.unit}"
 
 
 @dataclass(frozen=True)
 class Isophote:
-    """A contour: its level in the channel's unit, and its lines, arrays of x and y; those that are closed end where they
-    begin."""
+    """A contour: its level in the channel's unit, and its lines, arrays of x and y; closed lines end at their first
+    point."""
 
     level: float
     lines: tuple[NDArray[np.float64], ...]
 
 
 class Map(Mapping[str, NDArray[Any]]):
-    """A map: a dictionary from names of channels to arrays.
+    """A map: a dictionary from channel names to arrays.
 
-    The arrays are views of the map's own memory, float64 (float32 in single precision, int32 for ``shape``), of height ×
-    width, or height × width × 3 for ``position``, ``normal`` and ``color``. Row 0 is on top. They are read-only. Where no
-    surface is seen they are 0 (``shape`` is −1), which :attr:`mask` tells from the dark.
+    The arrays are views of the map's own memory, float64 (float32 in single precision, int32 for ``shape``), of shape
+    height × width, or height × width × 3 for ``position``, ``normal`` and ``color``. Row 0 is at the top. They are
+    read-only. Where no surface is seen they are 0 (``shape`` is −1); :attr:`mask` tells these pixels from dark ones.
     """
 
     def __init__(self, core: _isophote.Map, scene: Scene) -> None:
@@ -98,7 +98,7 @@ class Map(Mapping[str, NDArray[Any]]):
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Rows and columns."""
+        """The number of rows and columns."""
         _, _, width, height = self._core.region()
         return height, width
 
@@ -120,38 +120,38 @@ class Map(Mapping[str, NDArray[Any]]):
 
     @property
     def metadata(self) -> dict[str, Any]:
-        """What made the map, as its files have it."""
+        """The metadata of the map, as stored in its files."""
         metadata: dict[str, Any] = json.loads(self._core.metadata())
         return metadata
 
     @property
     def axes(self) -> tuple[Axis, Axis]:
-        """What runs from left to right, and what runs from the lower edge to the upper one."""
+        """The axis from left to right, and the axis from bottom to top."""
         x, y = (Axis(name, title, unit, (edges[0], edges[1])) for name, title, unit, edges in self._core.axes())
         return x, y
 
     def coordinates(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Where the centres of the columns and of the rows are, in the units of the axes."""
+        """The positions of the centres of columns and rows, in the units of the axes."""
         height, width = self.shape
         x, y = self.axes
         columns = (np.arange(width) + 0.5) / width
         rows = (np.arange(height) + 0.5) / height
-        # Row 0 is on top.
+        # Row 0 is at the top.
         return _between(*x.edges, columns), _between(y.edges[1], y.edges[0], rows)
 
     @property
     def lights(self) -> tuple[str, ...]:
-        """The lights whose own irradiances the map holds."""
+        """The lights whose individual irradiance the map holds."""
         return tuple(name.removeprefix("light.") for name in self._units if name.startswith("light."))
 
     def light_images(self) -> NDArray[Any]:
-        """The irradiance by each of the :attr:`lights` alone: lights × height × width."""
+        """The irradiance from each of the :attr:`lights` alone: lights × height × width."""
         if not self.lights:
             raise ArgumentError('this map has no image of a light; render it with channels=["lights"]')
         return np.stack([self[f"light.{name}"] for name in self.lights])
 
     def _main(self, channel: str | None) -> str:
-        """The channel that is meant where none is named: the first one that is a number a pixel."""
+        """The given channel, or by default the first scalar one."""
         if channel is not None:
             self[channel]
             return channel
@@ -167,11 +167,11 @@ class Map(Mapping[str, NDArray[Any]]):
         return found
 
     def max(self, channel: str | None = None) -> float:
-        """The largest value over the pixels that see a surface, by default of the first channel."""
+        """The maximum over the pixels that see a surface, by default of the first scalar channel."""
         return float(self._statistics(channel)[1][0])
 
     def min(self, channel: str | None = None) -> float:
-        """The smallest value over the pixels that see a surface."""
+        """The minimum over the pixels that see a surface."""
         return float(self._statistics(channel)[0][0])
 
     def mean(self, channel: str | None = None) -> float:
@@ -179,17 +179,17 @@ class Map(Mapping[str, NDArray[Any]]):
         return float(self._statistics(channel)[2])
 
     def argmax(self, channel: str | None = None) -> tuple[int, int]:
-        """Row and column of the largest value; of the first one, where several are equal."""
+        """Row and column of the maximum; the first one if there are several."""
         column, row = self._statistics(channel)[1][1]
         return row, column
 
     def argmin(self, channel: str | None = None) -> tuple[int, int]:
-        """Row and column of the smallest value over the pixels that see a surface."""
+        """Row and column of the minimum over the pixels that see a surface."""
         column, row = self._statistics(channel)[0][1]
         return row, column
 
     def isophotes(self, levels: int | Sequence[float] = 6, *, channel: str | None = None) -> list[Isophote]:
-        """Contours of a channel, at these levels or at about so many round ones. They stop at silhouettes."""
+        """Contours of a channel, at the given levels or at about that many round ones. They stop at silhouettes."""
         channel = self._main(channel)
         if isinstance(levels, (int, np.integer)):
             if not 0 <= levels <= _MOST_LEVELS:
@@ -210,8 +210,9 @@ class Map(Mapping[str, NDArray[Any]]):
         bits: int = 8,
         colormap: str | None = None,
     ) -> None:
-        """Writes a file, whole or not at all: ``.exr``, ``.npz`` and ``.csv`` get all channels, ``.npy`` one of them, ``.png``
-        a picture of one, from black to white between the values of ``range`` or in the colours of ``colormap``."""
+        """Writes a file, completely or not at all: ``.exr``, ``.npz`` and ``.csv`` get all channels, ``.npy`` one of
+        them, ``.png`` a picture of one, from black to white between the values of ``range``, or in the colours of
+        ``colormap``."""
         suffix = os.path.splitext(os.fspath(path))[1].lower()
         if channel is None:
             holds_all = suffix in (".exr", ".npz", ".csv")
@@ -229,8 +230,8 @@ class Map(Mapping[str, NDArray[Any]]):
         self._core.save(os.fspath(path), channel, bounds, _number(gamma, "gamma"), bits, colormap)
 
     def to_xarray(self) -> xarray.Dataset:
-        """An xarray Dataset: dims ``("y", "x")`` with coordinates in their units, ``units`` in the attributes; vectors have a
-        third dimension, and ``visible`` tells where a surface is seen."""
+        """An xarray Dataset: dims ``("y", "x")`` with coordinates in their units, ``units`` in the attributes; vectors
+        have a third dimension, and ``visible`` is true where a surface is seen."""
         from ._xarray import dataset
 
         return dataset(self)
@@ -243,8 +244,8 @@ class Map(Mapping[str, NDArray[Any]]):
         ax: matplotlib.axes.Axes | None = None,
         **imshow: Any,
     ) -> matplotlib.axes.Axes:
-        """Draws a channel by matplotlib, with axes and colour bar in units, and isophotes with their levels; further options
-        are those of ``imshow``."""
+        """Draws a channel with matplotlib, with axes and a colour bar in units, and labelled isophotes; further options
+        are passed to ``imshow``."""
         from ._plots import plot_map
 
         return plot_map(self, channel, isophotes, ax, imshow)

@@ -1,4 +1,4 @@
-"""Materials and the conventions of brightness."""
+"""Materials and brightness conventions."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ __all__ = ["Convention", "Material"]
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Material(Part):
-    """What a surface is made of: the diffuse coefficient k_d, the specular one k_s (numbers, or one for each of red, green
-    and blue), and the shininess n, which must be given where k_s is not 0."""
+    """The material of a surface: the diffuse coefficient k_d, the specular coefficient k_s (numbers, or one for each of
+    red, green and blue), and the shininess n, which is required unless k_s is 0."""
 
     diffuse: Amount
     specular: Amount = 0.0
@@ -23,7 +23,7 @@ class Material(Part):
 
 
 class Convention(str, Enum):
-    """Which formula turns irradiance into brightness. Scenes take its members and their names alike."""
+    """The formula that turns irradiance into brightness. Scenes accept both its members and their names."""
 
     IRRADIANCE = "irradiance"
     LAMBERT = "lambert"
@@ -34,12 +34,12 @@ class Convention(str, Enum):
 
     @property
     def number(self) -> str:
-        """The number of its formula in the documentation, such as ``"3.3"``."""
+        """The formula's number in the documentation, such as ``"3.3"``."""
         return _FORMULAS[self.value][0]
 
     @property
     def formula(self) -> str:
-        """Its formula, as a person writes it."""
+        """The formula in readable form."""
         return _FORMULAS[self.value][1]
 
 

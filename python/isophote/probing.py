@@ -21,7 +21,7 @@ __all__ = ["Probes", "Section", "Values", "probe", "section"]
 
 
 class Values(Mapping[str, NDArray[Any]]):
-    """Values at n points: a dictionary from names to arrays of n rows, which are attributes too.
+    """Values at n points: a dictionary from names to arrays with n rows, which are also attributes.
 
     ``position`` and ``normal`` (n × 3), ``brightness``, ``irradiance``, ``ambient``, ``diffuse``, ``specular``,
     ``cos_theta_o``, ``shape`` and ``part`` (indices), ``seen`` (whether the eye sees the point). Where there is no surface
@@ -62,17 +62,17 @@ class Values(Mapping[str, NDArray[Any]]):
 
     @property
     def scene(self) -> Scene:
-        """The scene that they are of."""
+        """The scene in which the values were computed."""
         return self._scene
 
     @property
     def count(self) -> int:
-        """How many points there are."""
+        """The number of points."""
         return len(self._arrays["shape"])
 
     @property
     def units(self) -> dict[str, str]:
-        """The unit of each array: ``"1"`` for pure numbers, ``""`` for indices and for what is true or false."""
+        """The unit of each array: ``"1"`` for pure numbers, ``""`` for indices and booleans."""
         return {name: self._unit(name) for name in self}
 
     def _unit(self, name: str) -> str:
@@ -114,7 +114,7 @@ _SHOWN = 10
 
 
 class Probes(Values):
-    """What :func:`probe` finds. Of many points, what is not asked for is not computed."""
+    """The result of :func:`probe`. For many points, some arrays are computed only when they are first used."""
 
     def __init__(
         self,
@@ -145,7 +145,7 @@ class Probes(Values):
         return len(self._arrays) + len(self._later)
 
     def _complete(self) -> None:
-        """Computes what was left out."""
+        """Computes the arrays that were left out."""
         arrays = self._places.arrays(self._scene, None)
         for name in self._later:
             arrays[name].flags.writeable = False
@@ -154,11 +154,11 @@ class Probes(Values):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The probes' names, where they are the scene's own."""
+        """The probes' names, if they are the scene's own."""
         return tuple(self._names)
 
     def explain(self, index: int | None = None) -> str:
-        """Every step of the value at a point, with numbers and the formulas' numbers; of all points, if there are not many."""
+        """Every step of computing the value at a point, with formula numbers; for all points, if there are only a few."""
         if index is None and self.count > _SHOWN:
             raise ArgumentError(f"there are {self.count} points; say which: explain(0)")
         if index is None:
@@ -179,7 +179,7 @@ class Probes(Values):
 
 
 class _Places:
-    """Where values are asked for."""
+    """Where to compute values."""
 
     def __init__(
         self, points: NDArray[np.float64] | None, pixels: NDArray[np.uint32] | None, elsewhere: str, per_light: bool
@@ -190,14 +190,14 @@ class _Places:
         self.per_light = per_light
 
     def arrays(self, scene: Scene, report: Any) -> dict[str, NDArray[Any]]:
-        """Everything, point by point."""
+        """All arrays, computed point by point."""
         if self.pixels is not None:
             return _isophote.probe_pixels(scene.core, self.pixels, self.elsewhere, self.per_light, report)
         assert self.points is not None
         return _isophote.probe_points(scene.core, self.points, self.elsewhere, self.per_light, report)
 
     def values(self, scene: Scene, report: Any) -> dict[str, NDArray[Any]] | None:
-        """Brightness and irradiance of many points at once, if that can be had and all goes well."""
+        """Brightness and irradiance of many points at once; ``None`` if that is not possible or fails at some points."""
         if self.points is None or self.per_light or len(self.points) <= _MANY:
             return None
         found = _isophote.probe_values(scene.core, self.points, self.elsewhere == "nearest", report)
@@ -208,7 +208,7 @@ class _Places:
 
 
 _MANY = 1000
-"""Up to so many points have the values of the command to the last bit."""
+"""For up to this many points, the values are identical to the command's, to the last bit."""
 
 _NAMES = (
     "position",
@@ -234,16 +234,16 @@ def probe(
     per_light: bool = False,
     progress: Progress = None,
 ) -> Probes:
-    """The exact values at points, within 1e-12 whatever the map's resolution.
+    """The exact values at points, to within 1e-12, independent of the map's resolution.
 
-    Over a thousand points of a few spheres are computed several at a time, which may round the last bits differently, and
-    only what is asked of the result: brightness and irradiance at once, the others when they are first looked at.
+    More than a thousand points on a few spheres are computed several at a time, which may round the last bits
+    differently, and only as needed: brightness and irradiance at once, the other arrays when they are first used.
 
-    ``at``: n points, n × 3, in the scene's unit. ``pixels``: n × 2, columns and rows: what is seen at their centres. Without
-    either, the scene's own probes.
-    ``elsewhere``: what becomes of points on no surface: ``"error"``, ``"nearest"`` (the nearest surface's point is taken) or
-    ``"nan"``.
-    ``per_light``: whether the irradiance by each light is wanted too: ``lights``, n × lights.
+    ``at``: n points, n × 3, in the scene's unit. ``pixels``: n × 2, columns and rows: the points seen at their centres.
+    If neither is given, the scene's own probes.
+    ``elsewhere``: how to treat points that are not on a surface: ``"error"``, ``"nearest"`` (use the nearest point on a
+    surface) or ``"nan"``.
+    ``per_light``: whether to include the irradiance from each light: ``lights``, n × lights.
     """
     if elsewhere not in ("error", "nearest", "nan"):
         raise ArgumentError(f"elsewhere is {elsewhere!r}; allowed: error, nearest, nan")
@@ -267,7 +267,7 @@ def probe(
 
 
 def points(values: ArrayLike, name: str) -> NDArray[np.float64]:
-    """n × 3 numbers; one point counts as n = 1."""
+    """An n × 3 array; a single point counts as n = 1."""
     array = numbers(values, name)
     if array.ndim == 1 and array.shape == (3,):
         array = array.reshape(1, 3)
@@ -275,7 +275,7 @@ def points(values: ArrayLike, name: str) -> NDArray[np.float64]:
         array = array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ProbeError(f"{name} has the shape {array.shape}; allowed: n × 3")
-    # A copy: what is computed later is that of the same points.
+    # A copy, so that arrays computed later are for the same points.
     return np.array(array, dtype=np.float64, order="C")
 
 
@@ -304,11 +304,11 @@ def _pixels(values: ArrayLike) -> NDArray[np.uint32]:
 
 
 class Section(Values):
-    """What :func:`section` finds; ``screen`` has the places on the screen, n × 2."""
+    """The result of :func:`section`; ``screen`` holds the positions on the screen, n × 2."""
 
     @property
     def distance(self) -> NDArray[np.float64]:
-        """How far each point is from the first one, on the screen."""
+        """The distance of each point from the first one, on the screen."""
         steps: NDArray[np.float64] = self["screen"] - self["screen"][0]
         return np.hypot(steps[:, 0], steps[:, 1])
 
@@ -316,7 +316,7 @@ class Section(Values):
         return self._scene.core.describe()["screen_unit"] if name == "screen" else super()._unit(name)
 
     def plot(self, *names: str, ax: matplotlib.axes.Axes | None = None, **options: Any) -> matplotlib.axes.Axes:
-        """Draws values along the line by matplotlib, the brightness by default; further options are those of ``plot``."""
+        """Draws values along the line with matplotlib, by default the brightness; further options are passed to ``plot``."""
         from ._plots import plot_section
 
         return plot_section(self, names or ("brightness",), ax, options)
@@ -330,8 +330,8 @@ def section(
     between: ArrayLike | None = None,
     samples: int = 501,
 ) -> Section:
-    """The values along a line of the screen, each traced and summed in double precision: along the centres of the pixels of a
-    ``row`` or of a ``column``, or at so many ``samples`` ``between`` two places (x, y) of the screen."""
+    """The values along a line on the screen, each traced and summed in double precision: at the pixel centres of a
+    ``row`` or ``column``, or at ``samples`` points ``between`` two points (x, y) on the screen."""
     if sum(place is not None for place in (row, column, between)) != 1:
         raise ArgumentError("say where: one of row, column and between")
     ends = None

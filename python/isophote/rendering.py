@@ -1,4 +1,4 @@
-"""From scenes to maps."""
+"""Rendering scenes to maps."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from .scene import Scene
 __all__ = ["Channels", "channel_names", "render"]
 
 Channels = str | Sequence[str] | None
-"""Names of channels; ``"lights"`` stands for the irradiance by each light, ``"all"`` for all that there are."""
+"""Channel names; ``"lights"`` stands for the irradiance from each light, ``"all"`` for all available channels."""
 
 
 def channel_names(scene: Scene, channels: Channels) -> list[str]:
-    """The names of channels, with those that a word stands for."""
+    """The channel names, with ``"lights"`` and ``"all"`` expanded."""
     color = ["color"] if scene.core.has_color else []
     if channels is None:
         return ["brightness", *color]
@@ -42,17 +42,17 @@ def channel_names(scene: Scene, channels: Channels) -> list[str]:
 
 
 def threads_of(threads: int | None) -> int | None:
-    """A number of threads, if it is one."""
+    """A valid number of threads, or ``None``."""
     return None if threads is None else positive(threads, "threads")
 
 
 def positive(value: int, name: str) -> int:
-    """A whole number from 1."""
+    """An integer of at least 1."""
     return counted(value, name, 1)
 
 
 def counted(value: int, name: str, least: int = 0, bound: int = 2**31) -> int:
-    """A whole number that is not too large."""
+    """An integer within bounds."""
     try:
         number = whole(value)
     except Invalid as invalid:
@@ -74,15 +74,15 @@ def render(
 ) -> Map:
     """The map of a scene.
 
-    ``channels``: names such as ``"brightness"`` (which it is by default, with ``"color"`` where the scene has colours),
-    ``"irradiance"``, ``"normal"``, ``"light.lamp"``; ``"lights"`` for each light's own, ``"all"`` for everything.
-    ``size``: columns and rows, in place of the scene's resolution.
-    ``region``: first column, first row, columns, rows: this part of the image alone.
-    ``precision``: ``"double"``, or ``"single"`` at about twice the speed; docs/python/errors.md tells the bounds.
-    ``threads``: as many as there are processors by default. They never change a bit of the result.
-    ``progress``: a function of two numbers, pixels that are done and all; or ``True`` for a bar.
+    ``channels``: names such as ``"brightness"`` (the default, with ``"color"`` if the scene has colours),
+    ``"irradiance"``, ``"normal"``, ``"light.lamp"``; ``"lights"`` for every light separately, ``"all"`` for everything.
+    ``size``: columns and rows, instead of the scene's resolution.
+    ``region``: first column, first row, columns, rows: render only this part of the image.
+    ``precision``: ``"double"``, or ``"single"`` at about twice the speed; docs/python/errors.md gives the error bounds.
+    ``threads``: by default one per processor. The number never changes the result, not even by a bit.
+    ``progress``: a function of two numbers, the pixels done and the total; or ``True`` for a progress bar.
 
-    The interpreter's lock is released meanwhile, and Ctrl-C ends it.
+    The interpreter's lock is released while rendering, and Ctrl-C stops it.
     """
     if size is not None:
         scene = scene.with_resolution(size)

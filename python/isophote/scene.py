@@ -29,7 +29,7 @@ __all__ = ["Grid", "Probe", "Scene"]
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Probe(Part):
-    """A point of a surface whose values are reported. ``published`` is a value that somebody printed for it."""
+    """A point on a surface whose values are reported. ``published`` is a value that has been published for it."""
 
     at: Vector
     name: Word | None = None
@@ -38,8 +38,9 @@ class Probe(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Grid(Part):
-    """Points on a rectangle at which the irradiance is computed: ``points`` of them along the edges ``u`` and ``v``, which
-    begin at ``corner`` or have ``center`` between them. ``side`` is ``"front"`` (to which u × v leads) or ``"back"``."""
+    """Points on a rectangle at which the irradiance is computed: ``points`` gives their number along the edges ``u`` and
+    ``v``, which start at ``corner`` or are centred on ``center``. ``side`` is ``"front"`` (towards u × v) or
+    ``"back"``."""
 
     u: Vector
     v: Vector
@@ -86,14 +87,14 @@ def _directory(value: Any) -> str:
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Scene(Part):
-    """A scene: who looks, what is seen, what it is made of, and what lights it.
+    """A scene: the camera, the shapes, their materials, and the lights.
 
-    A scene is valid: making one checks everything, and :class:`~isophote.errors.SceneError` has all that is wrong. It never
-    changes: :meth:`replace` and :meth:`set` give other ones.
+    A scene is always valid: creating one checks everything, and :class:`~isophote.errors.SceneError` lists everything
+    that is wrong. It is immutable: :meth:`replace` and :meth:`set` return modified copies.
 
-    ``length`` is the unit of every length: ``"m"``, ``"cm"`` or ``"mm"``. ``shapes`` are kept in the order of maps and
-    probes, by kind first. ``directory`` is where relative names of files start. ``shadows`` tells
-    whether shapes stand in each other's light; a scene of several shapes that does not say is warned of.
+    ``length`` is the unit of all lengths: ``"m"``, ``"cm"`` or ``"mm"``. ``shapes`` are kept in the order of maps and
+    probes, grouped by kind. ``directory`` is the base directory for relative file names. ``shadows`` says whether shapes
+    block light from each other; a scene with several shapes that does not say so gets a warning.
     """
 
     length: Word
@@ -118,7 +119,7 @@ class Scene(Part):
         self._check(None)
 
     def _check(self, earlier: Scene | None) -> None:
-        """Lets the core check the scene, which then stays with it."""
+        """Lets the core check the scene, and keeps the checked scene."""
         written, directory = json.dumps(self.to_dict()), str(self.directory)
         core = _isophote.Scene.from_json(written, directory, None if earlier is None else earlier.core)
         object.__setattr__(self, "_core", core)
@@ -126,12 +127,12 @@ class Scene(Part):
 
     @property
     def core(self) -> _isophote.Scene:
-        """The scene of the compiled part, private to the package."""
+        """The scene in the compiled part, private to the package."""
         core: _isophote.Scene = self._core  # type: ignore[attr-defined]
         return core
 
     def _warn(self, earlier: Scene | None = None) -> None:
-        """Says what deserves a word, unless it was said of an earlier scene."""
+        """Issues the scene's warnings, except those already issued for an earlier scene."""
         known = set() if earlier is None else {str(problem) for problem in earlier.core.warnings()}
         for problem in self.core.warnings():
             if str(problem) not in known:
@@ -139,8 +140,8 @@ class Scene(Part):
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Scene:
-        """Reads a scene file: JSON when the name ends in ``.json``, TOML otherwise."""
-        # What cannot be opened is an OSError of its own kind.
+        """Reads a scene file: JSON if the name ends in ``.json``, TOML otherwise."""
+        # A file that cannot be opened raises the matching OSError.
         with open(path, "rb"):
             pass
         directory = os.path.dirname(os.path.abspath(os.fspath(path)))
@@ -148,24 +149,24 @@ class Scene(Part):
 
     @classmethod
     def from_toml(cls, text: str, *, directory: str | os.PathLike[str] = "", name: str = "the scene") -> Scene:
-        """Reads a scene from a TOML text; ``name`` stands for it in messages."""
+        """Reads a scene from TOML text; ``name`` stands for it in messages."""
         return cls.of_core(_isophote.Scene.from_text(text, False, name, os.fspath(directory)), directory)
 
     @classmethod
     def from_json(cls, text: str, *, directory: str | os.PathLike[str] = "", name: str = "the scene") -> Scene:
-        """Reads a scene from a JSON text; ``name`` stands for it in messages."""
+        """Reads a scene from JSON text; ``name`` stands for it in messages."""
         return cls.of_core(_isophote.Scene.from_text(text, True, name, os.fspath(directory)), directory)
 
     @classmethod
     def from_dict(cls, written: Mapping[str, Any], *, directory: str | os.PathLike[str] = "") -> Scene:
-        """The scene that a file with these tables and keys describes."""
+        """The scene described by these tables and keys, as in a scene file."""
         return cls.from_json(json.dumps(written, default=_plain), directory=directory)
 
     @classmethod
     def of_core(
         cls, core: _isophote.Scene, directory: str | os.PathLike[str], *, earlier: Scene | None = None, warns: bool = True
     ) -> Scene:
-        """A scene that is checked already, private to the package; its files may be large and are not read again."""
+        """A scene that has already been checked, private to the package; its files may be large and are not read again."""
         scene = object.__new__(cls)
         for name, value in _fields(json.loads(core.to_json())).items():
             object.__setattr__(scene, name, value)
@@ -177,7 +178,7 @@ class Scene(Part):
         return scene
 
     def replace(self, **changes: Any) -> Scene:
-        """The same with other values. Files that it names are not read again."""
+        """A copy with some values changed. Files that it names are not read again."""
         fields = [field.name for field in dataclasses.fields(self)]
         unknown = [name for name in changes if name not in fields]
         if unknown:
@@ -190,7 +191,7 @@ class Scene(Part):
         return scene
 
     def to_dict(self) -> dict[str, Any]:
-        """The scene as a file has it: tables and keys, without what is so by default."""
+        """The scene as in a file: tables and keys, without default values."""
         written: dict[str, Any] = {"version": 1}
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
@@ -206,11 +207,11 @@ class Scene(Part):
         return {key: value for key, value in written.items() if value not in ([], {})}
 
     def to_toml(self) -> str:
-        """The scene as the text of a scene file."""
+        """The scene as scene file text."""
         return self.core.to_toml()
 
     def with_resolution(self, resolution: Size) -> Scene:
-        """The same scene with another number of columns and rows."""
+        """A copy of the scene with another number of columns and rows."""
         width, height = self.camera.replace(resolution=resolution).resolution
         if not (0 <= width < 2**32 and 0 <= height < 2**32):
             raise ArgumentError(f"resolution is {width}×{height}; allowed: 1 to 1000000 columns and rows")
@@ -218,11 +219,11 @@ class Scene(Part):
         return self.of_core(core, self.directory, earlier=self)
 
     def set(self, values: Mapping[str, Any]) -> Scene:
-        """The same scene with other values at these paths.
+        """A copy of the scene with other values at these paths.
 
-        A path is that of a scene file, with the name of the thing in the middle: ``light.lamp.position``,
-        ``material.clay.shininess``, ``sphere.ball.radius``, ``camera.eye``, ``camera.screen.distance``, ``convention``. Things
-        without a name have their number: ``light[0].position``. ``None`` takes a value away.
+        A path is that of a scene file, with the item's name in the middle: ``light.lamp.position``,
+        ``material.clay.shininess``, ``sphere.ball.radius``, ``camera.eye``, ``camera.screen.distance``, ``convention``.
+        Items without a name are numbered from 0: ``light[0].position``. ``None`` removes a value.
         """
         written = self.to_dict()
         for path, value in values.items():
@@ -246,7 +247,7 @@ class Scene(Part):
         return self.to_dict() == other.to_dict() and self._files_start() == other._files_start()
 
     def _files_start(self) -> str:
-        """Where names of files start, if there are any: else it makes no difference."""
+        """The base directory for file names, if there are any; otherwise it makes no difference."""
         return str(self.directory) if any(isinstance(shape, (Mesh, Spheres)) for shape in self.shapes) else ""
 
     def __repr__(self) -> str:
@@ -292,14 +293,14 @@ _ANGLES = ("inner_angle", "outer_angle")
 
 
 def _unpickle(text: str, directory: str) -> Scene:
-    # Its warnings were given where the scene was made.
+    # The warnings were issued when the scene was created.
     return Scene.of_core(_isophote.Scene.from_text(text, True, "the scene", directory), directory, warns=False)
 
 
 def _callers_level() -> int:
-    """How many frames up the code is that calls the package."""
+    """The stack level of the code that called the package."""
     package = os.path.dirname(__file__)
-    # From the caller of this function on; dataclasses make their own.
+    # Start at the caller of this function; dataclasses generate frames of their own.
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and (frame.f_code.co_filename.startswith((package, "<string>"))):
         level, frame = level + 1, frame.f_back
@@ -307,14 +308,14 @@ def _callers_level() -> int:
 
 
 def _plain(value: Any) -> Any:
-    """What NumPy has of its own, as JSON knows it."""
+    """NumPy values as plain Python values for JSON."""
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
     raise TypeError(f"a scene holds numbers, texts, lists and dictionaries, and no {type(value).__name__}")
 
 
 def _fields(written: dict[str, Any]) -> dict[str, Any]:
-    """The fields of a scene, of what its file says; those that it does not mention have their defaults."""
+    """The fields of a scene from its tables in a file; missing ones have their defaults."""
     fields: dict[str, Any] = {}
     for field in dataclasses.fields(Scene):
         fields[field.name] = written.get(field.name, field.default)
@@ -333,7 +334,7 @@ def _text(value: Any) -> str:
 
 
 def _body(part: Part, length: str = "", units: Mapping[str, str] = MappingProxyType({})) -> str:
-    """What there is to say of a part, with units."""
+    """The values of a part, with units."""
     words = []
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)

@@ -1,4 +1,4 @@
-"""Scenes to start from, the same as the command's ``isophote new``."""
+"""Starter scenes, the same as those of the command ``isophote new``."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ def lab() -> Scene:
 
 
 def course() -> Scene:
-    """Millimetres and Lambertian lights."""
+    """A scene in millimetres with Lambertian lights."""
     return _starter("course")
 
 
 def two_lights() -> Scene:
-    """Two spheres and two lights, by physically normalised radiance."""
+    """Two spheres and two lights, with the physically normalised radiance convention."""
     return _starter("two-lights")
 
 
 def photometric() -> Scene:
-    """Candela, lux and cd/m²."""
+    """A photometric scene: candela, lux and cd/m²."""
     return _starter("photometric")
 
 
 def _starter(name: str) -> Scene:
     core = _isophote.Scene.from_text(_isophote.starter(name), False, f"scenes/{name}.toml", "")
-    # They are as they are on purpose.
+    # Anything that would be warned about is intended.
     return Scene.of_core(core, "", warns=False)

@@ -27,7 +27,7 @@ __all__ = [
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Rotation(Part):
-    """A turn by ``degrees`` about ``axis``, counter-clockwise for who looks against the axis."""
+    """A rotation by ``degrees`` about ``axis``, counter-clockwise when looking against the axis."""
 
     axis: Vector
     degrees: Number
@@ -35,10 +35,10 @@ class Rotation(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Shape(Part):
-    """What all shapes have: a name of their own, the name of a material, and what they have to do with shadows."""
+    """The fields common to all shapes: a name, the name of a material, and whether they cast and receive shadows."""
 
     KEY: ClassVar[str]
-    """The table of a scene file that holds such shapes."""
+    """The table in scene files for such shapes."""
 
     name: Word | None = None
     material: Word | None = None
@@ -57,7 +57,7 @@ class Sphere(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Ellipsoid(Shape):
-    """An ellipsoid with its radii along its own x, y and z."""
+    """An ellipsoid with radii along its own x, y and z."""
 
     KEY = "ellipsoid"
     center: Vector
@@ -67,7 +67,7 @@ class Ellipsoid(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Box(Shape):
-    """A box with its sides along its own x, y and z."""
+    """A box with sides along its own x, y and z."""
 
     KEY = "box"
     center: Vector
@@ -77,10 +77,10 @@ class Box(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Cylinder(Shape):
-    """A cylinder with both its ends, from the middle of one to the middle of the other."""
+    """A cylinder with both end caps, from the centre of one to the centre of the other."""
 
     KEY = "cylinder"
-    # Python keeps `from` for itself.
+    # `from` is a keyword in Python.
     _KEYS = MappingProxyType({"start": "from", "end": "to"})
     start: Vector
     end: Vector
@@ -89,7 +89,7 @@ class Cylinder(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Cone(Shape):
-    """A cone with its base, cut off at the top if ``apex_radius`` is not 0."""
+    """A cone with its base, truncated at the top if ``apex_radius`` is not 0."""
 
     KEY = "cone"
     base: Vector
@@ -100,7 +100,7 @@ class Cone(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Plane(Shape):
-    """A plane without end."""
+    """An infinite plane."""
 
     KEY = "plane"
     point: Vector
@@ -109,7 +109,7 @@ class Plane(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Rectangle(Shape):
-    """A rectangle, seen from both sides; its height runs along ``up``."""
+    """A rectangle, visible from both sides; its height runs along ``up``."""
 
     KEY = "rectangle"
     center: Vector
@@ -121,7 +121,7 @@ class Rectangle(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Disk(Shape):
-    """A disk, seen from both sides."""
+    """A disk, visible from both sides."""
 
     KEY = "disk"
     center: Vector
@@ -131,7 +131,7 @@ class Disk(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Mesh(Shape):
-    """A mesh of triangles (2.5) from an OBJ, PLY, STL or binary glTF file, scaled, then turned, then moved."""
+    """A triangle mesh (2.5) from an OBJ, PLY, STL or binary glTF file; it is scaled, then rotated, then moved."""
 
     KEY = "mesh"
     file: Word
@@ -143,7 +143,7 @@ class Mesh(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Spheres(Shape):
-    """Many spheres from a CSV, NPY or PLY file of centres and radii."""
+    """Many spheres, from a CSV, NPY or PLY file of centres and radii."""
 
     KEY = "spheres"
     file: Word
@@ -161,4 +161,4 @@ KINDS: tuple[type[Shape], ...] = (
     Mesh,
     Spheres,
 )
-"""All kinds, in the order that the shapes of a scene have."""
+"""All kinds of shapes, in the order in which a scene keeps them."""

@@ -24,7 +24,8 @@ __all__ = ["ChannelStatistics", "StoredMap", "render_to_zarr"]
 
 @dataclass(frozen=True)
 class ChannelStatistics:
-    """Extremes and mean of a channel over the pixels that see a surface; ``argmin`` and ``argmax`` are row and column."""
+    """Minimum, maximum and mean of a channel over the pixels that see a surface; ``argmin`` and ``argmax`` are (row,
+    column)."""
 
     min: float
     argmin: tuple[int, int]
@@ -35,8 +36,8 @@ class ChannelStatistics:
 
 @dataclass(frozen=True)
 class StoredMap:
-    """A store that is complete: how many pixels it has, how many see a surface, how many of those are lit, and each channel's
-    statistics, none where a channel is not one number a pixel, or where no surface is seen."""
+    """A complete store: its number of pixels, how many see a surface, how many of those are lit, and each channel's
+    statistics (``None`` if a channel is not a scalar, or if no surface is seen)."""
 
     path: str
     pixels: int
@@ -45,12 +46,12 @@ class StoredMap:
     channels: Mapping[str, ChannelStatistics | None] = field(hash=False)
 
     def open(self) -> xarray.Dataset:
-        """The store as an xarray Dataset, which reads what is asked of it."""
+        """The store as an xarray Dataset, which reads data on demand."""
         import xarray
         import zarr
 
         with warnings.catch_warnings():
-            # The picture and the records beside the arrays are none of Zarr's.
+            # The picture and the records beside the arrays are not part of Zarr.
             warnings.simplefilter("ignore", zarr.errors.ZarrUserWarning)
             dataset: xarray.Dataset = xarray.open_zarr(self.path, chunks=None, consolidated=False)
         return dataset
@@ -71,14 +72,14 @@ def render_to_zarr(
     check: bool = True,
     progress: Progress = None,
 ) -> StoredMap:
-    """Renders a map shard by shard into a Zarr store, whose bytes are those of the command line's.
+    """Renders a map shard by shard into a Zarr store, with the same bytes as from the command line.
 
-    ``size``: columns and rows; the scene's own where it is ``None``.
-    ``client``: a Dask client: its workers render, one shard each at a time, and write it themselves, whole. A shard whose
-    worker died is rendered by another one. The workers must see the store under the same name.
-    ``threads``, ``memory``: without a client, how many shards at a time, and in how many bytes.
-    ``resume``: goes on with a store that holds a part of the same map. However an earlier run ended, what was done stays.
-    ``check``: whether, in the end, every byte is read again and compared with its checksum.
+    ``size``: columns and rows; ``None`` uses the scene's own.
+    ``client``: a Dask client: its workers render one shard each at a time, and write it whole themselves. If a worker
+    dies, its shard is rendered by another one. The workers must see the store under the same path.
+    ``threads``, ``memory``: without a client, how many shards at a time, and the memory limit in bytes.
+    ``resume``: continue a store that holds a part of the same map. However an earlier run ended, finished shards are kept.
+    ``check``: whether to reread every byte at the end and compare it with its checksum.
     """
     if size is not None:
         scene = scene.with_resolution(size)
@@ -109,7 +110,7 @@ def _statistics(of: Any) -> ChannelStatistics:
 
 @dataclass(frozen=True)
 class _Plan:
-    """What is rendered into which store."""
+    """What to render, and into which store."""
 
     scene: Scene
     path: str
@@ -126,7 +127,7 @@ class _Plan:
 def _on_cluster(plan: _Plan, due: list[int], count: int, client: distributed.Client, report: Any) -> None:
     import distributed
 
-    # The plan is small, and goes with each task: what is scattered dies with the workers that hold it.
+    # The plan is small and is sent with each task: scattered data is lost with the workers that hold it.
     futures = [client.submit(_work, plan, shard, count, pure=False, retries=3) for shard in due]
     try:
         for done, future in enumerate(distributed.as_completed(futures), start=1):
@@ -138,5 +139,5 @@ def _on_cluster(plan: _Plan, due: list[int], count: int, client: distributed.Cli
 
 
 def _work(plan: _Plan, shard: int, count: int) -> None:
-    """What a cluster's worker does: one shard, rendered and written, or nothing that counts."""
+    """A cluster worker's task: render and write one shard, or leave nothing that counts."""
     plan.render(shard, count)

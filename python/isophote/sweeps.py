@@ -1,4 +1,4 @@
-"""Many maps of one scene with other values in it."""
+"""Many maps of one scene with varying values."""
 
 from __future__ import annotations
 
@@ -42,18 +42,20 @@ def sweep(
     resume: bool = False,
     progress: Progress = None,
 ) -> xarray.Dataset:
-    """The maps of a scene for each combination of the values of some parameters, as one xarray Dataset.
+    """The maps of a scene for every combination of parameter values, as one xarray Dataset.
 
-    ``parameters``: values by their paths in the scene (see :meth:`Scene.set`), such as ``{"light.lamp.position": positions,
-    "material.clay.shininess": [5, 20, 80]}``. Each becomes a dimension, in this order. Values that are no single numbers or
-    words are numbered along it, and stand in a coordinate of their own, ``light.lamp.position.value``.
-    ``workers``: threads on this machine, as many as there are processors by default.
+    ``parameters``: values by their paths in the scene (see :meth:`Scene.set`), such as ``{"light.lamp.position":
+    positions, "material.clay.shininess": [5, 20, 80]}``. Each becomes a dimension, in this order. Values that are not
+    single numbers or strings are numbered along it, and stored in a coordinate of their own,
+    ``light.lamp.position.value``.
+    ``workers``: threads on this machine, by default one per processor.
     ``client``: a Dask client: its workers render instead.
-    ``store``: a Zarr store, which must not exist yet: maps go into it as they are done, a chunk each, and the Dataset reads
-    them from there. A cluster's workers must see it under the same name. Its array ``rendered`` tells which maps are there.
-    ``resume``: goes on with the store of the same sweep, however an earlier run ended.
+    ``store``: a Zarr store, which must not exist yet: each map is written to it when it is done, as one chunk, and the
+    Dataset reads the maps from there. A cluster's workers must see it under the same path. Its array ``rendered`` records
+    which maps are complete.
+    ``resume``: continue the store of the same sweep, however an earlier run ended.
 
-    Where units or the places of pixels differ between the maps, ``<channel>.units`` has them, and pixels are counted.
+    If units or pixel positions differ between maps, ``<channel>.units`` holds the units, and pixels are numbered instead.
     """
     needed("xarray")
     values = {path: list(several) for path, several in parameters.items()}
@@ -68,7 +70,7 @@ def sweep(
         raise ArgumentError("resume goes on with a store: say which")
     with reporter(progress, "maps") as report:
         sweep = Sweep.of(scene, values, names, precision)
-        # What it holds tells how all are held.
+        # Its layout is that of all maps.
         first = sweep.task(0).render(threads=None)
         form = template(sweep, values, Map(first, scene))
         into = Memory(form) if place is None else Store.prepare(place, form, resume)
@@ -89,7 +91,7 @@ def sweep(
 
 @dataclass(frozen=True)
 class Sweep:
-    """All maps of a sweep, by their numbers."""
+    """All maps of a sweep, by index."""
 
     scene: Scene
     cores: list[_isophote.Scene]
@@ -100,7 +102,7 @@ class Sweep:
 
     @classmethod
     def of(cls, scene: Scene, values: Mapping[str, Sequence[Any]], names: list[str], precision: str) -> Sweep:
-        """Every combination: what is wrong with any of them is known before the first map is rendered."""
+        """Every combination: anything wrong with any of them is found before the first map is rendered."""
         pointers = tuple(locate(scene, path) for path in values)
         for one, other in itertools.combinations(pointers, 2):
             if one.keys == other.keys:
@@ -142,7 +144,7 @@ class _Task:
 
 
 class _Stopped(Exception):
-    """Another map failed, or the user stopped all of them."""
+    """Another map failed, or the user stopped the sweep."""
 
 
 def _refuse_what_is_no_client(client: Any) -> None:
@@ -151,7 +153,7 @@ def _refuse_what_is_no_client(client: Any) -> None:
 
 
 def _on_threads(sweep: Sweep, numbers: Sequence[int], workers: int, into: Memory | Store) -> Iterator[None]:
-    """Renders on threads of this process; each map takes one."""
+    """Renders on threads of this process; each map uses one."""
     from concurrent.futures import ThreadPoolExecutor, as_completed
 
     stop = threading.Event()
@@ -167,14 +169,14 @@ def _on_threads(sweep: Sweep, numbers: Sequence[int], workers: int, into: Memory
                 future.result()
                 yield
         finally:
-            # After an error, or Ctrl-C: nobody wants the others any more.
+            # After an error or Ctrl-C the other maps are no longer needed.
             stop.set()
             for future in futures:
                 future.cancel()
 
 
 def _on_cluster(sweep: Sweep, numbers: Sequence[int], client: distributed.Client, into: Memory | Store) -> Iterator[None]:
-    """Renders on a cluster's workers. One that dies is replaced by another."""
+    """Renders on a cluster's workers. If a worker dies, another one takes over."""
     import distributed
 
     store = into if isinstance(into, Store) else None
@@ -194,7 +196,7 @@ def _on_cluster(sweep: Sweep, numbers: Sequence[int], client: distributed.Client
 
 
 def _work(task: _Task, store: Store | None) -> dict[str, NDArray[Any]] | None:
-    """What a cluster's worker does: a map into the store, or into its answer."""
+    """A cluster worker's task: render a map into the store, or return it."""
     of = task.render()
     if store is None:
         return arrays_of(of)

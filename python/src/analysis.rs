@@ -1,4 +1,4 @@
-//! Sections, maps of surfaces, grids.
+//! Sections, surface maps and grids.
 
 use isophote::analysis::section::SectionLine;
 use isophote::analysis::surface::{SurfaceProjection, SurfaceRequest};
@@ -15,7 +15,7 @@ use crate::probe::Columns;
 use crate::render::{keyword, quantities};
 use crate::scene::Scene;
 
-/// The values along a row, a column, or between two places on the screen (in the scene's unit or degrees).
+/// The values along a row, a column, or between two points on the screen (in the scene's unit or degrees).
 #[pyfunction]
 #[pyo3(signature = (scene, row, column, between, samples))]
 pub fn section<'py>(
@@ -52,8 +52,8 @@ pub fn section<'py>(
     Ok(columns)
 }
 
-/// The map over the surface of a shape, and its area and totals: for each scalar channel the integral, the least and the
-/// greatest value, and the area over which they are.
+/// The map over the surface of a shape, with its area and totals: for each scalar channel the integral, the minimum,
+/// the maximum, and the area they refer to.
 #[pyfunction]
 #[pyo3(signature = (scene, shape, part, channels, projection, side, axis, size))]
 pub fn surface<'py>(
@@ -94,7 +94,7 @@ pub fn surface<'py>(
     Ok((Map::new(map), area, by_channel))
 }
 
-/// The map over a grid of the scene.
+/// The map over one of the scene's grids.
 #[pyfunction]
 pub fn grid(py: Python<'_>, scene: &Scene, name: &str, channels: Vec<String>) -> PyResult<Map> {
     let quantities = quantities(py, &channels)?;

@@ -1,4 +1,4 @@
-//! Errors of the core as exceptions of the package, which defines them in `isophote.errors`.
+//! Converts errors of the core to exceptions of the package, which are defined in `isophote.errors`.
 
 use std::io;
 use std::path::Path;
@@ -20,32 +20,32 @@ fn exception<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>)
     }
 }
 
-/// An argument that does not fit the scene or makes no sense.
+/// An argument that does not fit the scene or is invalid.
 pub fn value(py: Python<'_>, message: impl ToString) -> PyErr {
     exception(py, "ArgumentError", (message.to_string(),))
 }
 
-/// Something else that did not work out.
+/// Any other failure.
 pub fn render(py: Python<'_>, message: impl ToString) -> PyErr {
     exception(py, "RenderError", (message.to_string(),))
 }
 
-/// Points that are on no surface: their indices and a text for the first.
+/// Points that are not on a surface: their indices, and a message about the first ones.
 pub fn probe(py: Python<'_>, message: impl ToString, indices: Vec<usize>) -> PyErr {
     exception(py, "ProbeError", (message.to_string(), indices))
 }
 
-/// A fault of this program.
+/// A bug in this program.
 pub fn internal(py: Python<'_>, message: impl ToString) -> PyErr {
     exception(py, "InternalError", (message.to_string(),))
 }
 
-/// A file that could not be read or written, for no reason of the system's.
+/// A file that could not be read or written, for a reason other than a system error.
 pub fn file(message: impl ToString) -> PyErr {
     PyOSError::new_err(message.to_string())
 }
 
-/// The same, with the system's reason: Python has an exception of its own for many of these.
+/// A file error with the system's reason: for many of these Python has its own exception.
 fn system(path: &Path, reason: &io::Error, message: impl ToString) -> PyErr {
     match reason.raw_os_error() {
         Some(code) => PyOSError::new_err((code, reason.to_string(), path.to_path_buf())),
@@ -91,7 +91,7 @@ pub fn of_scene(py: Python<'_>, error: &SceneError) -> PyErr {
     problems.map_or_else(|error| error, |problems| exception(py, "SceneError", (error.report(false), problems)))
 }
 
-/// As `isophote.errors.Problem`s.
+/// Converts problems to `isophote.errors.Problem`s.
 pub fn problems<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let class = py.import("isophote.errors")?.getattr("Problem")?;
     let problem = |problem: &Problem| {

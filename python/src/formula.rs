@@ -1,4 +1,4 @@
-//! The bare formula, for those who bring their own geometry.
+//! The bare formula, for callers with their own geometry.
 
 use isophote::light::{Ambient, Emitters};
 use isophote::reflectance::{BrightnessFormula, Convention};
@@ -14,12 +14,11 @@ use crate::job::{self, Progress};
 use crate::scene::Scene;
 use crate::threads::threads;
 
-/// Points that are computed by one thread at a time.
+/// Points per chunk; each chunk is computed by one thread.
 const CHUNK: usize = 4096;
 
-/// The brightness (3.1) to (3.6) of points with given normals (n × 3 each, lengths in metres, normals of
-/// length 1), by the lights, the convention and the first material of a scene, without shadows. `eyes` has one row, or one
-/// for each point.
+/// The brightness (3.1) to (3.6) at points with given normals (n × 3 each, lengths in metres, unit normals), using the
+/// lights, the convention and the first material of a scene, without shadows. `eyes` has one row, or one per point.
 #[pyfunction]
 pub fn brightness<'py>(
     py: Python<'py>,

@@ -1,4 +1,4 @@
-//! Long work: without the interpreter's lock, with an ear for Ctrl-C, and with panics turned into exceptions.
+//! Long-running work: without the interpreter's lock, responsive to Ctrl-C, and with panics turned into exceptions.
 
 use std::any::Any;
 use std::ops::ControlFlow;
@@ -12,10 +12,10 @@ use pyo3::prelude::*;
 
 use crate::error;
 
-/// How often Python's signal handlers and the progress function get their turn.
+/// How often Python's signal handlers and the progress function run.
 const PAUSE: Duration = Duration::from_millis(40);
 
-/// What a job tells of itself, and what it is told.
+/// The state shared with a running job: its progress, and the request to stop.
 #[derive(Default)]
 pub struct Watch {
     done: AtomicU64,
@@ -23,7 +23,7 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Whether nobody waits for the result any more.
+    /// Whether the result is no longer needed.
     pub fn is_stopped(&self) -> bool {
         self.is_stopped.load(Ordering::Relaxed)
     }
@@ -36,7 +36,7 @@ impl Observer for Watch {
     }
 }
 
-/// The progress function of the caller, and what it counts up to.
+/// The caller's progress function, and the total that it counts up to.
 pub struct Progress {
     pub function: Option<Py<PyAny>>,
     pub total: u64,
@@ -59,7 +59,7 @@ impl Progress {
     }
 }
 
-/// Runs a job that is done in a moment, on this thread, without the interpreter's lock.
+/// Runs a short job on this thread, without the interpreter's lock.
 pub fn run_here<T: Send>(py: Python<'_>, progress: &Progress, job: impl FnOnce() -> T + Send) -> PyResult<T> {
     let result = py.detach(|| catch_unwind(AssertUnwindSafe(job)));
     let result = result.map_err(|panic| error::internal(py, message(&*panic)))?;
@@ -67,8 +67,9 @@ pub fn run_here<T: Send>(py: Python<'_>, progress: &Progress, job: impl FnOnce()
     Ok(result)
 }
 
-/// Runs a job on a thread of its own. This thread waits without the interpreter's lock, and takes it now and then for the
-/// signal handlers and the progress function; what they raise ends the waiting at once, and the job as soon as it looks.
+/// Runs a job on its own thread. This thread waits without the interpreter's lock, and takes it periodically for the
+/// signal handlers and the progress function. If they raise an exception, the wait ends at once, and the job at its
+/// next check.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     progress: &Progress,
@@ -78,14 +79,15 @@ pub fn run<T: Send + 'static>(
     let (sender, receiver) = mpsc::channel();
     let worker = {
         let watch = Arc::clone(&watch);
-        // Nobody listens any more after an interruption.
+        // After an interruption there is no receiver any more.
         move || drop(sender.send(outcome(|| job(&watch))))
     };
     named().spawn(worker).map_err(error::file)?;
     wait(py, progress, &watch, receiver).map_err(|Interruption { error, .. }| error)
 }
 
-/// The same for a job that borrows, or holds files that the caller may use next: after an interruption it is waited for.
+/// Like [`run`], for a job that borrows, or that holds files the caller may use next: after an interruption it waits
+/// for the job to end.
 pub fn run_to_its_end<T: Send>(
     py: Python<'_>,
     progress: &Progress,
@@ -96,7 +98,7 @@ pub fn run_to_its_end<T: Send>(
         let (sender, receiver) = mpsc::channel();
         named().spawn_scoped(scope, move || drop(sender.send(outcome(|| job(watch))))).map_err(error::file)?;
         wait(py, progress, watch, receiver).map_err(|Interruption { error, receiver }| {
-            // What it says does not matter any more.
+            // The result no longer matters.
             drop(py.detach(move || receiver.map(|receiver| receiver.recv())));
             error
         })
@@ -113,7 +115,7 @@ fn outcome<T: Send>(job: impl FnOnce() -> T + Send) -> Outcome<T> {
     catch_unwind(AssertUnwindSafe(job))
 }
 
-/// What ended the waiting, and the way to hear of the job's own end, if that is still to come.
+/// The error that ended the wait, and the channel on which the job's end is still to be reported, if it is.
 struct Interruption<T> {
     error: PyErr,
     receiver: Option<mpsc::Receiver<Outcome<T>>>,
@@ -162,7 +164,7 @@ fn message(panic: &(dyn Any + Send)) -> String {
     format!("{}; this is a fault of Isophote, please report it", text.unwrap_or("the work broke off"))
 }
 
-/// For the test that a panic becomes an exception: one that is asked for.
+/// Panics on request, to test that a panic becomes an exception.
 #[pyfunction]
 pub fn panic_on_purpose(py: Python<'_>, message: String) -> PyResult<()> {
     run(py, &Progress::none(), move |_| panic!("{message}"))

@@ -1,5 +1,5 @@
-//! The compiled part of the Python package: scenes, maps and analyses of the core as arrays. It is private to the package,
-//! which gives its classes their shape; here everything is plain: texts, numbers, arrays.
+//! The compiled part of the Python package: scenes, maps and analyses of the core, as arrays. It is private to the
+//! package, whose Python classes wrap it; everything here is plain text, numbers and arrays.
 
 mod analysis;
 mod command;

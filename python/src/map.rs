@@ -24,16 +24,16 @@ use crate::error;
 use crate::job::{self, Progress, Watch};
 use crate::render::keyword;
 
-/// A map of the core; its arrays are views of its memory.
+/// A map of the core; its arrays are views of the map's memory.
 #[pyclass(frozen, module = "isophote._isophote")]
 pub struct Map {
     map: Arc<CoreMap>,
 }
 
-/// A value and its column and row in the map.
+/// A value with its column and row in the map.
 type Place = (f64, [u32; 2]);
 
-/// A line of an isophote, an array of x and y, and whether its end is joined to its beginning.
+/// A line of an isophote: an array of x and y, and whether the line is closed.
 type Line<'py> = (Bound<'py, PyArray2<f64>>, bool);
 
 impl Map {
@@ -71,7 +71,7 @@ impl Map {
         }
     }
 
-    /// The index of the shape at each pixel, −1 where there is none.
+    /// The index of the shape at each pixel, −1 if there is none.
     fn shapes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let Resolution { width, height } = self.map.region.size;
         let shapes = self.map.mask().shapes().into_pyarray(py);
@@ -82,7 +82,7 @@ impl Map {
         self.map.mask().visible()
     }
 
-    /// Least value, greatest value and mean over the pixels that see a surface; nothing if there are none.
+    /// Minimum, maximum and mean over the pixels that see a surface; none if there are no such pixels.
     fn statistics(&self, py: Python<'_>, name: &str) -> PyResult<Option<(Place, Place, f64)>> {
         let quantity = self.quantity(name)?;
         if !quantity.is_scalar() {
@@ -100,7 +100,7 @@ impl Map {
         [corner.column, corner.row, size.width, size.height]
     }
 
-    /// For each of the two directions: name, title, unit, first and last edge.
+    /// For both directions: name, title, unit, first and last edge.
     fn axes(&self) -> Vec<(&str, &str, &str, [f64; 2])> {
         let window = &self.map.window;
         let [x, y] = window.coordinates.axes(window.length);
@@ -110,12 +110,12 @@ impl Map {
             .collect()
     }
 
-    /// What made the map, as files have it, in JSON.
+    /// The map's metadata as JSON, as stored in files.
     fn metadata(&self) -> String {
         FileMetadata::of(&self.map).to_json()
     }
 
-    /// The lines of these levels.
+    /// The isophotes at these levels.
     fn isophotes<'py>(&self, py: Python<'py>, name: &str, levels: Vec<f64>) -> PyResult<Vec<(f64, Vec<Line<'py>>)>> {
         let quantity = self.quantity(name)?.clone();
         let map = Arc::clone(&self.map);
@@ -133,7 +133,7 @@ impl Map {
         Ok(all)
     }
 
-    /// Writes a file whose suffix says in which format; the channel is that of formats with one.
+    /// Writes a file in the format given by its suffix; `name` is the channel for formats that hold only one.
     #[pyo3(signature = (path, name, range, gamma, bits, colormap))]
     fn save(
         &self,
@@ -175,7 +175,8 @@ impl Map {
         saved.map_err(|error| error::of_export(py, &error))
     }
 
-    /// Copies a channel, or whether a surface is seen, into a contiguous array of its shape and type that is 0 everywhere.
+    /// Copies a channel, or the visibility of a surface, into a contiguous, zero-initialised array of matching shape
+    /// and type.
     #[pyo3(signature = (name, out))]
     fn copy_into(&self, py: Python<'_>, name: Option<&str>, out: &Bound<'_, PyAny>) -> PyResult<()> {
         let runs = self.map.mask().runs();
@@ -190,7 +191,7 @@ impl Map {
         }
     }
 
-    /// The picture of a channel, as the bytes of a PNG.
+    /// The picture of a channel as PNG bytes.
     fn png<'py>(&self, py: Python<'py>, name: &str, colormap: Option<&str>) -> PyResult<Bound<'py, PyBytes>> {
         let style = Style {
             quantity: self.quantity(name)?.clone(),
@@ -205,7 +206,7 @@ impl Map {
     }
 }
 
-/// A file that nobody waits for any more is not written to its end.
+/// A file whose writing stops when it is no longer needed.
 struct Stoppable<'w, W> {
     file: W,
     watch: &'w Watch,
@@ -230,7 +231,7 @@ impl<W: Seek> Seek for Stoppable<'_, W> {
     }
 }
 
-/// About so many round levels between two values.
+/// About this many round levels between two values.
 #[pyfunction]
 #[pyo3(name = "nice_levels")]
 pub fn levels(least: f64, greatest: f64, about: usize) -> Vec<f64> {
@@ -245,7 +246,7 @@ fn copy<T: Element + Send>(py: Python<'_>, out: &Bound<'_, PyAny>, fill: impl Fn
     Ok(())
 }
 
-/// What sees a surface, with so many numbers a pixel.
+/// Copies the pixels that see a surface, each with `width` numbers.
 fn copy_runs<T: Copy>(runs: &[Run], values: &[T], out: &mut [T], width: usize) {
     for run in runs {
         let range = run.start * width..run.end * width;
@@ -289,7 +290,7 @@ fn colormap_named(py: Python<'_>, name: Option<&str>) -> PyResult<Option<Colorma
     name.map(|name| keyword(py, "colour map", name)).transpose()
 }
 
-/// An array of a channel's own memory, which the array keeps alive and nobody can write.
+/// A read-only array over a channel's own memory, which the array keeps alive.
 fn view<'py, T: Element, D: Dimension>(
     map: &Bound<'py, Map>,
     values: &[T],
@@ -297,9 +298,9 @@ fn view<'py, T: Element, D: Dimension>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let values =
         ArrayView::from_shape(shape.into_shape_with_order(), values).map_err(|e| error::internal(map.py(), e))?;
-    // SAFETY: the values are in the memory of the map in `map`, which is its array's base and thus lives as long, and
-    // which neither changes nor moves them: the class is frozen, and the core's map is behind an `Arc` that nobody
-    // writes through. `make_nonwriteable` below keeps Python from writing.
+    // SAFETY: the values are in the memory of the map in `map`, which is the array's base and so lives at least as
+    // long. The map neither changes nor moves them: the class is frozen, and the core's map is behind an `Arc` through
+    // which nothing writes. `make_nonwriteable` below keeps Python from writing.
     #[expect(unsafe_code, reason = "without it every channel would be copied")]
     let array = unsafe { PyArray::borrow_from_array(&values, map.clone().into_any()) };
     array.try_readwrite().map_err(|error| error::internal(map.py(), error))?.make_nonwriteable();

@@ -21,11 +21,11 @@ use crate::threads::threads;
 
 /// Points that one thread takes at a time.
 const CHUNK: usize = 1024;
-/// What is told of points that have no value.
+/// How many of the points without a value are listed in the error.
 const TOLD: usize = 5;
 
-/// The values at points, n × 3 in the scene's unit. `elsewhere` says what becomes of points on no surface: `error`, `nearest`
-/// (the nearest surface's point is taken), `nan`.
+/// The values at points, n × 3 in the scene's unit. `elsewhere` says how to treat points that are not on a surface:
+/// `error`, `nearest` (use the nearest point on a surface), `nan`.
 #[pyfunction]
 pub fn probe_points<'py>(
     py: Python<'py>,
@@ -51,8 +51,8 @@ pub fn probe_points<'py>(
     probe_places(py, scene, places, elsewhere == "nan", per_light, progress)
 }
 
-/// Brightness, irradiance and shape at many points, n × 3 in the scene's unit, and how many are on no surface, where the
-/// values are NaN and the shape is −1; nothing for a scene whose points have to be taken one by one.
+/// Brightness, irradiance and shape at many points, n × 3 in the scene's unit, and how many of the points are not on a
+/// surface; there the values are NaN and the shape is −1. None for a scene whose points have to be computed one by one.
 #[pyfunction]
 pub fn probe_values<'py>(
     py: Python<'py>,
@@ -62,7 +62,7 @@ pub fn probe_values<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Option<Many<'py>>> {
     let content = scene.content();
-    // A scene that has a kernel is small.
+    // A scene with a kernel is small.
     let Some(prepared) = content.prepared_at_once() else { return Ok(None) };
     let Some(kernel) = PointKernel::new(&prepared) else { return Ok(None) };
     let (points, rest) = points.as_slice().map_err(|error| error::internal(py, error))?.as_chunks::<3>();
@@ -85,10 +85,10 @@ pub fn probe_values<'py>(
     Ok(Some((brightness.into_pyarray(py), irradiance.into_pyarray(py), shape.into_pyarray(py), misses)))
 }
 
-/// What [`probe_values`] finds.
+/// The result of [`probe_values`].
 type Many<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i32>>, usize);
 
-/// The values at what is seen at the centres of pixels, n × 2: column and row.
+/// The values at what is seen at pixel centres, n × 2: column and row.
 #[pyfunction]
 pub fn probe_pixels<'py>(
     py: Python<'py>,
@@ -155,14 +155,14 @@ fn probe_places<'py>(
     Ok(columns)
 }
 
-/// A point in the scene's unit, or that of the nearest surface.
+/// A point in the scene's unit, or the nearest point on a surface.
 fn place_of(point: [f64; 3], length: LengthUnit, snaps: bool) -> ProbePosition {
     let metres = Vector::from(point.map(|coordinate| length.to_metres(coordinate)));
     if snaps { ProbePosition::NearestTo(metres) } else { ProbePosition::Point(metres) }
 }
 
 fn advance(watch: &Watch, count: usize) {
-    // Who is stopped finds out before its next point.
+    // A stopped job notices before its next point.
     let (ControlFlow::Continue(()) | ControlFlow::Break(())) = watch.advance(count as u64);
 }
 
@@ -181,7 +181,7 @@ fn refused(py: Python<'_>, scene: &CoreScene, refusals: &[(usize, ProbeError)], 
     error::probe(py, lines.join("\n"), refusals.iter().map(|(index, _)| *index).collect())
 }
 
-/// Every step of the value at a point, or at what a pixel sees.
+/// Every step of computing the value at a point, or at what a pixel sees.
 #[pyfunction]
 #[pyo3(signature = (scene, index, name, point, pixel, snaps))]
 pub fn explain(
@@ -208,7 +208,7 @@ pub fn explain(
     explained.map_err(|error| refused(py, scene.core(), &[(index, error)], 1))
 }
 
-/// What is found at points, one after another: NaN and −1 where nothing is.
+/// The results at points, in order: NaN and −1 if there is none.
 pub struct Columns {
     position: Vec<f64>,
     normal: Vec<f64>,
@@ -219,7 +219,7 @@ pub struct Columns {
     /// Brightness, irradiance, ambient, diffuse, specular.
     values: [Vec<f64>; 5],
     lights: Vec<f64>,
-    /// None where they are not asked for.
+    /// None unless they are requested.
     light_count: Option<usize>,
     color: Option<Vec<f64>>,
 }
@@ -316,7 +316,7 @@ impl Columns {
         Ok(())
     }
 
-    /// Numbers as an array with so many columns.
+    /// The numbers as an array with `width` columns.
     pub fn vectors(py: Python<'_>, numbers: Vec<f64>, width: usize) -> PyResult<Bound<'_, PyArray2<f64>>> {
         let rows = numbers.len() / width;
         numbers.into_pyarray(py).reshape([rows, width])

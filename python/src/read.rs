@@ -1,4 +1,4 @@
-//! Files of maps.
+//! Reading map files.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use crate::error;
 /// A channel's name and its values.
 type Channel<'py> = (String, Bound<'py, PyArray2<f32>>);
 
-/// What a file or a store says about itself, in JSON.
+/// The metadata of a file or a store, as JSON.
 #[pyfunction]
 pub fn read_metadata(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     let metadata = if path.is_dir() {
@@ -22,7 +22,7 @@ pub fn read_metadata(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     Ok(metadata.to_json())
 }
 
-/// The channels of an EXR file by the names that they have there.
+/// The channels of an EXR file, under their names in the file.
 #[pyfunction]
 pub fn read_exr(py: Python<'_>, path: PathBuf) -> PyResult<Vec<Channel<'_>>> {
     let image = py.detach(|| read_first_flat_layer_from_file(&path));
@@ -34,7 +34,7 @@ pub fn read_exr(py: Python<'_>, path: PathBuf) -> PyResult<Vec<Channel<'_>>> {
             FlatSamples::F32(values) => values,
             other => other.values_as_f32().collect(),
         };
-        // The bytes are those of UTF-8.
+        // The bytes are UTF-8.
         let name = String::from_utf8_lossy(channel.name.as_slice()).into_owned();
         channels.push((name, values.into_pyarray(py).reshape(size)?));
     }

@@ -31,7 +31,7 @@ pub fn render(
     let region = region.map_or_else(|| Region::all(scene.core().camera().resolution), region_of);
     let content = scene.content();
     let total = region.size.count();
-    // Waiting for another thread would take longer than many a small map.
+    // Waiting for another thread would take longer than rendering many a small map.
     let progress = Progress { function: progress, total };
     let quick = content.prepared_at_once().filter(|prepared| renderer.is_quick(prepared, region));
     let map = if let Some(prepared) = quick {
@@ -50,13 +50,13 @@ fn region_of([column, row, width, height]: [u32; 4]) -> Region {
     Region { corner: Pixel { column, row }, size: Resolution { width, height } }
 }
 
-/// A member of a closed set by its name.
+/// Looks up a member of a closed set by name.
 pub fn keyword<C: Keyword>(py: Python<'_>, what: &str, name: &str) -> PyResult<C> {
     let allowed = || C::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ");
     C::from_name(name).ok_or_else(|| error::value(py, format!("there is no {what} \"{name}\"; allowed: {}", allowed())))
 }
 
-/// Channels by their names. Whether the scene has the lights in them is checked by the work itself.
+/// Channels by name. Whether the scene has the lights they refer to is checked later, when they are computed.
 pub fn quantities(py: Python<'_>, names: &[String]) -> PyResult<Vec<Quantity>> {
     let quantity = |name: &String| {
         let known = Quantity::COMMON.iter().chain(&Quantity::OF_SAMPLING).chain([&Quantity::Color]);
@@ -68,10 +68,11 @@ pub fn quantities(py: Python<'_>, names: &[String]) -> PyResult<Vec<Quantity>> {
     names.iter().map(quantity).collect()
 }
 
-/// Renderers keep their threads, which take longer to start than a small map to render. GeometryCache are those of the number of threads
-/// that the machine has, and of the last other number; for each process, for a forked one has none of its parent's threads.
+/// Renderers keep their threads, which take longer to start than a small map takes to render. The ones kept are those
+/// for the machine's number of threads and for the last other number; per process, because a forked process has none of
+/// its parent's threads.
 ///
-/// The lock is only ever held by who holds the interpreter's, so that it is free in a forked process.
+/// The lock is only ever held by a thread that holds the interpreter's lock, so it is free in a forked process.
 fn renderer(py: Python<'_>, precision: Precision, threads: Option<NonZeroUsize>) -> PyResult<Arc<SimdRenderer>> {
     type Key = (u32, Precision, Option<NonZeroUsize>);
     static RENDERERS: Mutex<Vec<(Key, Arc<SimdRenderer>)>> = Mutex::new(Vec::new());
@@ -85,7 +86,7 @@ fn renderer(py: Python<'_>, precision: Precision, threads: Option<NonZeroUsize>)
         return Ok(Arc::clone(renderer));
     }
     if threads.is_some() {
-        // (Those of a parent stay: here nobody could end their threads.)
+        // (Those of a parent stay: their threads cannot be ended from here.)
         renderers
             .retain(|((of, _, threads), _)| *of != process || threads.is_none() || *threads == Some(NonZeroUsize::MIN));
     }
@@ -94,5 +95,5 @@ fn renderer(py: Python<'_>, precision: Precision, threads: Option<NonZeroUsize>)
     Ok(renderer)
 }
 
-/// More would only wait for each other.
+/// More threads would only wait for each other.
 const MOST_THREADS: usize = 1024;

@@ -1,4 +1,4 @@
-//! Scenes: checked by the core, prepared when they are first used.
+//! Scenes: checked by the core, prepared on first use.
 
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
@@ -15,7 +15,7 @@ use crate::job::{self, Progress};
 use crate::render::{keyword, quantities};
 use crate::threads::threads;
 
-/// A scene that is valid.
+/// A valid scene.
 #[pyclass(frozen, module = "isophote._isophote")]
 pub struct Scene {
     content: Arc<Content>,
@@ -25,7 +25,7 @@ pub struct Scene {
 pub struct Content {
     scene: CoreScene,
     prepared: OnceLock<Arc<PreparedScene>>,
-    /// The one that it is made of, whose files were not read again, and whose tree may be its own.
+    /// The scene that this one was derived from: its files were not read again, and the two may share a tree.
     origin: Option<Arc<Content>>,
 }
 
@@ -35,7 +35,7 @@ impl Content {
         &self.scene
     }
 
-    /// The scene ready for rendering. The first time may take long: it belongs into a job.
+    /// The scene, ready for rendering. The first call may take long, so it belongs in a job.
     pub fn prepared(&self) -> Arc<PreparedScene> {
         let prepare = || {
             Arc::new(match &self.origin {
@@ -48,7 +48,7 @@ impl Content {
         Arc::clone(self.prepared.get_or_init(prepare))
     }
 
-    /// The same, if it is there already or takes no time.
+    /// The prepared scene, if it already exists or takes no time to prepare.
     pub fn prepared_at_once(&self) -> Option<Arc<PreparedScene>> {
         (self.prepared.get().is_some() || !PreparedScene::builds_tree(&self.scene)).then(|| self.prepared())
     }
@@ -57,12 +57,12 @@ impl Content {
 impl Scene {
     fn new(py: Python<'_>, scene: Result<CoreScene, SceneError>, origin: Option<&Arc<Content>>) -> PyResult<Self> {
         let scene = scene.map_err(|error| error::of_scene(py, &error))?;
-        // The first of a line of scenes is enough: it has the files.
+        // Keep only the first in a chain of derived scenes: it has the files.
         let origin = origin.map(|origin| Arc::clone(origin.origin.as_ref().unwrap_or(origin)));
         Ok(Self { content: Arc::new(Content { scene, prepared: OnceLock::new(), origin }) })
     }
 
-    /// Reads a scene: where files are named, as long work.
+    /// Reads a scene: as a long-running job if it names files.
     fn read(
         py: Python<'_>,
         names_files: bool,
@@ -97,8 +97,8 @@ impl Scene {
 
 #[pymethods]
 impl Scene {
-    /// From a text that stands for the scene itself: its problems have no lines. Files that an earlier scene has read are not
-    /// read again.
+    /// Reads a scene from text generated for it, so problems have no line numbers. Files that an earlier scene has read
+    /// are not read again.
     #[staticmethod]
     #[pyo3(signature = (text, directory, earlier=None))]
     fn from_json(py: Python<'_>, text: String, directory: PathBuf, earlier: Option<Bound<'_, Self>>) -> PyResult<Self> {
@@ -135,7 +135,7 @@ impl Scene {
         serde_json::to_string(self.core().source()).map_err(|error| error::internal(py, error))
     }
 
-    /// For other processes: the scene is read again there.
+    /// For other processes, which read the scene again.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, PathBuf))> {
         let scene = slf.get();
         let again = slf.get_type().getattr("from_json")?;
@@ -168,7 +168,7 @@ impl Scene {
         error::problems(py, self.core().warnings())
     }
 
-    /// What the scene is made of, by the names that maps and probes use.
+    /// The contents of the scene, by the names that maps and probes use.
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let scene = self.core();
         let (convention, units) = (scene.convention(), scene.unit_system());
@@ -193,7 +193,7 @@ impl Scene {
     }
 }
 
-/// The text of a scene to start from.
+/// The text of a starter scene.
 #[pyfunction]
 pub fn starter(py: Python<'_>, name: &str) -> PyResult<&'static str> {
     Ok(keyword::<Starter>(py, "scene", name)?.text())

@@ -17,17 +17,17 @@ use crate::job::{self, Progress};
 use crate::render::{keyword, quantities};
 use crate::scene::Scene;
 
-/// What is put into a store, and how.
+/// What goes into a store, and how.
 struct Plan {
     path: PathBuf,
-    /// Without duplicates, as the package names them.
+    /// Without duplicates, in the package's order.
     quantities: Vec<Quantity>,
     precision: Precision,
     shard_side: Option<NonZeroU32>,
 }
 
 impl Plan {
-    /// One worker renders by itself, as the store wants it.
+    /// Each worker renders on its own thread, as the store requires.
     fn renderer(&self) -> SimdRenderer {
         SimdRenderer::new(self.precision, Some(NonZeroUsize::MIN))
     }
@@ -38,7 +38,8 @@ impl Plan {
     }
 }
 
-/// Makes a store, or finds it if it may be resumed; the numbers of its shards that are not done, and how many it has.
+/// Creates a store, or opens it if it may be resumed; returns the indices of the shards that are not done, and the
+/// total.
 #[pyfunction]
 #[pyo3(signature = (scene, path, channels, precision, shard_side, resume))]
 pub fn store_prepare(
@@ -61,7 +62,7 @@ pub fn store_prepare(
     found.map_err(|error| error::of_store(py, &error))
 }
 
-/// Renders one shard of a store, or all that are left.
+/// Renders one shard of a store, or all remaining ones.
 #[pyfunction]
 #[pyo3(signature = (scene, path, channels, precision, shard_side, shard, threads, memory, progress))]
 pub fn store_render(
@@ -90,7 +91,7 @@ pub fn store_render(
     outcome.map(|_| ()).map_err(|error| error::of_store(py, &error))
 }
 
-/// Puts the parts of a store together; with `check` every byte is read.
+/// Merges the parts of a store; with `check` every byte is read.
 #[pyfunction]
 pub fn store_merge(py: Python<'_>, path: PathBuf, check: bool) -> PyResult<Bound<'_, PyDict>> {
     let check = if check { Check::Content } else { Check::Presence };

@@ -1,11 +1,11 @@
-//! The threads of what is computed without being told on how many.
+//! The default threads, for work with no thread count given.
 
 use std::sync::{Mutex, PoisonError};
 
 use isophote::threads::Threads;
 
-/// As many as there are processors, the same for all calls of this process. (One that was forked off has its own: those of
-/// its parent do not exist there.)
+/// One thread per processor, shared by all calls of this process. (A forked process gets its own: its parent's threads
+/// do not exist there.)
 pub fn threads() -> Threads {
     static SHARED: Mutex<Option<(u32, Threads)>> = Mutex::new(None);
     let process = std::process::id();

@@ -1,4 +1,4 @@
-//! What a user waits for: the whole process, from its start to the picture on the disk.
+//! What a user waits for: the whole process, from start to the picture on disk.
 
 use std::process::{Command, Stdio};
 

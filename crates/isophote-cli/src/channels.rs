@@ -7,7 +7,7 @@ use isophote::scene::Scene;
 
 use crate::failure::Usage;
 
-/// The channels that the user named, with a clear word about those that do not exist.
+/// The channels named by the user, with a clear error for those that do not exist.
 pub fn named(names: &[String], scene: &Scene) -> Result<Vec<Quantity>> {
     let lights: Vec<Quantity> = scene.lights().iter().map(|light| Quantity::Light(light.name.clone())).collect();
     let known = |quantity: &Quantity| !matches!(quantity, Quantity::Light(_)) || lights.contains(quantity);

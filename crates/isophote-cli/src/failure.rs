@@ -1,4 +1,4 @@
-//! Failures, and the exit codes that tell them apart.
+//! Failures and their exit codes.
 
 use std::fmt;
 use std::io::{IsTerminal, Write};
@@ -6,7 +6,7 @@ use std::io::{IsTerminal, Write};
 use isophote::render::RenderError;
 use isophote::scene::SceneError;
 
-/// The arguments do not make sense, for this scene or at all: exit code 2.
+/// Invalid arguments, for this scene or in general: exit code 2.
 #[derive(Debug)]
 pub struct Usage(pub String);
 
@@ -30,7 +30,7 @@ impl fmt::Display for Interrupted {
 
 impl std::error::Error for Interrupted {}
 
-/// The user stopped a computation that can go on later: exit code 130.
+/// The user stopped a computation that can be resumed later: exit code 130.
 #[derive(Debug)]
 pub struct Paused(pub String);
 
@@ -63,7 +63,7 @@ pub fn report(error: &anyhow::Error) -> u8 {
     if find::<Usage>(error).is_some() { 2 } else { 1 }
 }
 
-/// Writes a line to standard error. Whoever reads it may stop listening at any time, and `eprintln!` would panic then.
+/// Writes a line to standard error. The reader may close the pipe at any time, which would make `eprintln!` panic.
 pub fn note(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }

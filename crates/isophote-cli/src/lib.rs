@@ -1,4 +1,4 @@
-//! The command `isophote`, for the program of that name and for the Python package, which has the same command.
+//! The command `isophote`, shared by the program of that name and the Python package.
 
 mod args;
 mod channels;
@@ -15,14 +15,14 @@ use std::io::Write;
 
 use clap::Parser;
 
-/// Arguments, job, run: results to standard output, everything else to standard error. Takes the program's name first, and
-/// gives its exit code.
+/// Parses the arguments and runs the command: results go to standard output, everything else to standard error. The
+/// first argument is the program's name; returns the exit code.
 ///
-/// It is for whoever runs a whole process with it: Ctrl-C is the command's from then on, and may end the process.
+/// Meant for a process that does nothing else: from then on the command handles Ctrl-C, and may end the process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments = match args::Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
-        // Help and versions come this way too. Whoever reads them may stop listening.
+        // Help and version texts arrive here too. The reader may have closed the pipe.
         Err(answer) => {
             let _ = answer.print();
             return u8::try_from(answer.exit_code()).unwrap_or(2);
@@ -35,7 +35,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// Whoever reads standard output may stop listening at any time: that is no failure.
+/// The reader may close standard output at any time: that is not an error.
 fn print(result: &str) -> u8 {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(result.as_bytes()).and_then(|()| stdout.flush()) {

@@ -11,14 +11,14 @@ use isophote_export::{FileMetadata, Format, read_metadata};
 use crate::args::{RenderArguments, SceneArgument};
 use crate::failure::{self, Usage};
 
-/// Reads the scene and says what it warns of.
+/// Reads the scene and prints its warnings.
 pub fn scene(argument: &SceneArgument, quiet: bool) -> Result<Scene> {
     let (name, scene) = read(argument)?;
     warn(&name, &scene, quiet);
     Ok(scene)
 }
 
-/// Reads the scene that is rendered, with what the arguments have in place of its own.
+/// Reads the scene to render, with the overrides from the arguments applied.
 pub fn scene_to_render(arguments: &RenderArguments) -> Result<Scene> {
     let (name, mut scene) = read(&arguments.scene)?;
     if let Some(size) = arguments.size {
@@ -61,17 +61,17 @@ fn read(argument: &SceneArgument) -> Result<(String, Scene)> {
     Ok((name, scene))
 }
 
-/// What an output file or store says about itself.
+/// The metadata of an output file or store.
 pub fn metadata(path: &Path) -> Result<FileMetadata> {
     if path.is_dir() { Ok(isophote_zarr::read_metadata(path)?) } else { Ok(read_metadata(path)?) }
 }
 
-/// Whether a path is that of a store, by its suffix.
+/// Whether a path names a store, judging by its suffix.
 pub fn is_store(path: &Path) -> bool {
     path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("zarr"))
 }
 
-/// The scene is valid: it is the argument that is wrong.
+/// The scene is valid: the argument is wrong.
 pub fn wrong(options: &str, error: &SceneError) -> Usage {
     let reasons = error.problems.iter().map(|problem| match &problem.help {
         Some(help) => format!("{}; {help}", problem.message),

@@ -6,13 +6,13 @@ use std::str::FromStr;
 use isophote::map::{Pixel, Region, Resolution};
 use isophote::text::significant;
 
-/// `1,2,3`: so many numbers with commas between them.
+/// `1,2,3`: N comma-separated numbers.
 pub fn list<T: FromStr, const N: usize>(text: &str, form: &str) -> Result<[T; N], String> {
     let numbers: Option<Vec<T>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
     numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| format!("expected {form}"))
 }
 
-/// Finite numbers with commas between them.
+/// Finite, comma-separated numbers.
 pub fn finite<const N: usize>(text: &str, form: &str) -> Result<[f64; N], String> {
     let numbers: [f64; N] = list(text, form)?;
     match numbers.iter().find(|number| !number.is_finite()) {
@@ -42,7 +42,7 @@ pub fn pixel(text: &str) -> Result<Pixel, String> {
     Ok(Pixel { column, row })
 }
 
-/// `512M`: bytes, with powers of 1024.
+/// `512M`: bytes; suffixes are powers of 1024.
 pub fn memory(text: &str) -> Result<u64, String> {
     let text = text.trim();
     let units = [('K', 10), ('M', 20), ('G', 30), ('T', 40)];
@@ -53,7 +53,7 @@ pub fn memory(text: &str) -> Result<u64, String> {
     size.ok_or_else(|| "expected a whole number and K, M, G or T, such as 512M".into())
 }
 
-/// A JSON text whose numbers have 17 significant digits, which tell every double apart.
+/// JSON text whose numbers have 17 significant digits, enough to distinguish any two doubles.
 pub fn json(value: &impl serde::Serialize) -> anyhow::Result<String> {
     let mut bytes = Vec::new();
     let formatter = FullDigits { pretty: serde_json::ser::PrettyFormatter::new() };

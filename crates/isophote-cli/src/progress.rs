@@ -14,10 +14,10 @@ use crate::failure::{self, Interrupted};
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 static ENDS_IN_ORDER: AtomicBool = AtomicBool::new(false);
 
-/// From now on Ctrl-C ends the program with exit code 130: at once, for it may be waiting for its input or be far from
-/// the next [`check`], until [`end_in_order`] is called.
+/// From now on Ctrl-C ends the program with exit code 130, until [`end_in_order`] is called. It exits immediately,
+/// because the program may be waiting for input or far from the next [`check`].
 pub fn watch_for_interrupts() {
-    // Without the handler Ctrl-C ends the program at once, which leaves a temporary file at worst.
+    // Without the handler Ctrl-C kills the program, which at worst leaves a temporary file behind.
     let _ = ctrlc::set_handler(|| {
         INTERRUPTED.store(true, Ordering::Relaxed);
         if !ENDS_IN_ORDER.load(Ordering::Relaxed) {
@@ -27,7 +27,7 @@ pub fn watch_for_interrupts() {
     });
 }
 
-/// From now on Ctrl-C ends the work at the next place where it asks for it, with everything cleaned up.
+/// From now on Ctrl-C ends the work at the next [`check`], after cleaning up.
 pub fn end_in_order() {
     ENDS_IN_ORDER.store(true, Ordering::Relaxed);
 }
@@ -37,7 +37,7 @@ pub fn check() -> Result<(), Interrupted> {
     if INTERRUPTED.load(Ordering::Relaxed) { Err(Interrupted) } else { Ok(()) }
 }
 
-/// A bar for work that takes over a second; nothing where standard error is no terminal.
+/// A progress bar for work that takes more than a second; hidden when standard error is not a terminal.
 pub struct Progress {
     bar: ProgressBar,
     since: Instant,
@@ -49,18 +49,18 @@ impl Progress {
         Self::resumed([0, pixels], quiet)
     }
 
-    /// A bar for work of which a part was done before.
+    /// A bar for work that was partly done before.
     pub fn resumed([done, pixels]: [u64; 2], quiet: bool) -> Self {
         end_in_order();
         let bar = ProgressBar::with_draw_target(Some(pixels), ProgressDrawTarget::hidden());
         let style = ProgressStyle::with_template("{bar:40} {percent}%  {rate}  {eta} left");
         let rate = |state: &ProgressState, text: &mut dyn fmt::Write| {
-            // The bar leaves out what cannot be written.
+            // If the formatting fails, the bar just omits it.
             let _ = write!(text, "{:.1} Mpixel/s", state.per_sec() / 1e6);
         };
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).with_key("rate", rate));
         bar.set_position(done);
-        // Pixels of earlier runs say nothing about the speed of this one.
+        // Pixels from earlier runs say nothing about the speed of this one.
         bar.reset_eta();
         Self { bar, since: Instant::now(), is_shown: AtomicBool::new(quiet) }
     }
@@ -80,7 +80,7 @@ impl Observer for Progress {
     }
 }
 
-/// A file that stops being written when Ctrl-C is pressed.
+/// A file whose writing stops when Ctrl-C is pressed.
 pub struct Interruptible<W>(pub W);
 
 impl<W: Write> Write for Interruptible<W> {

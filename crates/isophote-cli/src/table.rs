@@ -1,15 +1,15 @@
-//! Tables for people: columns as wide as their widest cell.
+//! Tables for people: each column is as wide as its widest cell.
 
 use unicode_width::UnicodeWidthStr;
 
-/// Text columns are flush left, numbers flush right.
+/// Text columns are left-aligned, numbers right-aligned.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Align {
     Left,
     Right,
 }
 
-/// Lays out rows under a header; every row has a cell for each column.
+/// Lays out rows under a header; every row has one cell per column.
 pub fn table(columns: &[(&str, Align)], rows: &[Vec<String>]) -> String {
     let header: Vec<String> = columns.iter().map(|(title, _)| (*title).to_owned()).collect();
     let width = |index: usize| rows.iter().chain([&header]).map(|row| row[index].width()).max().unwrap_or(0);

@@ -1,8 +1,8 @@
-//! How many threads work.
+//! The default number of threads.
 
 use std::num::NonZeroUsize;
 
-/// As many as the machine runs at a time, where nobody says how many.
+/// As many threads as the machine can run at once, unless the user sets a number.
 pub fn all() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }

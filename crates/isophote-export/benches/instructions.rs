@@ -1,6 +1,6 @@
-//! Instructions counted by valgrind, one bench per format: numbers without noise, which two versions can be compared by.
+//! Instructions counted by valgrind, one benchmark per format: noise-free numbers for comparing two versions.
 //!
-//! `make bench-instructions` runs it. The image is small, because valgrind is some fifty times slower than the machine.
+//! Run with `make bench-instructions`. The image is small because valgrind is some fifty times slower than the machine.
 
 #![expect(missing_docs, reason = "the macros of gungraun make public things without documentation")]
 

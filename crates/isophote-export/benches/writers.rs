@@ -1,4 +1,4 @@
-//! One bench for each kind of file.
+//! One benchmark per file format.
 
 use std::io::Cursor;
 use std::num::NonZeroUsize;
@@ -48,7 +48,7 @@ fn export(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// An image whose buffers no longer fit into a cache: what is done for each pixel of the background shows here.
+/// An image whose buffers no longer fit into a cache: here the cost per background pixel shows.
 fn large(criterion: &mut Criterion) {
     let map = lab(Resolution { width: 3840, height: 2160 }, &[Quantity::Brightness, Quantity::Shape]);
     let mut group = criterion.benchmark_group("export 3840×2160");

@@ -1,4 +1,4 @@
-//! All of a file or none of it.
+//! Writes a file completely or not at all.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
@@ -6,18 +6,19 @@ use std::path::{Path, PathBuf};
 
 use crate::error::ExportError;
 
-/// Puts what `write` writes into the file `path`, which keeps its old content until the new one is complete.
+/// Puts the output of `write` into the file `path`, which keeps its old content until the new content is complete.
 ///
-/// The bytes go into a hidden file in the same folder, which is renamed in the end, and removed on any error. A link
-/// is followed: its target is replaced, not the link. The file gets the permissions of any newly created one.
-/// Whatever ends the program, the file is whole, old or new. After a loss of power it may be neither: that would take
-/// waiting for the disk (measured: 0.4 to 4 ms for 10 kB, 30 to 70 ms for 20 MB), and a map can be computed again.
+/// The bytes go into a hidden file in the same folder, which is renamed at the end, and removed on any error. A
+/// symbolic link is followed: its target is replaced, not the link. The file gets the permissions of any newly created
+/// one. However the program ends, the file is complete, either old or new. After a power failure it may be neither:
+/// preventing that would mean waiting for the disk (measured: 0.4 to 4 ms for 10 kB, 30 to 70 ms for 20 MB), and a map
+/// can be computed again.
 ///
-/// To interrupt, let `write` return an error; its kind must not be `Interrupted`, at which `write_all` tries again.
+/// To interrupt, return an error from `write`; its kind must not be `Interrupted`, because `write_all` retries on that.
 ///
 /// # Errors
-/// The error of `write`, with the path if it was about writing; a folder that does not exist or cannot be
-/// written in; a target that is not an ordinary writable file, for renaming would replace it all the same.
+/// The error of `write`, with the path if it was about writing; a folder that does not exist or is not writable; a
+/// target that is not an ordinary writable file, because renaming would replace it anyway.
 pub fn write_atomically<T>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<&File>) -> Result<T, ExportError>,
@@ -29,7 +30,7 @@ pub fn write_atomically<T>(
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // Less the umask; the default of temporary files, 0600, would hide the result from everyone else.
+        // The umask still applies. The default for temporary files, 0600, would hide the result from everyone else.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let temporary = builder.tempfile_in(folder_of(&target)).map_err(at_path)?;
@@ -44,7 +45,7 @@ pub fn write_atomically<T>(
     Ok(result)
 }
 
-/// Whether [`write_atomically`] can put a file there, as far as can be told without trying: for finding out before
+/// Whether [`write_atomically`] can write a file there, as far as can be told without trying; meant to be called before
 /// a long computation.
 ///
 /// # Errors
@@ -57,7 +58,7 @@ fn replaceable(path: &Path) -> Result<PathBuf, ExportError> {
     let taken = |what| Err(ExportError::Taken { path: path.into(), what });
     match fs::metadata(path) {
         Ok(found) if found.is_dir() => taken("a folder"),
-        // Renaming over /dev/null or a pipe would put an ordinary file in its place.
+        // Renaming over /dev/null or a pipe would replace it with an ordinary file.
         Ok(found) if !found.is_file() => taken("a device or a pipe"),
         Ok(found) if found.permissions().readonly() => taken("a read-only file"),
         Ok(_) => fs::canonicalize(path).map_err(|reason| ExportError::File { path: path.into(), reason }),

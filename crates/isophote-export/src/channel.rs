@@ -1,10 +1,10 @@
-//! The channel that a file is made of.
+//! The channel to export.
 
 use isophote::map::{Channel, Map, Quantity};
 
 use crate::error::ExportError;
 
-/// The channel asked for, or those that there are.
+/// The requested channel, or an error that lists the channels in the map.
 pub(crate) fn find<'m>(map: &'m Map, quantity: &Quantity) -> Result<&'m Channel, ExportError> {
     map.channel(quantity).ok_or_else(|| ExportError::NoChannel {
         name: quantity.name(),

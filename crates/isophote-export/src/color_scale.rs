@@ -1,34 +1,35 @@
-//! From colours of a scene to those of a screen.
+//! From a scene's colours to those of a screen.
 
 use isophote::color::{ColorSpace, Matrix};
 use isophote::map::Map;
 use isophote::units::Keyword;
 
-/// What is shown of linear RGB, as sRGB (IEC 61966-2-1): scaled, in sRGB's primaries, clipped to what a screen can show,
-/// and with sRGB's transfer function.
+/// Shows linear RGB as sRGB (IEC 61966-2-1): scaled, in sRGB's primaries, clipped to what a screen can show, and with
+/// sRGB's transfer function.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ColorScale {
-    /// The amounts that become black and white.
+    /// The amounts shown as black and white.
     pub(crate) range: [f64; 2],
     to_srgb: Option<Matrix>,
 }
 
-/// A colour of a screen.
+/// A screen colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shown {
-    /// Encoded red, green, blue from 0 to 1.
+    /// Encoded red, green and blue from 0 to 1.
     pub(crate) encoded: [f64; 3],
     /// Whether a component was negative, which no screen can show.
     pub(crate) is_below: bool,
-    /// Whether a component was more than white.
+    /// Whether a component was above white.
     pub(crate) is_above: bool,
 }
 
-/// What rounding may leave outside of 0 to 1 without a word.
+/// Rounding error outside of 0 to 1 that is not reported.
 const ROUNDING: f64 = 1e-9;
 
 impl ColorScale {
-    /// Of the colours of a map: this range, or from 0 to the largest component that is seen; both 0 where all is dark.
+    /// The scale for a map's colours: the given range, or from 0 to the largest visible component; both 0 if all is
+    /// dark.
     pub(crate) fn new(map: &Map, colors: &[[f64; 3]], range: Option<[f64; 2]>) -> Self {
         let largest = || map.mask().indices().flat_map(|index| colors[index]).fold(0.0, f64::max);
         let space = map.provenance.color_space.as_deref().and_then(ColorSpace::from_name).unwrap_or_default();
@@ -37,7 +38,7 @@ impl ColorScale {
 
     pub(crate) fn shown(&self, color: [f64; 3]) -> Shown {
         let [black, white] = self.range;
-        // 0/0 would be no number in a map without light.
+        // In a map without light, 0/0 would give NaN.
         let linear = color.map(|amount| if black < white { (amount - black) / (white - black) } else { 0.0 });
         let linear = self.to_srgb.map_or(linear, |matrix| matrix.apply(linear));
         Shown {
@@ -48,7 +49,7 @@ impl ColorScale {
     }
 }
 
-/// sRGB's transfer function, from 0 to 1.
+/// The transfer function of sRGB, from 0 to 1.
 fn transfer(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
 }
@@ -61,7 +62,7 @@ mod tests {
     fn the_transfer_function_is_that_of_the_standard() {
         assert_eq!(transfer(0.0), 0.0);
         assert!((transfer(1.0) - 1.0).abs() < 1e-15);
-        // Half of white is 188 of 255, and 18 % grey 118 (rounded), as everybody knows them.
+        // The well-known values: half of white is 188 of 255, and 18 % grey is 118 (rounded).
         assert!((255.0 * transfer(0.5) - 187.516).abs() < 1e-3);
         assert!((255.0 * transfer(0.18) - 117.642).abs() < 1e-2, "{}", 255.0 * transfer(0.18));
         assert!((transfer(0.003_130_8) - transfer(0.003_130_800_1)).abs() < 1e-7, "both branches meet");

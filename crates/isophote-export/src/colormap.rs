@@ -1,31 +1,31 @@
-//! Colour maps for pictures: from a fraction to an sRGB colour.
+//! Colour maps for pictures, from a fraction to an sRGB colour.
 
 use isophote::units::Keyword;
 
 use crate::colormap_tables::{BATLOW, CIVIDIS, INFERNO, TURBO, VIRIDIS};
 
-/// A colour map of 256 entries. Sources and licences of the tables stand in `tools/colormaps.py`.
+/// A colour map of 256 entries. The sources and licences of the tables are listed in `tools/colormaps.py`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Colormap {
-    /// From black to white, equal sRGB steps.
+    /// From black to white in equal sRGB steps.
     Gray,
     /// Perceptually uniform, from dark violet to yellow: the default.
     #[default]
     Viridis,
-    /// Perceptually uniform and nearly the same to people with red-green colour blindness.
+    /// Perceptually uniform, and nearly the same to people with red-green colour blindness.
     Cividis,
     /// Perceptually uniform, from black through red to pale yellow.
     Inferno,
     /// A rainbow with smooth steps: for finding detail, not for reading amounts (its lightness rises and falls).
     Turbo,
-    /// Perceptually uniform, ordered, safe for colour blindness; much used in the earth sciences.
+    /// Perceptually uniform, ordered, safe for colour blindness; widely used in the earth sciences.
     Batlow,
 }
 
 impl Colormap {
     /// The sRGB colour of a fraction: the table's entry with index round(255·fraction).
     ///
-    /// Fractions outside 0..=1 get the colour of the nearer end, and NaN that of 0.
+    /// Fractions outside 0..=1 get the colour of the nearer end, and NaN gets that of 0.
     #[must_use]
     pub fn color(self, fraction: f64) -> [u8; 3] {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 0..=255")]
@@ -71,7 +71,7 @@ pub(crate) fn luminance(color: [u8; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Published values, read from the authors' own files: first, middle (index 128) and last entry.
+    /// Published values from the authors' own files: first, middle (index 128) and last entry.
     #[test]
     fn ends_and_middle_are_the_published_colors() {
         let published = [

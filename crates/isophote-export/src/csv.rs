@@ -1,4 +1,4 @@
-//! All channels as a table: for spreadsheets, pandas and eyes.
+//! All channels as a table: for spreadsheets, pandas and people.
 
 use std::io::{BufRead, Read, Seek, Write};
 
@@ -15,16 +15,16 @@ use crate::text::{Number, one_line};
 pub enum Rows {
     /// Every pixel.
     All,
-    /// Those where a surface is seen.
+    /// Only pixels where a surface is seen.
     Visible,
 }
 
-/// Writes comment lines that begin with `#` (program, title, units, the metadata's JSON), a line of names
-/// (`column,row,x,y,shape,…`, vectors as `normal.x,normal.y,normal.z`) and a line per pixel, row by row from the top.
-/// Gives the number of pixels written.
+/// Writes comment lines that begin with `#` (program, title, units, the metadata as JSON), a header line
+/// (`column,row,x,y,shape,…`, vectors as `normal.x,normal.y,normal.z`) and one line per pixel, row by row from the top.
+/// Returns the number of pixels written.
 ///
-/// `column` and `row` count in the full image; `x` and `y` are the pixel's centre on the screen. Every number reads
-/// back as exactly the same one. In a light's name commas, quotes, `#` and control characters become `_`.
+/// `column` and `row` are positions in the full image; `x` and `y` are the pixel's centre on the screen. Every number
+/// reads back exactly. In a light's name commas, quotes, `#` and control characters become `_`.
 ///
 /// # Errors
 /// An error of `out`.
@@ -52,7 +52,7 @@ pub fn write(map: &Map, rows: Rows, mut out: impl Write) -> Result<u64, ExportEr
     Ok(written)
 }
 
-/// The names of each channel's columns; none for the shape, which has its place in front.
+/// The column names of each channel; none for the shape, whose column is at the front.
 fn column_names(map: &Map) -> Vec<Vec<String>> {
     let names = names::unique(map.channels(), |character| !character.is_control() && !",\"#".contains(character));
     let columns = |(channel, name): (&Channel, String)| match (&channel.quantity, &channel.values) {
@@ -63,7 +63,7 @@ fn column_names(map: &Map) -> Vec<Vec<String>> {
     map.channels().iter().zip(names).map(columns).collect()
 }
 
-/// What the three numbers of a vector are called.
+/// The names of a vector's three components.
 fn axes(quantity: &Quantity) -> [&'static str; 3] {
     if *quantity == Quantity::Color { ["r", "g", "b"] } else { ["x", "y", "z"] }
 }
@@ -91,7 +91,7 @@ fn write_comments(map: &Map, columns: &[Vec<String>], out: &mut impl Write) -> R
     }
     let stored_as = columns.iter().map(|names| if names.is_empty() { vec!["shape".into()] } else { names.clone() });
     lines.push(format!("{KEY}{}", FileMetadata::of_stored(map, stored_as.collect()).to_json()));
-    // genfromtxt takes its names from the very first line, comment or not, unless told how many to skip.
+    // genfromtxt takes its names from the very first line, comment or not, unless told how many lines to skip.
     let hint = format!("numpy.genfromtxt(…, delimiter=\",\", names=True, skip_header={})", lines.len() + 1);
     writeln!(out, "# {}; pandas.read_csv(…, comment=\"#\") or {hint}", one_line(&provenance.program))?;
     for line in lines {
@@ -100,7 +100,7 @@ fn write_comments(map: &Map, columns: &[Vec<String>], out: &mut impl Write) -> R
     Ok(())
 }
 
-/// What the two coordinates of a row are.
+/// Describes the two coordinates of a row.
 fn places(map: &Map) -> String {
     let [x, y] = map.window.coordinates.axes(map.window.length);
     if map.window.coordinates.is_screen() {
@@ -110,7 +110,7 @@ fn places(map: &Map) -> String {
     format!("{}, {}: centre of the cell on the surface, {}, {}", x.name, y.name, of_one(x), of_one(y))
 }
 
-/// A grid is no shape, whatever is beneath it.
+/// A grid has no shapes, whatever lies beneath it.
 fn has_shapes(map: &Map) -> bool {
     map.window.coordinates != Coordinates::Grid
 }
@@ -143,7 +143,7 @@ fn write_row(map: &Map, index: usize, shape: i32, out: &mut impl Write) -> Resul
     Ok(())
 }
 
-/// Centre of pixel `index` of `count` between two edges; weights from both ends, so that a window symmetric about 0
+/// Centre of pixel `index` of `count` between two edges, weighted from both ends, so that a window symmetric about 0
 /// gives coordinates that are symmetric to the last bit.
 #[expect(clippy::cast_precision_loss, reason = "counts of pixels are 32-bit")]
 fn centre(edges: [f64; 2], index: usize, count: usize) -> f64 {
@@ -151,7 +151,7 @@ fn centre(edges: [f64; 2], index: usize, count: usize) -> f64 {
     (edges[0] * after + edges[1] * before) / count as f64
 }
 
-/// Looks through the comments at the beginning only.
+/// Searches only the comments at the beginning.
 pub(crate) fn read_json(file: &mut (impl BufRead + Seek)) -> Result<Option<Vec<u8>>, String> {
     let mut comments = file.take(LONGEST_JSON);
     let mut line = Vec::new();

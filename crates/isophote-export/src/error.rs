@@ -1,4 +1,4 @@
-//! What can go wrong with a file that is written.
+//! Errors of writing a file.
 
 use std::io;
 use std::path::PathBuf;
@@ -8,62 +8,62 @@ use isophote::units::Keyword;
 
 use crate::format::Format;
 
-/// Why a map was not saved.
+/// Why a map could not be saved.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    /// A writer could not write on; [`write_atomically`](crate::write_atomically) turns it into [`ExportError::File`].
+    /// A writer failed; [`write_atomically`](crate::write_atomically) turns this into [`ExportError::File`].
     #[error("cannot write: {0}")]
     Write(#[from] io::Error),
-    /// The file could not be made or filled.
+    /// The file could not be created or written.
     #[error("cannot write ‘{}’: {reason}", path.display())]
     File {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         reason: io::Error,
     },
     /// The folder of the file does not exist.
     #[error("cannot write ‘{}’: there is no folder ‘{}’", path.display(), folder.display())]
     NoFolder {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// The folder it would be in.
+        /// The missing folder.
         folder: PathBuf,
     },
-    /// The name is taken by something that a file must not replace.
+    /// The name belongs to something that must not be replaced by a file.
     #[error("cannot write ‘{}’: it is {what}", path.display())]
     Taken {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
         /// `a folder`, `a read-only file`, …
         what: &'static str,
     },
-    /// The map lacks the channel.
+    /// The map does not have the channel.
     #[error("no channel ‘{name}’ in this map: it has {available}")]
     NoChannel {
-        /// The channel asked for.
+        /// The requested channel.
         name: String,
-        /// The channels that there are.
+        /// The channels that the map has.
         available: String,
     },
-    /// The channel is not one number of a unit per pixel.
+    /// The channel is neither scalar nor colours.
     #[error("channel ‘{name}’ cannot be a picture: it holds {holds} at each pixel")]
     NotPicture {
-        /// The channel asked for.
+        /// The requested channel.
         name: String,
         /// `three numbers`, `an index`.
         holds: &'static str,
     },
-    /// Colours are shown as they are.
+    /// A colour map or gamma was requested for a channel that is shown in its own colours.
     #[error("channel ‘{name}’ is shown in its own colours: without a colour map, without gamma")]
     ColorStyle {
-        /// The channel asked for.
+        /// The requested channel.
         name: String,
     },
-    /// Black and white are not two finite numbers in this order.
+    /// The values of black and white are not two finite numbers in ascending order.
     #[error("range {} to {} of ‘{name}’: black must be below white, both finite", range[0], range[1])]
     Range {
-        /// The channel asked for.
+        /// The requested channel.
         name: String,
         /// The values of black and white.
         range: [f64; 2],
@@ -71,10 +71,10 @@ pub enum ExportError {
     /// The exponent is not a positive number.
     #[error("gamma {gamma}: must be finite and above 0")]
     Gamma {
-        /// The value asked for.
+        /// The requested value.
         gamma: f64,
     },
-    /// Colour functions give 8 bits.
+    /// Colour maps have only 8 bits.
     #[error("depth 16 with colours ‘{color}’: colour maps have 8 bits, only grey pictures have 16")]
     ColorDepth {
         /// Name of the colour map.
@@ -88,15 +88,15 @@ pub enum ExportError {
     Overflow {
         /// The channel.
         name: String,
-        /// Its value there.
+        /// Its value at that pixel.
         value: f64,
-        /// The first such pixel, counted in the full image.
+        /// The first such pixel, in coordinates of the full image.
         pixel: Pixel,
     },
-    /// The format's own limits are exceeded.
+    /// A limit of the format is exceeded.
     #[error("cannot be saved as {}: {reason}", format.name())]
     Unsuitable {
-        /// The format asked for.
+        /// The requested format.
         format: Format,
         /// The limit.
         reason: String,

@@ -1,8 +1,8 @@
 //! Files: a [`Map`](isophote::map::Map) as a picture, as layers, as arrays, as a table, or as a figure for a report.
 //!
-//! Every writer takes the map and a place to write to, so that the caller decides on names, interrupts and progress;
-//! [`write_atomically`] puts the bytes under a name only when they are complete. Every file carries a
-//! [`FileMetadata`], which [`read_metadata`] finds again, and the same map gives the same bytes on every run.
+//! Every writer takes the map and an output to write to, so that the caller controls names, interrupts and progress;
+//! [`write_atomically`] makes the bytes appear under a name only when they are complete. Every file carries a
+//! [`FileMetadata`], which [`read_metadata`] reads back, and the same map gives the same bytes on every run.
 //!
 //! ```
 //! use isophote::lanes::Precision;

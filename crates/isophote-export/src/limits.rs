@@ -1,12 +1,12 @@
-//! How much is read of a file, whatever it claims.
+//! Limits on how much of a file is read, whatever it claims.
 
 use std::io::Read;
 
-/// Longer descriptions are taken for damage: none that this program writes comes near, and a lying length must not
-/// take all memory. In bytes.
+/// Longer descriptions, in bytes, are treated as damage: none that this program writes comes close, and a false length
+/// must not exhaust memory.
 pub(crate) const LONGEST_JSON: u64 = 64 << 20;
 
-/// Exactly so many bytes; memory grows with what the file really has, not with what it claims.
+/// Reads exactly `length` bytes; memory grows with what the file actually holds, not with what it claims.
 pub(crate) fn read_exactly(file: &mut impl Read, length: u64, limit: u64) -> Result<Vec<u8>, String> {
     if length > limit {
         return Err(format!("its metadata claims {length} bytes"));

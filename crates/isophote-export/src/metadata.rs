@@ -1,9 +1,9 @@
-//! What every file says about itself, in whatever format it is.
+//! What every file says about itself, in any format.
 
 use isophote::map::{Channel, Map, Region, Resolution, Window};
 use serde::{Deserialize, Serialize};
 
-/// The description that goes into every file as JSON, enough to read its numbers and to render them again.
+/// The description stored as JSON in every file; it is enough to interpret the numbers and to render them again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FileMetadata {
     /// Version of this description: [`FileMetadata::VERSION`].
@@ -16,32 +16,32 @@ pub struct FileMetadata {
     pub convention: String,
     /// The renderer and its precision.
     pub renderer: String,
-    /// The space of linear RGB that the scene's colours are amounts of; none where it has no colours.
+    /// The colour space of the scene's linear RGB; none if it has no colours.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color_space: Option<String>,
-    /// Size of the full image, of which the file may hold a part.
+    /// Size of the full image; the file may hold only a part of it.
     pub full: Resolution,
     /// The part that the file holds.
     pub region: Region,
-    /// The part's outer edges on the screen, in their unit.
+    /// The outer edges of that part on the screen, in the screen's unit.
     pub window: Window,
     /// The channels in the file.
     pub channels: Vec<ChannelMetadata>,
-    /// How numbers became grey levels or colours; only pictures have it.
+    /// How numbers became grey levels or colours; only for pictures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<PictureMetadata>,
-    /// The scene, as a TOML scene file that renders the map again.
+    /// The scene as a TOML scene file, from which the map can be rendered again.
     pub scene: String,
 }
 
-/// A channel of a file.
+/// A channel in a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ChannelMetadata {
-    /// [`Quantity::name`](isophote::map::Quantity::name), with a light's name as the scene has it.
+    /// [`Quantity::name`](isophote::map::Quantity::name), with the light's name as in the scene.
     pub name: String,
     /// Its unit: `"1"` for pure numbers, `""` for indices.
     pub unit: String,
-    /// The names under which the file holds it, three for vectors; none where it is all that the file holds.
+    /// The names under which the file stores it, three for vectors; empty if it is the only content of the file.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stored_as: Vec<String>,
 }
@@ -51,22 +51,22 @@ pub struct ChannelMetadata {
 pub struct PictureMetadata {
     /// The values of black and white, in the channel's unit.
     pub range: [f64; 2],
-    /// A value v of the way from black to white is shown as v^(1/gamma); 1 is proportional.
+    /// A value at a fraction v of the way from black to white is shown as v^(1/gamma); 1 is proportional.
     pub gamma: f64,
-    /// Bits of a sample: 8 or 16.
+    /// Bits per sample: 8 or 16.
     pub depth: u8,
-    /// Name of the colour map; none for grey, and for colours that are shown as they are.
+    /// Name of the colour map; none for grey, and for channels shown in their own colours.
     pub colormap: Option<String>,
-    /// How those are encoded: `sRGB`.
+    /// The encoding of such colours: `sRGB`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub encoding: Option<String>,
 }
 
 impl FileMetadata {
-    /// The version that this program writes, and the newest that it reads.
+    /// The version that this program writes, and the newest that it can read.
     pub const VERSION: u32 = 1;
 
-    /// The description of a file with all channels of the map.
+    /// The description of a file that holds all channels of the map.
     #[must_use]
     pub fn of(map: &Map) -> Self {
         Self {
@@ -85,7 +85,7 @@ impl FileMetadata {
         }
     }
 
-    /// The description of a file with this channel of the map alone.
+    /// The description of a file that holds only this channel of the map.
     #[must_use]
     pub fn of_channel(map: &Map, channel: &Channel) -> Self {
         Self { channels: vec![ChannelMetadata::of(channel)], ..Self::of(map) }
@@ -100,10 +100,10 @@ impl FileMetadata {
         metadata
     }
 
-    /// As JSON on one line.
+    /// JSON on a single line.
     ///
     /// # Panics
-    /// Never: only maps with keys other than texts have no JSON.
+    /// Never: only maps with keys that are not strings cannot be written as JSON.
     #[must_use]
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("texts, numbers and lists have a JSON form")

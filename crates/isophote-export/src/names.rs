@@ -1,17 +1,17 @@
-//! Names of channels inside files, where a light's name, which may hold anything, meets the rules of a format.
+//! Names of channels inside files: a light's name may contain anything, but a format has its rules.
 
 use std::collections::HashSet;
 
 use isophote::map::{Channel, Quantity};
 
-/// Leaves room for `light.`, a number and `.Y` in the 255 bytes that an EXR channel may take.
+/// Leaves room for `light.`, a number and `.Y` in the 255 bytes allowed for an EXR channel name.
 const LONGEST_LIGHT_NAME: usize = 200;
 
-/// One name per channel: that of its quantity, in which every character of a light's name that is not `allowed` is an
-/// underscore, an empty one is `unnamed`, and those that would then be equal are numbered from 2.
+/// One name per channel: that of its quantity, in which every character of a light's name that is not `allowed` becomes
+/// an underscore and an empty name becomes `unnamed`; duplicates are numbered from 2.
 ///
 /// # Panics
-/// Never: numbers do not run out.
+/// Never: there is always another number.
 #[must_use]
 pub fn unique(channels: &[Channel], allowed: fn(char) -> bool) -> Vec<String> {
     let mut used = HashSet::new();

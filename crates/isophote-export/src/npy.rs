@@ -1,8 +1,8 @@
-//! One channel as a `NumPy` array, by the NPY format 1.0 (`numpy.lib.format`): magic, a header that is a Python
-//! dictionary, the numbers in little-endian order, rows from the top.
+//! One channel as a `NumPy` array in the NPY format 1.0 (`numpy.lib.format`): magic, a header that is a Python
+//! dictionary, then the numbers in little-endian order, rows from the top.
 //!
-//! After the numbers comes what `numpy.load` passes over: the metadata's JSON, its length in bytes (8, little-endian)
-//! and the word `ISOPHOTE`, so that a reader finds it from the file's end.
+//! The numbers are followed by what `numpy.load` ignores: the metadata as JSON, its length in bytes (8, little-endian)
+//! and the word `ISOPHOTE`, so that a reader can find it from the end of the file.
 
 use std::io::{BufRead, Seek, SeekFrom, Write};
 
@@ -13,11 +13,11 @@ use crate::error::ExportError;
 use crate::limits::{LONGEST_JSON, read_exactly};
 use crate::metadata::FileMetadata;
 
-/// Writes the channel: 64-bit numbers of shape (rows, columns), 32-bit where the map was computed in single precision,
-/// vectors with a third axis of 3, indices as 32-bit integers. Missed pixels hold 0, or −1 in the index.
+/// Writes the channel: 64-bit numbers of shape (rows, columns); 32-bit if the map was computed in single precision;
+/// vectors with a third axis of 3; indices as 32-bit integers. Missed pixels hold 0, or −1 in the index.
 ///
 /// # Errors
-/// No such channel; an error of `out`.
+/// The channel is missing; an error of `out`.
 pub fn write(map: &Map, quantity: &Quantity, mut out: impl Write) -> Result<(), ExportError> {
     let channel = channel::find(map, quantity)?;
     write_array(&mut out, map.region.size, &channel.values)?;
@@ -54,7 +54,7 @@ pub(crate) fn write_array(out: &mut impl Write, size: Resolution, values: &Value
 }
 
 /// Magic, version 1.0, length and dictionary, padded so that the numbers begin at a multiple of 64 bytes, as memory
-/// maps need.
+/// mapping requires.
 pub(crate) fn header(kind: &str, shape: &str) -> Vec<u8> {
     let mut dictionary = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
     let before = MAGIC.len() + 4;
@@ -65,7 +65,7 @@ pub(crate) fn header(kind: &str, shape: &str) -> Vec<u8> {
     [MAGIC, &[1, 0], &length.to_le_bytes(), dictionary.as_bytes()].concat()
 }
 
-/// By blocks: one call per number would cost more than the copying.
+/// Writes in blocks: one call per number would cost more than the copying.
 pub(crate) fn write_numbers<T: Copy, const BYTES: usize>(
     out: &mut impl Write,
     numbers: &[T],

@@ -1,4 +1,4 @@
-//! All channels as `NumPy` arrays in one file: an uncompressed ZIP archive of NPY files, as `numpy.savez` makes it.
+//! All channels as `NumPy` arrays in one file: an uncompressed ZIP archive of NPY files, as written by `numpy.savez`.
 
 use std::io::{self, BufRead, Read, Seek, SeekFrom, Write};
 
@@ -11,16 +11,16 @@ use crate::limits::{LONGEST_JSON, read_exactly};
 use crate::metadata::FileMetadata;
 use crate::{names, npy};
 
-/// Writes a member per channel under [`Quantity::name`](isophote::map::Quantity::name) (slashes and control characters
-/// in a light's name become `_`), `mask` (true where a surface is seen) and `metadata`: the JSON as a text of no
-/// axes, `numpy.load(file)["metadata"].item()`. Members above 4 GiB are written in ZIP64. The format needs an output that
-/// can seek: each member begins with its checksum, which is known in the end.
+/// Writes one member per channel, named [`Quantity::name`](isophote::map::Quantity::name) (slashes and control
+/// characters in a light's name become `_`), plus `mask` (true where a surface is seen) and `metadata`: the JSON as a
+/// 0-dimensional string array, `numpy.load(file)["metadata"].item()`. Members above 4 GiB are written in ZIP64. The
+/// output must be seekable, because each member begins with its checksum, which is known only at the end.
 ///
 /// # Errors
-/// More members than an archive may have; an error of `out`.
+/// More members than an archive can hold; an error of `out`.
 pub fn write(map: &Map, out: impl Write + Seek) -> Result<(), ExportError> {
     let size = map.region.size;
-    // A slash would be a folder to programs that unpack the archive, and `/../` a way out of theirs.
+    // Programs that unpack the archive would take a slash for a folder, and `/../` would lead out of theirs.
     let names = names::unique(map.channels(), |character| !character.is_control() && !"/\\:".contains(character));
     let stored_as = names.iter().map(|name| vec![name.clone()]).collect();
     let mut archive = ZipWriter::new(SilentAfterError::new(out));
@@ -41,9 +41,9 @@ pub fn write(map: &Map, out: impl Write + Seek) -> Result<(), ExportError> {
     Ok(())
 }
 
-/// A `ZipWriter` that is dropped after an error tries to complete the archive, prints to the terminal when that fails
-/// too, and panics when the end lies before the member it was writing. After its first error this passes nothing on
-/// and behaves as a file that ends where the real one did, so that the attempt succeeds.
+/// A `ZipWriter` that is dropped after an error tries to complete the archive, prints to the terminal if that fails
+/// too, and panics if the end lies before the member being written. After the first error, this wrapper passes nothing
+/// on and behaves like a file that ends where the real one did, so that the attempt succeeds.
 struct SilentAfterError<W> {
     out: W,
     failed: bool,
@@ -98,7 +98,7 @@ impl<W: Seek> Seek for SilentAfterError<W> {
     }
 }
 
-/// Begins the member of that name; the fixed time and rights make the same map give the same bytes.
+/// Starts a member; its fixed time and permissions make the same map give the same bytes.
 fn start(archive: &mut ZipWriter<impl Write + Seek>, name: &str, bytes: u64) -> Result<(), ExportError> {
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
@@ -108,7 +108,7 @@ fn start(archive: &mut ZipWriter<impl Write + Seek>, name: &str, bytes: u64) -> 
     archive.start_file(format!("{name}.npy"), options).map_err(from_zip)
 }
 
-/// Leaves more than any NPY header takes.
+/// Leaves room for any NPY header.
 const ALWAYS_BELOW_4_GIB: u64 = u32::MAX as u64 - 65_536;
 
 fn bytes(values: &Values) -> u64 {
@@ -120,7 +120,7 @@ fn bytes(values: &Values) -> u64 {
     }
 }
 
-/// Texts of `NumPy` are of one width and have four bytes a character.
+/// `NumPy` strings have a fixed width and four bytes per character.
 fn write_text(out: &mut impl Write, text: &str) -> io::Result<()> {
     let characters: Vec<char> = text.chars().collect();
     out.write_all(&npy::header(&format!("<U{}", characters.len()), "()"))?;
@@ -143,7 +143,7 @@ pub(crate) fn read_json(file: &mut (impl BufRead + Seek)) -> Result<Option<Vec<u
     };
     let length = member.size();
     let bytes = read_exactly(&mut member, length, 4 * LONGEST_JSON)?;
-    // The archive's checksum is compared when the member has been read to its end, not before.
+    // The archive's checksum is verified only when the member has been read to its end.
     member.read(&mut [0]).map_err(|error| error.to_string())?;
     text_of(&bytes).map(Some).ok_or_else(|| "its metadata is no NumPy text".into())
 }

@@ -1,4 +1,4 @@
-//! What a file says about itself, whatever its format and whatever its name.
+//! Reads what a file says about itself, in any format and under any name.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek};
@@ -10,7 +10,7 @@ use crate::format::Format;
 use crate::metadata::FileMetadata;
 use crate::{csv, exr, npy, npz, png};
 
-/// The description that a file carries; its format is told by its first bytes, not by its name.
+/// The description that a file carries; the format is recognised by the first bytes, not by the name.
 ///
 /// # Errors
 /// [`ReadError`]; never a panic, and never more memory than a small multiple of the description's length.
@@ -19,8 +19,8 @@ pub fn read_metadata(path: &Path) -> Result<FileMetadata, ReadError> {
     read_metadata_from(file, path)
 }
 
-/// The same from whatever can be read, such as a [`Cursor`](io::Cursor) over bytes; `path` is what errors call it. It
-/// must be able to seek: NPY and NPZ have their descriptions at the end.
+/// Like [`read_metadata`], from any reader, such as a [`Cursor`](io::Cursor) over bytes; `path` is used in error
+/// messages. The reader must be seekable: NPY and NPZ have their descriptions at the end.
 ///
 /// # Errors
 /// [`ReadError`], as for a file.
@@ -45,46 +45,46 @@ pub enum ReadError {
     /// The file cannot be opened or read.
     #[error("cannot read ‘{}’: {reason}", path.display())]
     File {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         reason: io::Error,
     },
-    /// Its beginning is that of no format which this program writes.
+    /// Its first bytes match no format that this program writes.
     #[error("‘{}’ is no PNG, EXR, NPY, NPZ or CSV file of Isophote", path.display())]
     Foreign {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
     },
-    /// It is sound, but another program's.
+    /// The file is valid, but written by another program.
     #[error("‘{}’ ({}) carries no Isophote metadata", path.display(), format.name())]
     NoMetadata {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
         /// Its format.
         format: Format,
     },
-    /// It is cut off or changed.
+    /// The file is truncated or altered.
     #[error("‘{}’ ({}) is damaged: {reason}", path.display(), format.name())]
     Damaged {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
         /// Its format.
         format: Format,
-        /// What does not fit.
+        /// What is wrong.
         reason: String,
     },
-    /// A later program wrote it.
+    /// The file was written by a newer version of the program.
     #[error("‘{}’ has metadata of version {version}; this program reads up to {}", path.display(), FileMetadata::VERSION)]
     Newer {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
         /// Its version.
         version: u32,
     },
 }
 
-/// Read by itself first: a later version may lack fields that this one needs, which is not damage.
+/// Read separately first: a newer version may lack fields that this one needs, and that is not damage.
 #[derive(serde::Deserialize)]
 struct Version {
     isophote: u32,
@@ -104,7 +104,7 @@ fn format_of(file: &mut (impl Read + Seek)) -> io::Result<Option<Format>> {
     Ok(magic.into_iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, format)| format))
 }
 
-/// The JSON that a file of this format carries, none if it is another program's, or what is wrong with the file.
+/// The JSON that a file of this format carries; none if another program wrote it; an error if the file is damaged.
 pub(crate) fn json_of(format: Format, file: &mut (impl BufRead + Seek)) -> Result<Option<Vec<u8>>, String> {
     match format {
         Format::Png => png::read_json(file),

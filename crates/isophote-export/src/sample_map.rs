@@ -3,14 +3,14 @@
 use isophote::map::{Coordinates, Map, Provenance, Quantity, Resolution, Values, Window};
 use isophote::units::LengthUnit;
 
-/// What a sample map shows at one pixel.
+/// What a sample map shows at a pixel.
 #[derive(Clone, Copy)]
 pub(crate) struct Seen {
     pub(crate) brightness: f64,
     pub(crate) shape: i32,
 }
 
-/// A map of brightness over the window −half..half in both directions, in metres; `seen` is asked at pixel centres.
+/// A brightness map over the window −half..half in both directions, in metres; `seen` is evaluated at pixel centres.
 pub(crate) fn square_map(pixels: u32, half: f64, seen: impl Fn(f64, f64) -> Option<Seen>) -> Map {
     let size = Resolution { width: pixels, height: pixels };
     let window =
@@ -18,7 +18,7 @@ pub(crate) fn square_map(pixels: u32, half: f64, seen: impl Fn(f64, f64) -> Opti
     map_over(size, window, seen)
 }
 
-/// A map of brightness over a window.
+/// A brightness map over a window.
 pub(crate) fn map_over(size: Resolution, window: Window, seen: impl Fn(f64, f64) -> Option<Seen>) -> Map {
     let pitch = |edges: [f64; 2], count: u32| (edges[1] - edges[0]) / f64::from(count);
     let pixels: Vec<Option<Seen>> = (0..size.height)
@@ -45,7 +45,7 @@ pub(crate) fn map_over(size: Resolution, window: Window, seen: impl Fn(f64, f64)
     map.build().unwrap()
 }
 
-/// Everywhere shape 0, with this brightness.
+/// Shape 0 everywhere, with this brightness.
 pub(crate) fn everywhere(brightness: impl Fn(f64, f64) -> f64) -> impl Fn(f64, f64) -> Option<Seen> {
     move |x, y| Some(Seen { brightness: brightness(x, y), shape: 0 })
 }

@@ -1,8 +1,8 @@
-//! Numbers and texts as files have them.
+//! Formats numbers and text for files.
 
 use std::fmt::{self, Display, Formatter};
 
-/// A number in the shortest form that reads back as the same one; with an exponent outside [1e-4, 1e16), as in Python.
+/// A number in its shortest form that reads back exactly; with an exponent outside [1e-4, 1e16), as in Python.
 pub(crate) struct Number(pub(crate) f64);
 
 impl Display for Number {
@@ -16,7 +16,8 @@ impl Display for Number {
     }
 }
 
-/// Control characters would end a comment line of a table or a text chunk early; the metadata's JSON has them escaped.
+/// Replaces control characters, which would end a table's comment line or a text chunk early; the metadata's JSON
+/// escapes them.
 pub(crate) fn one_line(text: &str) -> String {
     text.chars().map(|character| if character.is_control() { ' ' } else { character }).collect()
 }

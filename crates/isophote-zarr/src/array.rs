@@ -1,4 +1,4 @@
-//! A channel as a Zarr array: its description, and its shards to bytes and back.
+//! A channel as a Zarr array: its description, and the encoding and decoding of its shards.
 
 use std::num::NonZeroU64;
 use std::sync::Arc;
@@ -15,14 +15,14 @@ use crate::error::StoreError;
 use crate::json::object;
 use crate::plan::{Plan, Shard};
 
-/// Of the levels of zstd the fastest: on smooth maps higher ones save little and take long.
+/// The fastest level of zstd: on smooth maps higher levels save little and take long.
 const LEVEL: i32 = 1;
 
-/// What an array holds at each pixel, by the values of the map's channel.
+/// What an array holds at each pixel, depending on the values of the map's channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NumberFormat {
     kind: Kind,
-    /// Numbers a pixel.
+    /// Numbers per pixel.
     numbers: u32,
 }
 
@@ -34,7 +34,7 @@ enum Kind {
 }
 
 impl NumberFormat {
-    /// The only place that knows which values become which numbers.
+    /// The only place that maps values to number formats.
     pub fn of(values: &Values) -> Self {
         match values {
             Values::Scalar(_) => Self { kind: Kind::Double, numbers: 1 },
@@ -44,7 +44,7 @@ impl NumberFormat {
         }
     }
 
-    /// The same from the description of an array; nothing if this program would not write it so.
+    /// The format in an array's description; none if this program would not write it that way.
     pub fn from_metadata(array: &Value) -> Option<Self> {
         let kind = match array["data_type"].as_str()? {
             "float64" => Kind::Double,
@@ -76,7 +76,7 @@ impl NumberFormat {
         }
     }
 
-    /// The value where nothing is seen.
+    /// The value where no surface is seen.
     fn fill_value(self) -> FillValue {
         match self.kind {
             Kind::Double => 0.0_f64.into(),
@@ -117,7 +117,7 @@ impl ChannelArray {
         Ok(Self { array: array.map_err(encode_error(&quantity))?, quantity, element, plan, options })
     }
 
-    /// What `zarr.json` says of the array.
+    /// The array's `zarr.json`.
     pub fn metadata(&self) -> Result<Value, StoreError> {
         serde_json::to_value(self.array.metadata()).map_err(encode_error(&self.quantity))
     }
@@ -131,7 +131,7 @@ impl ChannelArray {
         self.array.chunk_key(&indices).to_string()
     }
 
-    /// The bytes of a shard's file; none where all of it is the fill value, for then there is no file.
+    /// The bytes of a shard's file; none if the shard is all fill value, because then there is no file.
     pub fn encode(&self, channel: &Channel, region: Region) -> Result<Option<Vec<u8>>, StoreError> {
         let values: &[u8] = match &channel.values {
             Values::Scalar(values) => bytemuck::cast_slice(values),
@@ -154,7 +154,7 @@ impl ChannelArray {
         encoded.map(|bytes| Some(bytes.into_owned())).map_err(encode_error(&self.quantity))
     }
 
-    /// Decodes a shard, with the checksum of every chunk; says what is wrong with it.
+    /// Decodes a shard and verifies the checksum of every chunk; returns what is wrong with it.
     pub fn check(&self, encoded: &[u8]) -> Result<(), String> {
         let shape = self.shard_shape().map_err(|error| error.to_string())?;
         let (data_type, fill_value) = (self.array.data_type(), self.array.fill_value());
@@ -162,7 +162,7 @@ impl ChannelArray {
         decoded.map(drop).map_err(|error| error.to_string())
     }
 
-    /// A shard at the edge of the image, with fill values beyond it; none if the region is a whole shard already.
+    /// A shard at the edge of the image, padded with fill values; none if the region is already a whole shard.
     fn whole_shard(&self, values: &[u8], region: Region) -> Option<Vec<u8>> {
         let side = self.plan.shard_side.get() as usize;
         let [width, height] = [region.size.width, region.size.height].map(|side| side as usize);
@@ -184,7 +184,7 @@ impl ChannelArray {
     }
 }
 
-/// The array called `name` as Zarr describes it. Its chunks never come into it: they go to their files.
+/// The array called `name` as described to Zarr. No chunks are stored in it: they go to their own files.
 fn array(
     quantity: &Quantity,
     name: &str,
@@ -202,7 +202,7 @@ fn array(
     builder
         .subchunk_shape(shape(element, [inner, inner]))
         .bytes_to_bytes_codecs(vec![Arc::new(ZstdCodec::new(LEVEL, false)), Arc::new(Crc32cCodec::new())])
-        // Chunks in the order in which they were finished would give other bytes on every run.
+        // Writing chunks in the order in which they finish would give different bytes on every run.
         .codec_specific_options(
             CodecSpecificOptions::default()
                 .with_option(ShardingCodecOptions::default().with_subchunk_write_order(SubchunkWriteOrder::C)),
@@ -212,7 +212,7 @@ fn array(
     builder.build(Arc::new(MemoryStore::new()), &format!("/{name}"))
 }
 
-/// The array of the pixels' centres along one side of the image, a single chunk.
+/// The array of pixel centres along one side of the image, in a single chunk.
 pub fn coordinate(name: &str, unit: &str, centres: &[f64]) -> Result<(Value, Vec<u8>), String> {
     alone(|| encoded_coordinate(name, unit, centres))
 }
@@ -251,7 +251,7 @@ fn attributes(quantity: &Quantity, unit: &str) -> JsonMap<String, Value> {
     object(attributes)
 }
 
-/// Each worker has a shard of its own: more threads inside would only get in each other's way.
+/// Each worker has its own shard: more threads inside would only get in each other's way.
 fn one_thread() -> CodecOptions {
     CodecOptions::default().with_concurrent_target(1)
 }

@@ -1,15 +1,15 @@
-//! In what a store differs from the one that is asked for.
+//! How an existing store differs from the requested one.
 
 use std::fmt;
 
-/// Something that is different from what was asked for.
+/// One difference from what was requested.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// What: `the size`, `the scene`, …
+    /// The item that differs: `the size`, `the scene`, …
     pub what: &'static str,
-    /// As it is in the store.
+    /// Its value in the store.
     pub stored: String,
-    /// As it was asked for.
+    /// The requested value.
     pub asked: String,
 }
 

@@ -1,4 +1,4 @@
-//! What a store says of its map and of each array, before anything is computed.
+//! What a store says about its map and each array, before anything is computed.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::error::StoreError;
 use crate::identity::{Identity, ZARR_JSON};
 use crate::plan::Plan;
 
-/// One pixel of the map tells what the renderer will give.
+/// A map of one pixel, which shows what the renderer will produce.
 pub fn sample(scene: &PreparedScene, renderer: &dyn Renderer, quantities: &[Quantity]) -> Result<Map, StoreError> {
     let size = Resolution { width: 1, height: 1 };
     let region = Region { corner: Pixel { column: 0, row: 0 }, size };
@@ -22,24 +22,24 @@ pub fn sample(scene: &PreparedScene, renderer: &dyn Renderer, quantities: &[Quan
     Ok(renderer.render(scene, &settings)?)
 }
 
-/// The channels that are computed: those wanted, and the irradiance, which tells what is lit.
+/// The channels to compute: the requested ones and the irradiance, which shows which pixels are lit.
 pub fn rendered(quantities: &[Quantity]) -> Vec<Quantity> {
     quantities.iter().cloned().chain([Quantity::Irradiance]).collect()
 }
 
-/// Bytes that a pixel of a shard takes while the shard is made: all channels of the map, and of the largest one the
-/// copy at the edge of the image, the encoded chunks and the encoded shard.
+/// Bytes per pixel needed while a shard is made: all channels of the map, plus, for the largest channel, the copy at
+/// the edge of the image, the encoded chunks and the encoded shard.
 pub fn need_per_pixel(sample: &Map) -> u64 {
     let sizes = || sample.channels().iter().map(|channel| NumberFormat::of(&channel.values).size() as u64);
     sizes().sum::<u64>() + 3 * sizes().max().unwrap_or(0)
 }
 
-/// How many bytes a pixel of a shard takes while it is made.
+/// The number of bytes per pixel needed while a shard is made.
 pub fn need(scene: &PreparedScene, renderer: &dyn Renderer, quantities: &[Quantity]) -> Result<u64, StoreError> {
     Ok(need_per_pixel(&sample(scene, renderer, quantities)?))
 }
 
-/// The description of the whole map, from that of one pixel of it.
+/// The description of the whole map, derived from that of one pixel.
 pub fn metadata(sample: &Map, scene: &PreparedScene, quantities: &[Quantity]) -> FileMetadata {
     let is_allowed = |character: char| character.is_alphanumeric() || "-_.".contains(character);
     let camera = scene.scene().camera();
@@ -71,7 +71,7 @@ pub fn sample_arrays(
     Ok(arrays)
 }
 
-/// The arrays of a store by its own description.
+/// The arrays of a store, according to its own description.
 pub fn stored_arrays(identity: &Identity, path: &Path) -> Result<Vec<ChannelArray>, StoreError> {
     let damaged = |name: &str| StoreError::Damaged {
         path: path.join(ZARR_JSON),

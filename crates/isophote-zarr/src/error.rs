@@ -10,7 +10,7 @@ use isophote_export::{ExportError, FileMetadata};
 
 use crate::change::Change;
 
-/// Why a store was not made, continued or read.
+/// Why a store could not be created, continued or read.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
     /// A file of the store cannot be written.
@@ -18,7 +18,7 @@ pub enum StoreError {
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         reason: io::Error,
     },
     /// A file of the store cannot be read.
@@ -26,44 +26,44 @@ pub enum StoreError {
     Read {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         reason: io::Error,
     },
     /// The name is taken by something else.
     #[error("‘{}’ is {what}", path.display())]
     Foreign {
-        /// The store asked for.
+        /// The requested store.
         path: PathBuf,
         /// `a file`, `no Zarr store of Isophote`, …
         what: String,
     },
-    /// There is a store of this name, and nobody said that it is to be continued.
+    /// A store of this name exists, and continuing it was not requested.
     #[error("‘{}’ exists already: {done} of its {shards} shards are done", path.display())]
     Exists {
-        /// The store asked for.
+        /// The requested store.
         path: PathBuf,
         /// How many shards are done.
         done: u64,
-        /// How many there are.
+        /// How many shards there are.
         shards: u64,
     },
-    /// The store holds another map than the one that is asked for.
+    /// The store holds a different map from the one requested.
     #[error("‘{}’ holds another map: {}", path.display(), list(changes))]
     Changed {
-        /// The store asked for.
+        /// The requested store.
         path: PathBuf,
-        /// What is different.
+        /// The differences.
         changes: Vec<Change>,
     },
-    /// Its description is cut off or changed.
+    /// The store's description is truncated or altered.
     #[error("‘{}’ is damaged: {reason}", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What does not fit.
+        /// What is wrong.
         reason: String,
     },
-    /// A later program wrote it.
+    /// The store was written by a newer version of the program.
     #[error("‘{}’ has metadata of version {version}; this program reads up to {}", path.display(), FileMetadata::VERSION)]
     Newer {
         /// The store.
@@ -71,21 +71,21 @@ pub enum StoreError {
         /// Its version.
         version: u32,
     },
-    /// Another process is writing into the store.
+    /// Another process is writing to the store.
     #[error("‘{}’ is being written by another process", path.display())]
     Busy {
         /// The store.
         path: PathBuf,
     },
-    /// Not one shard fits into the memory allowed.
+    /// The memory limit is too small for even one shard.
     #[error("a limit of {limit} MiB of memory is too small: one shard of this map needs {needed} MiB")]
     Memory {
-        /// What was allowed, in MiB.
+        /// The limit, in MiB.
         limit: u64,
-        /// What is the least, in MiB.
+        /// The minimum needed, in MiB.
         needed: u64,
     },
-    /// Shards are missing or do not hold what their records say.
+    /// Shards are missing or do not match their records.
     #[error("‘{}’ is incomplete: {}", path.display(), damages_text(damages))]
     Incomplete {
         /// The store.
@@ -99,12 +99,12 @@ pub enum StoreError {
     /// The preview could not be made.
     #[error("the preview: {0}")]
     Preview(#[from] ExportError),
-    /// The library for Zarr refused an array or a shard.
+    /// The Zarr library rejected an array or a shard.
     #[error("the channel ‘{}’ cannot be encoded: {reason}", quantity.name())]
     Encode {
         /// The channel.
         quantity: Quantity,
-        /// What it said.
+        /// The library's error.
         reason: String,
     },
 }
@@ -128,7 +128,7 @@ fn list(changes: &[Change]) -> String {
     changes.iter().map(Change::to_string).collect::<Vec<_>>().join("; ")
 }
 
-/// The first few by name: there may be a hundred thousand.
+/// Lists only the first few: there may be a hundred thousand.
 fn damages_text(damages: &[Damage]) -> String {
     const NAMED: usize = 5;
     let mut text: Vec<String> = damages.iter().take(NAMED).map(Damage::to_string).collect();

@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 
 use crate::error::StoreError;
 
-/// The folder with what is ours alone; readers of Zarr leave it aside.
+/// The folder for Isophote's own files, which Zarr readers ignore.
 const OWN: &str = ".isophote";
-/// In it, the files that are being written. On the same file system, so that renaming moves no data.
+/// The folder inside it for files being written. It is on the same file system, so that renaming moves no data.
 const UNFINISHED: &str = ".isophote/unfinished";
-/// In it, an empty file that is locked by whoever writes.
+/// An empty file inside it that writers lock.
 const LOCK: &str = ".isophote/lock";
 
 /// The folder of a store.
@@ -19,7 +19,7 @@ pub struct Files {
     root: PathBuf,
 }
 
-/// As long as it is held, nobody writes who may not.
+/// While this is held, no conflicting process writes.
 pub struct Lock {
     _file: File,
 }
@@ -27,9 +27,9 @@ pub struct Lock {
 /// Who may write at the same time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sharing {
-    /// Nobody else.
+    /// No other process.
     Alone,
-    /// Other processes that share as well.
+    /// Other processes that also share.
     Together,
 }
 
@@ -46,7 +46,8 @@ impl Files {
         self.root.join(key)
     }
 
-    /// Whether the folder holds nothing but what a process may leave that is killed before it says what the store is.
+    /// Whether the folder holds nothing but what a process leaves behind if it is killed before it has described the
+    /// store.
     pub fn is_unused(&self) -> Result<bool, StoreError> {
         let entries = match fs::read_dir(&self.root) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
@@ -60,8 +61,8 @@ impl Files {
         Ok(true)
     }
 
-    /// Makes the folders, waits for nobody, and removes what killed processes have left half-written, provided that
-    /// no living one is writing. File systems without locks are taken at their word: nothing is removed there.
+    /// Creates the folders, takes the lock or fails, and removes half-written files left by killed processes, provided
+    /// that no running process is writing. On file systems without locks it goes on without one, and removes nothing.
     pub fn lock(&self, sharing: Sharing) -> Result<Lock, StoreError> {
         self.make_folder(&self.path(UNFINISHED))?;
         let path = self.path(LOCK);
@@ -82,7 +83,7 @@ impl Files {
         Ok(Lock { _file: file })
     }
 
-    /// Another process that shares may be looking for leftovers, which takes it a moment.
+    /// Waits briefly, because another sharing process may be looking for leftovers.
     fn share(&self, file: &File) -> Result<(), StoreError> {
         let since = Instant::now();
         while let Err(TryLockError::WouldBlock) = file.try_lock_shared() {
@@ -103,7 +104,7 @@ impl Files {
         Ok(())
     }
 
-    /// The content of a file; none if it is not there.
+    /// The content of a file; none if it does not exist.
     pub fn get(&self, key: &str) -> Result<Option<Vec<u8>>, StoreError> {
         match fs::read(self.path(key)) {
             Ok(bytes) => Ok(Some(bytes)),
@@ -112,19 +113,19 @@ impl Files {
         }
     }
 
-    /// The length of a file; none if it is not there.
+    /// The length of a file; none if it does not exist.
     pub fn length(&self, key: &str) -> Option<u64> {
         fs::metadata(self.path(key)).ok().filter(fs::Metadata::is_file).map(|metadata| metadata.len())
     }
 
-    /// Puts the bytes under a name, in place of what is there.
+    /// Writes the bytes to a file, replacing its content.
     pub fn put(&self, key: &str, bytes: &[u8]) -> Result<(), StoreError> {
         let path = self.path(key);
         let put = self.prepared(&path, bytes).and_then(|file| file.persist(&path).map_err(|error| error.error));
         put.map(drop).map_err(|reason| StoreError::Write { path, reason })
     }
 
-    /// Puts the bytes under a name unless there is a file already; says whether it did.
+    /// Writes the bytes to a file unless it already exists; returns whether it did.
     pub fn put_new(&self, key: &str, bytes: &[u8]) -> Result<bool, StoreError> {
         let path = self.path(key);
         let put =
@@ -136,12 +137,12 @@ impl Files {
         }
     }
 
-    /// Puts the bytes under a name unless they are there already.
+    /// Writes the bytes to a file unless it already holds them.
     pub fn put_changed(&self, key: &str, bytes: &[u8]) -> Result<(), StoreError> {
         if self.get(key)?.as_deref() == Some(bytes) { Ok(()) } else { self.put(key, bytes) }
     }
 
-    /// Removes a file, if it is there.
+    /// Removes a file if it exists.
     pub fn remove(&self, key: &str) -> Result<(), StoreError> {
         match fs::remove_file(self.path(key)) {
             Err(reason) if !is_absence(&reason) => Err(StoreError::Write { path: self.path(key), reason }),
@@ -149,7 +150,7 @@ impl Files {
         }
     }
 
-    /// A hidden file with this content, safe on the disk, to be renamed; it removes itself if it is not.
+    /// A hidden file with this content, synced to disk and ready to be renamed; if it is not, it deletes itself.
     fn prepared(&self, path: &Path, bytes: &[u8]) -> io::Result<tempfile::NamedTempFile> {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
@@ -158,13 +159,13 @@ impl Files {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            // Less the umask; the default of temporary files, 0600, would hide the result from everyone else.
+            // The umask still applies. The default for temporary files, 0600, would hide the result from everyone else.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
         let file = builder.tempfile_in(self.path(UNFINISHED))?;
-        // Not through `file` itself, whose errors name the hidden file in place of the one that is wanted.
+        // Not through `file` itself, whose errors name the hidden file instead of the target.
         file.as_file().write_all(bytes)?;
-        // Or a power failure could leave the name and not the content.
+        // Otherwise a power failure could leave the name without the content.
         file.as_file().sync_data()?;
         Ok(file)
     }
@@ -178,7 +179,7 @@ impl Files {
     }
 }
 
-/// A file in the way of a folder means as well that the file looked for is not there.
+/// If a parent of the path is a file rather than a folder, the path does not exist either.
 fn is_absence(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory)
 }

@@ -1,4 +1,4 @@
-//! What a store says about itself, and whether it is the one that is asked for.
+//! What a store says about itself, and whether it is the one requested.
 
 use std::io;
 use std::path::Path;
@@ -15,21 +15,21 @@ use crate::plan::Plan;
 /// The file that describes a group or an array.
 pub const ZARR_JSON: &str = "zarr.json";
 
-/// The description of a store without its results: what has to be the same for a computation to be continued.
+/// The description of a store without its results: what must match for a computation to be continued.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identity {
     /// The map, as in every output file.
     pub metadata: FileMetadata,
-    /// How it is cut.
+    /// How it is divided into shards.
     pub plan: Plan,
     /// The description of each array by its name.
     pub arrays: JsonMap<String, Value>,
 }
 
-/// The description that a store carries, as every output file does.
+/// The description that a store carries, like every output file.
 ///
 /// # Errors
-/// No store of Isophote, or one that cannot be read.
+/// Not a store of Isophote, or one that cannot be read.
 pub fn read_metadata(path: &Path) -> Result<FileMetadata, StoreError> {
     let file = path.join(ZARR_JSON);
     let text = match std::fs::read(&file) {
@@ -42,7 +42,7 @@ pub fn read_metadata(path: &Path) -> Result<FileMetadata, StoreError> {
 }
 
 impl Identity {
-    /// The group's `zarr.json`, with the description of all arrays for readers of consolidated metadata, and with the
+    /// The group's `zarr.json`, with the descriptions of all arrays for readers of consolidated metadata, and with the
     /// results once they are known.
     pub fn to_json(&self, statistics: Option<Value>) -> Vec<u8> {
         let FileMetadata { title, convention, program, renderer, .. } = &self.metadata;
@@ -69,7 +69,7 @@ impl Identity {
         pretty(&group)
     }
 
-    /// What a group's `zarr.json` in the store at `path` says.
+    /// Reads the group's `zarr.json` of the store at `path`.
     pub fn from_json(text: &[u8], path: &Path) -> Result<Self, StoreError> {
         #[derive(Deserialize)]
         struct Version {
@@ -97,7 +97,7 @@ impl Identity {
         Ok(Self { metadata, plan, arrays })
     }
 
-    /// In what the one asked for differs from this one.
+    /// How the requested identity differs from this one.
     pub fn changes(&self, asked: &Self) -> Vec<Change> {
         let (here, there) = (&asked.metadata, &self.metadata);
         let mut changes = Vec::new();
@@ -131,7 +131,7 @@ fn channels(metadata: &FileMetadata) -> String {
     metadata.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-/// The first line that differs: the scene as a whole would bury it.
+/// The first line that differs, which would be lost in the whole scene.
 fn changed_line(stored: &str, asked: &str) -> Option<Change> {
     let quoted = |line: Option<&str>| line.map_or("absent".into(), |line| format!("‘{line}’"));
     let (mut stored, mut asked) = (stored.lines(), asked.lines());

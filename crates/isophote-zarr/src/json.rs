@@ -1,8 +1,8 @@
-//! JSON as stores have it.
+//! JSON as stores contain it.
 
 use serde_json::{Map, Value};
 
-/// JSON as people read it, with a line's end.
+/// Human-readable JSON with a final newline.
 pub fn pretty(value: &Value) -> Vec<u8> {
     format!("{value:#}\n").into_bytes()
 }

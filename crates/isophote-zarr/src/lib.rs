@@ -1,9 +1,9 @@
 //! Brightness maps larger than memory, as sharded [Zarr v3](https://zarr-specs.readthedocs.io) stores.
 //!
-//! An image is cut into [shards](Plan), each is rendered by itself and written whole, and a small record beside it says
-//! that it is done and what is in it. So a computation can be [stopped at any moment and resumed](Store::render),
-//! [shared out](Part) among processes and computers, and [put together and checked](Store::merge) in the end, and the
-//! bytes are always those of one uninterrupted run.
+//! An image is divided into [shards](Plan). Each is rendered on its own and written whole, and a small record beside it
+//! says that it is done and what is in it. So a computation can be [stopped at any moment and resumed](Store::render),
+//! [divided](Part) among processes and computers, and finally [merged and checked](Store::merge), and the bytes are
+//! always those of one uninterrupted run.
 
 mod alone;
 mod array;

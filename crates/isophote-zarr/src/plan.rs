@@ -1,4 +1,4 @@
-//! How an image is cut into shards.
+//! How an image is divided into shards.
 
 use std::fmt;
 use std::num::NonZeroU32;
@@ -6,15 +6,15 @@ use std::num::NonZeroU32;
 use isophote::map::{Pixel, Region, Resolution};
 use serde::{Deserialize, Serialize};
 
-/// Side of the inner chunks: what a reader decodes to get at one pixel, 2 MiB of doubles.
+/// Side of the inner chunks: the amount that a reader decodes to get at one pixel, 2 MiB of doubles.
 const LARGEST_INNER: u32 = 512;
-/// Shards are no larger, whatever fits.
+/// The largest side of a shard, however much memory there is.
 const LARGEST_SIDE: u32 = 2048;
-/// What a shard may need while it is made, in bytes: two fit into 512 MiB beside the program.
+/// The memory that a shard may need while it is made, in bytes: two fit into 512 MiB beside the program.
 const LARGEST_NEED: u64 = 192 << 20;
 
-/// How an image is cut. It depends on the image and its channels alone, so that a computation can be continued with
-/// other threads, in other memory, on another computer.
+/// How an image is divided. It depends only on the image and its channels, so that a computation can be continued with
+/// another number of threads, another memory limit, or on another computer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Plan {
     /// The image.
@@ -25,16 +25,16 @@ pub struct Plan {
     pub inner_side: NonZeroU32,
 }
 
-/// A shard by its place in the grid of shards.
+/// A shard, identified by its position in the grid of shards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Shard {
-    /// From the top, from 0.
+    /// Counted from the top, from 0.
     pub row: u32,
-    /// From the left, from 0.
+    /// Counted from the left, from 0.
     pub column: u32,
 }
 
-/// Every `of`-th shard of a plan, for jobs that share one store.
+/// Every `of`-th shard of a plan, for jobs that share a store.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
     /// Which part, from 1 to `of`.
@@ -44,7 +44,7 @@ pub struct Part {
 }
 
 impl Plan {
-    /// The plan for an image whose shards need so many bytes a pixel while they are made.
+    /// The plan for an image whose shards need this many bytes per pixel while they are made.
     #[must_use]
     pub fn new(full: Resolution, need_per_pixel: u64) -> Self {
         let need = |side: u32| u64::from(side) * u64::from(side) * need_per_pixel;
@@ -55,7 +55,7 @@ impl Plan {
         Self::with_sides(full, side, LARGEST_INNER.min(side))
     }
 
-    /// A plan with shards of another size, in inner chunks of a quarter of its side, if that is a whole number.
+    /// A plan with shards of another size, with inner chunks of a quarter of that side if that is a whole number.
     #[must_use]
     pub fn with_shard_side(full: Resolution, side: NonZeroU32) -> Self {
         let side = side.get();
@@ -67,7 +67,7 @@ impl Plan {
         Self { full, shard_side: side(shard), inner_side: side(inner) }
     }
 
-    /// Whether it cuts the image into whole shards of whole chunks; a damaged description may not.
+    /// Whether it divides the image into whole shards of whole chunks, which a damaged description may not.
     pub(crate) fn is_sound(&self) -> bool {
         self.full.width > 0 && self.full.height > 0 && self.shard_side.get().is_multiple_of(self.inner_side.get())
     }
@@ -91,7 +91,7 @@ impl Plan {
         (0..rows).flat_map(move |row| (0..columns).map(move |column| Shard { row, column }))
     }
 
-    /// The pixels of a shard that are in the image: shards at the right and lower edge hang over.
+    /// The pixels of a shard that are inside the image: shards at the right and lower edges extend past it.
     #[must_use]
     pub fn region(&self, shard: Shard) -> Region {
         let side = self.shard_side.get();
@@ -100,14 +100,14 @@ impl Plan {
         Region { corner: Pixel { column, row }, size }
     }
 
-    /// Pixels of a whole shard.
+    /// Pixels in a whole shard.
     pub(crate) fn shard_pixels(&self) -> u64 {
         u64::from(self.shard_side.get()) * u64::from(self.shard_side.get())
     }
 }
 
 impl Part {
-    /// Part `number` of `of`, counted from 1; nothing if there is no such part.
+    /// Part `number` of `of`, counted from 1; none if there is no such part.
     #[must_use]
     pub fn new(number: u32, of: u32) -> Option<Self> {
         (1..=of).contains(&number).then_some(Self { number, of })

@@ -8,10 +8,10 @@ use isophote_export::png::{self, PictureOptions};
 
 use crate::error::StoreError;
 
-/// The longest side of the picture.
+/// The longest side of the picture in pixels.
 const LONGEST: u32 = 1024;
 
-/// How the image is cut into boxes, each of which becomes a pixel.
+/// How the image is divided into boxes, each of which becomes one pixel.
 #[derive(Clone, Copy)]
 pub struct Boxes {
     full: Resolution,
@@ -26,12 +26,12 @@ pub struct Preview {
 }
 
 impl Boxes {
-    /// The smallest boxes that make a picture of at most [`LONGEST`] pixels.
+    /// The smallest boxes that keep each side of the picture within [`LONGEST`] pixels.
     pub fn new(full: Resolution) -> Self {
         Self { full, side: full.width.max(full.height).div_ceil(LONGEST) }
     }
 
-    /// The boxes that a region meets: the first and their number, of columns and rows.
+    /// The boxes that a region touches: the first one, and the number of columns and rows.
     fn of(self, region: Region) -> Region {
         let meets = |start: u32, length: u32| [start / self.side, (start + length - 1) / self.side];
         let [left, right] = meets(region.corner.column, region.size.width);
@@ -42,7 +42,7 @@ impl Boxes {
         }
     }
 
-    /// A shard's part of the sums in a text: 32-bit numbers are more than a picture shows; empty where all are 0.
+    /// A shard's part of the sums as text: 32-bit numbers are more precise than a picture shows; empty if all are 0.
     pub fn part(self, map: &Map, quantity: &Quantity) -> String {
         let runs = map.mask().runs();
         let Some(values) = map.scalar(quantity).filter(|_| !runs.is_empty()) else { return String::new() };
@@ -75,7 +75,7 @@ impl Preview {
         Self { boxes, size, sums: vec![0.0; size.pixels()] }
     }
 
-    /// Adds a shard's part; says if it does not fit the region.
+    /// Adds a shard's part; an error if it does not match the region.
     pub fn add(&mut self, region: Region, part: &str) -> Result<(), String> {
         if part.is_empty() {
             return Ok(());
@@ -95,7 +95,7 @@ impl Preview {
         Ok(())
     }
 
-    /// The picture as a PNG that carries the scene; nothing for a channel that is not one quantity a pixel.
+    /// The picture as a PNG that carries the scene; it shows nothing for a channel that is not a scalar.
     pub fn to_png(&self, metadata: &FileMetadata, quantity: &Quantity, unit: &str) -> Result<Vec<u8>, StoreError> {
         let means: Vec<f64> = self.sums.iter().enumerate().map(|(index, sum)| sum / self.pixels(index)).collect();
         let seen = means.iter().map(|mean| if *mean == 0.0 { -1 } else { 0 }).collect();
@@ -115,7 +115,7 @@ impl Preview {
         Ok(bytes)
     }
 
-    /// Pixels of a box: those at the right and lower edge hang over.
+    /// Pixels in a box: boxes at the right and lower edges extend past the image.
     fn pixels(&self, index: usize) -> f64 {
         let Boxes { full, side } = self.boxes;
         #[expect(clippy::cast_possible_truncation, reason = "a preview has at most 1024 columns and rows")]

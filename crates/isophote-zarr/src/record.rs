@@ -1,4 +1,4 @@
-//! What is known of a shard that is done: its files, and its share of the results.
+//! What is known about a finished shard: its files, and its part of the results.
 
 use isophote::map::Map;
 use serde::{Deserialize, Serialize};
@@ -10,10 +10,10 @@ use crate::plan::{Plan, Shard};
 use crate::preview::Boxes;
 use crate::statistics::ShardStatistics;
 
-/// The record of a shard. It is written after the shard's files: where it is, they are.
+/// The record of a shard. It is written after the shard's files, so if it exists, so do they.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
-    /// One for each channel; none where all of the shard is the fill value and there is no file.
+    /// One per channel; none if the shard is all fill value and has no file.
     files: Vec<Option<StoredFile>>,
     pub statistics: ShardStatistics,
     /// The shard's part of the preview.
@@ -27,12 +27,12 @@ struct StoredFile {
 }
 
 impl Record {
-    /// The name of its file in the store.
+    /// The name of the record's file in the store.
     pub fn key(shard: Shard) -> String {
         format!(".isophote/shards/{shard}.json")
     }
 
-    /// Writes a shard that was rendered, and then its record. Asks before each channel whether to go on.
+    /// Writes a rendered shard and then its record. Before each channel it asks whether to continue.
     pub fn make(
         files: &Files,
         arrays: &[ChannelArray],
@@ -64,7 +64,7 @@ impl Record {
         files.put(&Self::key(shard), &json)
     }
 
-    /// The record of a shard whose files are there, with the lengths that they should have.
+    /// The record of a shard whose files all exist and have the recorded lengths.
     pub fn read(files: &Files, arrays: &[ChannelArray], shard: Shard) -> Result<Result<Self, Damage>, StoreError> {
         let damage = |place, reason: &str| Ok(Err(Damage { place, reason: reason.into() }));
         let key = Self::key(shard);
@@ -87,7 +87,7 @@ impl Record {
         Ok(Ok(record))
     }
 
-    /// What is wrong with the content of the shard's files.
+    /// What is wrong with the content of the shard's files, if anything.
     pub fn check(&self, files: &Files, arrays: &[ChannelArray], shard: Shard) -> Result<Option<Damage>, StoreError> {
         for (array, stored) in arrays.iter().zip(&self.files) {
             let Some(stored) = stored else { continue };
@@ -107,7 +107,7 @@ impl Record {
         Ok(None)
     }
 
-    /// Forgets that a shard was done, so that it is computed again.
+    /// Removes the record of a shard, so that the shard is computed again.
     pub fn forget(files: &Files, shard: Shard) -> Result<(), StoreError> {
         files.remove(&Self::key(shard))
     }

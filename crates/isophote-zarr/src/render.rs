@@ -17,35 +17,35 @@ use crate::record::Record;
 use crate::statistics::MapStatistics;
 use crate::store::{Check, Store};
 
-/// What the program takes beside the shards in flight.
+/// The memory that the program uses besides the shards in flight.
 const BASE: u64 = 48 << 20;
 const MIB: u64 = 1 << 20;
 
-/// Who works.
+/// The limits on concurrent work.
 #[derive(Clone, Copy, Debug)]
 pub struct Workers {
-    /// At most so many shards at a time, each on its own thread.
+    /// The maximum number of shards at a time, each on its own thread.
     pub threads: NonZeroUsize,
-    /// And at most so many as fit into this memory together with the program, in bytes.
+    /// A memory limit in bytes for the program and the shards in flight, which may reduce that number.
     pub memory: Option<u64>,
 }
 
-/// How far the store has got.
+/// How far the store is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// It is complete.
     Complete(MapStatistics),
-    /// The part that was asked for is done.
+    /// The requested part is done.
     Part {
         /// Shards of the whole store that are done.
         done: u64,
-        /// Shards that are left.
+        /// Shards that are not done yet.
         left: u64,
     },
 }
 
 impl Store {
-    /// Pixels of the part: those that are done, and all.
+    /// Pixels of the part: done, and total.
     #[must_use]
     pub fn pixels(&self, part: Option<Part>) -> [u64; 2] {
         let mut pixels = [0, 0];
@@ -59,18 +59,18 @@ impl Store {
         pixels
     }
 
-    /// The shards of the part that were not done when the store was opened, with their numbers in the plan.
+    /// The shards of the part that were not done when the store was opened, with their indices in the plan.
     pub fn due(&self, part: Option<Part>) -> impl Iterator<Item = (u64, Shard)> {
         let shards = (0..).zip(self.plan().shards()).zip(&self.was_done);
         let is_due = move |index, is_done: bool| !is_done && part.is_none_or(|part| part.has(index));
         shards.filter(move |((index, _), is_done)| is_due(*index, **is_done)).map(|(shard, _)| shard)
     }
 
-    /// Computes what is not done yet, and puts the results together unless only a part was asked for. The renderer
-    /// works in each thread by itself: it should use no threads of its own.
+    /// Computes the shards that are not done yet, and merges the results unless only a part was requested. Every thread
+    /// calls the renderer separately, so the renderer should not use threads of its own.
     ///
     /// # Errors
-    /// A file that cannot be written, too little memory, an interruption. Shards that are done stay.
+    /// A file that cannot be written, too little memory, or an interruption. Finished shards are kept.
     pub fn render(
         &self,
         scene: &PreparedScene,
@@ -118,7 +118,7 @@ impl Store {
     }
 }
 
-/// Pools of one thread each. A worker in one does by itself what the libraries below would share with all processors.
+/// Pools of one thread each. Inside its own pool, a worker does not share the libraries' work with all processors.
 fn pools(count: usize) -> Result<Vec<ThreadPool>, RenderError> {
     let pool = |_| rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pools = (0..count).map(pool).collect::<Result<_, _>>();
@@ -135,9 +135,9 @@ fn on_each(pools: &[ThreadPool], work: &Work<'_>) {
     }
 }
 
-/// What the lights take, in bytes.
+/// The memory that the lights take, in bytes.
 struct Lights {
-    /// As they are written and checked.
+    /// To write and check them.
     once: u64,
     /// As the renderer places them for each shape.
     each_worker: u64,
@@ -145,7 +145,7 @@ struct Lights {
 
 fn lights(scene: &PreparedScene) -> Lights {
     let [lights, shapes] = [scene.scene().lights().len(), scene.scene().shapes().len()].map(|count| count as u64);
-    // The renderer keeps a million placed lights, and those of one shape more, before it lets go of them.
+    // The renderer caches a million placed lights plus those of one more shape before it clears the cache.
     Lights { once: 1024 * lights, each_worker: 128 * (lights * shapes).min((1 << 20) + lights) }
 }
 
@@ -166,7 +166,7 @@ impl Work<'_> {
         while let Some(&shard) = self.due.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             if let Err(error) = self.shard(shard) {
                 self.is_stopped.store(true, Ordering::Relaxed);
-                // What comes after the first error is its consequence.
+                // Errors after the first are its consequences.
                 self.error.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
                 return;
             }

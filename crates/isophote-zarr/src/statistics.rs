@@ -1,4 +1,4 @@
-//! Statistics of a map that is never in memory as a whole: by shard, then together.
+//! Statistics of a map that is never in memory as a whole: computed per shard, then combined.
 
 use isophote::analysis::statistics::{Counts, Extreme, Statistics, Totals, counts, totals};
 use isophote::map::{Map, Pixel, Quantity};
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 pub struct ShardStatistics {
     visible: u64,
     lit: u64,
-    /// One for each channel; none where nothing is seen or where the channel is not one quantity a pixel.
+    /// One per channel; none if no surface is seen or the channel is not a scalar.
     channels: Vec<Option<ShardChannel>>,
 }
 
@@ -22,7 +22,7 @@ struct ShardChannel {
     sum: f64,
 }
 
-/// A value and its pixel.
+/// A value and the pixel it is at.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Place {
     value: f64,
@@ -30,14 +30,14 @@ struct Place {
     column: u32,
 }
 
-/// What a whole map holds.
+/// The statistics of a whole map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapStatistics {
-    /// Pixels of the image.
+    /// Pixels in the image.
     pub pixels: u64,
     /// Pixels that see a surface.
     pub visible: u64,
-    /// Visible pixels to which any light comes.
+    /// Visible pixels that receive any light.
     pub lit: u64,
     /// Every channel of the store.
     pub channels: Vec<ChannelStatistics>,
@@ -48,12 +48,12 @@ pub struct MapStatistics {
 pub struct ChannelStatistics {
     /// The channel.
     pub quantity: Quantity,
-    /// None where no surface is seen or where the channel is not one quantity a pixel.
+    /// None if no surface is seen or the channel is not a scalar.
     pub statistics: Option<Statistics>,
 }
 
 impl ShardStatistics {
-    /// The statistics of these channels, and of the irradiance, which tells what is lit.
+    /// The statistics of these channels, and of the irradiance, which shows which pixels are lit.
     pub fn of(map: &Map, quantities: &[Quantity]) -> Self {
         let Counts { visible, lit, .. } = counts(map);
         let channel = |quantity: &Quantity| totals(map, quantity).map(ShardChannel::from);
@@ -73,7 +73,8 @@ impl From<Totals> for ShardChannel {
 }
 
 impl MapStatistics {
-    /// The statistics of a map from those of its shards, which come in the order of the plan, whenever each was made.
+    /// The statistics of a map from those of its shards, which must come in the plan's order, whenever each was
+    /// computed.
     pub(crate) fn new(pixels: u64, quantities: &[Quantity], shards: &[ShardStatistics]) -> Self {
         let visible = shards.iter().map(|shard| shard.visible).sum();
         let channels = quantities.iter().enumerate().map(|(index, quantity)| {
@@ -83,7 +84,7 @@ impl MapStatistics {
         Self { pixels, visible, lit: shards.iter().map(|shard| shard.lit).sum(), channels: channels.collect() }
     }
 
-    /// As the store's attributes have them.
+    /// The form in which the store's attributes hold them.
     pub(crate) fn to_json(&self) -> Value {
         let extreme = |extreme: &Extreme| json!({ "value": extreme.value, "pixel": extreme.pixel });
         let channels = self.channels.iter().filter_map(|channel| {
@@ -104,7 +105,7 @@ fn combined(parts: impl Iterator<Item = ShardChannel>, visible: u64) -> Option<S
     let ShardChannel { mut max, mut min, .. } = *parts.peek()?;
     let mut sum = Sum::new();
     for part in parts {
-        // Of equal values the first in reading order, which is not the order of the plan.
+        // Among equal values, take the first in reading order, which is not the order of the plan.
         let is_earlier = |part: &Place, known: &Place| {
             part.value == known.value && (part.row, part.column) < (known.row, known.column)
         };

@@ -1,4 +1,4 @@
-//! A store: made or found, and in the end complete.
+//! A store: created or opened, and finally complete.
 
 use std::fs;
 use std::io;
@@ -26,7 +26,7 @@ use crate::statistics::MapStatistics;
 /// The small picture of the whole map.
 const PREVIEW: &str = "preview.png";
 
-/// A store that this process may write into.
+/// A store that this process may write to.
 pub struct Store {
     pub(crate) files: Files,
     pub(crate) identity: Identity,
@@ -37,42 +37,42 @@ pub struct Store {
     _lock: Lock,
 }
 
-/// What store is asked for.
+/// The store that is requested.
 #[derive(Clone, Debug)]
 pub struct Request {
     /// The channels, without duplicates; the first one is pictured.
     pub quantities: Vec<Quantity>,
-    /// What to do with a store that is there already.
+    /// What to do if the store already exists.
     pub opening: Opening,
-    /// The part to compute, of a store that others write into at the same time; all of it by default.
+    /// The part to compute when other processes write to the same store; by default everything.
     pub part: Option<Part>,
-    /// Side of the shards of a new store; by default what suits the channels.
+    /// Side of the shards of a new store; by default chosen to suit the channels.
     pub shard_side: Option<NonZeroU32>,
 }
 
-/// What to do with a store that is there already.
+/// What to do if the store already exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Opening {
-    /// Refuse: nothing is ever replaced.
+    /// Fail: nothing is ever replaced.
     New,
-    /// Continue it, if it holds the same map; begin it, if there is none.
+    /// Continue it if it holds the same map; create it if it does not exist.
     Continue,
 }
 
-/// How closely a store is looked at.
+/// How thoroughly a store is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Check {
-    /// Every shard has its record and its files have the right length.
+    /// Every shard has its record, and its files have the right lengths.
     Presence,
-    /// Every byte has the right checksum, and every chunk can be decoded.
+    /// Every byte matches its checksum, and every chunk can be decoded.
     Content,
 }
 
 impl Store {
-    /// Makes a store for a scene, or finds it.
+    /// Creates a store for a scene, or opens the existing one.
     ///
     /// # Errors
-    /// A name that is taken, a store that holds another map or is being written, a folder that cannot be written in.
+    /// The name is taken, the store holds another map or is being written, or the folder is not writable.
     pub fn prepare(
         path: &Path,
         scene: &PreparedScene,
@@ -100,7 +100,7 @@ impl Store {
         }
         let lock = files.lock(if request.part.is_some() { Sharing::Together } else { Sharing::Alone })?;
         if stored.is_none() && !files.put_new(ZARR_JSON, &identity.to_json(None))? {
-            // Another process was faster.
+            // Another process created it first.
             let text = files.get(ZARR_JSON)?.unwrap_or_default();
             refuse_changes(&Identity::from_json(&text, path)?, &identity, path)?;
         }
@@ -113,10 +113,10 @@ impl Store {
         Self::new(files, identity, arrays.into_iter().map(|(_, array)| array).collect(), lock)
     }
 
-    /// Opens a store that is there, to put it together.
+    /// Opens an existing store in order to merge it.
     ///
     /// # Errors
-    /// No store of Isophote, a damaged one, one that is being written.
+    /// It is not a store of Isophote, is damaged, or is being written.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
         let files = Files::new(path);
         let identity = stored_identity(&files)?.ok_or_else(|| foreign(path, "no Zarr store of Isophote"))?;
@@ -138,7 +138,7 @@ impl Store {
         &self.identity.metadata
     }
 
-    /// How it is cut.
+    /// How it is divided into shards.
     #[must_use]
     pub fn plan(&self) -> Plan {
         self.identity.plan
@@ -160,12 +160,13 @@ impl Store {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Puts the results of all shards together: the statistics into the description of the store, and the preview.
+    /// Merges the results of all shards: the statistics into the store's description, and the preview.
     ///
-    /// A shard whose content is wrong is forgotten, so that it is computed again when the store is continued.
+    /// The record of a shard with wrong content is removed, so that the shard is computed again when the store is
+    /// continued.
     ///
     /// # Errors
-    /// Shards that are missing or damaged, all of them in one error.
+    /// Lists all missing or damaged shards in one error.
     pub fn merge(&self, check: Check) -> Result<MapStatistics, StoreError> {
         let mut records = Vec::new();
         let mut damages = if check == Check::Content { self.damaged_descriptions()? } else { Vec::new() };
@@ -192,7 +193,7 @@ impl Store {
         }
     }
 
-    /// The descriptions of arrays that are not those which the group lists, and coordinates that are not the scene's.
+    /// Array descriptions that differ from those in the group, and coordinates that differ from the scene's.
     fn damaged_descriptions(&self) -> Result<Vec<Damage>, StoreError> {
         let mut damages = Vec::new();
         let metadata = &self.identity.metadata;
@@ -236,7 +237,7 @@ impl Store {
     }
 }
 
-/// The store that is there, if it may be continued; nothing if the place is free.
+/// The existing store, if it may be continued; none if the name is free.
 fn check_place(files: &Files, opening: Opening) -> Result<Option<Identity>, StoreError> {
     let path = files.root();
     match fs::metadata(path) {

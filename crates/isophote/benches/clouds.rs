@@ -1,5 +1,5 @@
-//! Clouds of spheres with shadows: time to read, to build and to render, and the memory that all of it takes at most; from a
-//! thousand spheres to a million. Each case is a process of its own, for its memory.
+//! Clouds of spheres with shadows, from a thousand spheres to a million: time to read, to build and to render, and peak
+//! memory. Each case runs in its own process, so that its memory can be measured.
 
 use std::error::Error;
 use std::fs::File;
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         Case { lights: 16, ..target },
         Case { lights: 16, threads: 1, ..target },
     ];
-    // As many spheres in the same box: of one size, then of one part of its volume.
+    // First all spheres have the same size, then they fill the same part of the box's volume.
     let counts = [1_000, 3_000, 10_000, 30_000, 100_000, 300_000, 1_000_000];
     cases.extend(counts.map(|spheres| Case { spheres, ..target }));
     cases.extend(counts.map(|spheres| Case {
@@ -114,7 +114,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
     (start.elapsed(), result)
 }
 
-/// The most memory that the process has taken, in megabytes; Linux tells.
+/// Peak memory of the process in megabytes, as reported by Linux.
 fn peak_memory() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
@@ -139,7 +139,7 @@ fn write_spheres(path: &Path, case: &Case) -> Result<(), Box<dyn Error>> {
     Ok(file.flush()?)
 }
 
-/// A full-HD view through the front of the box, lights before it.
+/// A full-HD view through the front of the box, with the lights in front of it.
 fn scene_text(case: &Case) -> String {
     let mut text = String::from(
         "version = 1\nlength = \"m\"\nhandedness = \"left\"\nconvention = \"lab\"\nshadows = true
@@ -159,7 +159,7 @@ fn scene_text(case: &Case) -> String {
     text
 }
 
-/// Steele and Vigna's SplitMix64.
+/// SplitMix64 by Steele and Vigna.
 struct Random(u64);
 
 impl Random {

@@ -1,6 +1,7 @@
-//! Instructions counted by valgrind, one bench per stage: numbers without noise, which two versions can be compared by.
+//! Instructions counted by valgrind, one benchmark per stage: noise-free numbers for comparing two versions.
 //!
-//! `make bench-instructions` runs it. The images are small, because valgrind is some fifty times slower than the machine.
+//! Run with `make bench-instructions`. The images are small because valgrind is some fifty times slower than the
+//! machine.
 
 #![expect(missing_docs, reason = "the macros of gungraun make public things without documentation")]
 
@@ -25,7 +26,7 @@ fn prepared_lab() -> PreparedScene {
     PreparedScene::new(&lab())
 }
 
-/// The lab's sphere under as many lights on a spiral around the eye.
+/// The lab's sphere with `count` lights on a spiral around the eye.
 fn many_lights(count: u32) -> PreparedScene {
     let mut source = lab().source().clone();
     let light = source.light[0].clone();

@@ -1,4 +1,4 @@
-//! One bench per stage of the way from a scene file to a map.
+//! One benchmark per stage from a scene file to a map.
 
 use std::hint::black_box;
 
@@ -52,7 +52,7 @@ fn kernel(criterion: &mut Criterion) {
     }
 }
 
-/// What smooth edges cost: beside "render 800×600, lanes".
+/// The cost of smooth edges: compare with "render 800×600, lanes".
 fn samples(criterion: &mut Criterion) {
     let brightness = [Quantity::Brightness];
     let lanes = SimdRenderer::new(Precision::Double, None);
@@ -89,7 +89,7 @@ fn many_lights(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// An image whose buffers no longer fit into a cache: what is done for each pixel of the background shows here.
+/// An image whose buffers no longer fit into a cache: here the cost per background pixel shows.
 fn large(criterion: &mut Criterion) {
     let scene = lab().with_resolution(Resolution { width: 3840, height: 2160 }).expect("an allowed size");
     let renderer = SimdRenderer::new(Precision::Double, None);

@@ -1,5 +1,5 @@
-//! What the machine can do at most: fused multiply-adds and stores per second, on one thread and on two.
-//! `validation/speed` measures it in the same run as the renderers, so that a share of the ceiling can be stated.
+//! The machine's peak rates: fused multiply-adds and stores per second, on one thread and on two. `validation/speed`
+//! measures them in the same run as the renderers, so that results can be stated as a share of the peak.
 //!
 //! Prints one line of JSON: the SIMD level, GFLOP/s (an FMA counts as two) and GB/s.
 
@@ -10,14 +10,14 @@ use std::time::Instant;
 
 use fearless_simd::{Level, dispatch, prelude::*};
 
-/// Independent chains of FMAs. An FMA takes 4 cycles and two can start in each, so 8 would do on x86-64; 12 hide the
-/// loop's own work too, and stay within the 16 registers of AVX2.
+/// Independent chains of FMAs. An FMA takes 4 cycles and two can start in each, so 8 would do on x86-64; 12 also hide
+/// the loop overhead, and still fit into the 16 registers of AVX2.
 const CHAINS: usize = 12;
 const STEPS: u32 = 1_000_000;
 /// A 3840×2160 frame of 32-bit numbers, 33 MB: more than a core's own caches hold.
 const FRAME: usize = 3840 * 2160;
 const FRAMES: u32 = 4;
-/// Many short runs: the best of them is one that nothing else has disturbed.
+/// Many short runs, so that the best one is undisturbed.
 const REPEATS: usize = 60;
 
 fn main() {
@@ -33,18 +33,18 @@ fn main() {
     println!("{report}");
 }
 
-/// The name of the level without the features that it stands for.
+/// The name of the SIMD level, without its features.
 fn level_name(level: Level) -> String {
     let name = format!("{level:?}");
     name.split(['(', ' ']).next().unwrap_or(&name).to_owned()
 }
 
-/// The best of several runs, in billions a second of what the work counts.
+/// The best of several runs, in units of 10⁹ per second.
 fn best(rate: impl FnMut() -> f64) -> f64 {
     std::iter::repeat_with(rate).take(REPEATS).fold(0.0, f64::max)
 }
 
-/// Works side by side, each on a thread of its own.
+/// Runs the closures in parallel, each on its own thread, and returns their joint rate.
 fn rate<W: FnOnce() -> f64 + Send>(works: impl Iterator<Item = W>) -> f64 {
     let start = Instant::now();
     let done: f64 = std::thread::scope(|scope| {
@@ -74,7 +74,7 @@ fn chains_f64<S: Simd>(simd: S) -> f64 {
     chains::<S, S::f64s>(simd, 0.999, 0.001)
 }
 
-/// Runs the chains and returns how many operations on numbers that was.
+/// Runs the chains and returns the number of floating-point operations.
 #[inline(always)]
 fn chains<S: Simd, V: SimdFloat<S>>(simd: S, factor: V::Element, addend: V::Element) -> f64 {
     let factor = V::simd_from(simd, black_box(factor));
@@ -89,7 +89,7 @@ fn chains<S: Simd, V: SimdFloat<S>>(simd: S, factor: V::Element, addend: V::Elem
     2.0 * f64::from(STEPS) * (CHAINS * V::LEN) as f64
 }
 
-/// GB/s of plain stores by threads that write a frame in equal parts.
+/// GB/s of plain stores, with a frame divided equally among the threads.
 fn stores(level: Level, threads: usize) -> f64 {
     let mut frame = vec![1.0_f32; FRAME];
     best(|| {
@@ -98,12 +98,12 @@ fn stores(level: Level, threads: usize) -> f64 {
     })
 }
 
-/// Writes a part of a frame again and again and returns how many bytes that was.
+/// Writes a part of a frame repeatedly and returns the number of bytes written.
 #[inline(always)]
 fn store<S: Simd>(simd: S, part: &mut [f32]) -> f64 {
     let mut value = S::f32s::simd_from(simd, black_box(1.0));
     for _ in 0..FRAMES {
-        // A new value each time: the stores of a frame cannot be left out for those of the next.
+        // A new value for each frame, so that the compiler cannot drop the stores of one frame in favour of the next.
         value += 1.0;
         for vector in part.chunks_exact_mut(S::f32s::LEN) {
             value.store_slice(vector);

@@ -1,7 +1,7 @@
-//! Our side of `validation/speed`: a process that lives through the comparison and times a renderer when told to.
+//! Our side of `validation/speed`: a process that runs for the whole comparison and times a renderer on request.
 //!
-//! `speed_worker --list` prints the names of the contestants, one a line; `speed_worker NAME` then reads one JSON request a
-//! line and answers each with one line of JSON, as the workers of the other programs do.
+//! `speed_worker --list` prints the names of the contestants, one per line; `speed_worker NAME` then reads one JSON
+//! request per line and answers each with one line of JSON, like the workers of the other programs.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -17,13 +17,13 @@ use isophote::render::{RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::Scene;
 use serde::{Deserialize, Serialize};
 
-/// A renderer, and whether it renders in the memory of its last map.
+/// A renderer, and whether it reuses the memory of its last map.
 struct Contestant {
     renderer: SimdRenderer,
     reuses: bool,
 }
 
-/// Everyone that takes part: precision, threads, and memory.
+/// All contestants: precision, threads, and memory reuse.
 fn contestants() -> Vec<(&'static str, Contestant)> {
     let contestant = |precision, threads, reuses| {
         let renderer = SimdRenderer::new(precision, NonZeroUsize::new(threads));
@@ -42,9 +42,9 @@ fn contestants() -> Vec<(&'static str, Contestant)> {
 #[derive(Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase")]
 enum Request {
-    /// Reads and prepares the scene that the next requests are about.
+    /// Reads and prepares the scene for the following requests.
     Load { scene: String },
-    /// Renders again and again for so many seconds, after one render that is not timed.
+    /// Renders repeatedly for `seconds`, after one render that is not timed.
     Time { seconds: f64 },
     /// Brightness at pixels, given as column and row.
     Values { pixels: Vec<[u32; 2]> },
@@ -118,7 +118,7 @@ fn time<E: Error + 'static>(
     let mut seconds = Vec::new();
     while seconds.is_empty() || start.elapsed() < least {
         let start = Instant::now();
-        // The map of one turn is freed, or handed on, within the next, as in a program that renders one after the other.
+        // Each map is freed or reused within the next iteration, as in a program that renders one map after another.
         last = Some(black_box(render(last.take())?));
         seconds.push(start.elapsed().as_secs_f64());
     }

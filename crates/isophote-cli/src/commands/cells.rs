@@ -1,4 +1,4 @@
-//! Files of maps whose cells are no pixels: of surfaces and grids.
+//! Files of maps whose cells are not pixels: maps of surfaces and grids.
 
 use std::path::PathBuf;
 
@@ -18,7 +18,7 @@ use crate::args::CellStyleArguments;
 use crate::failure::{self, Usage};
 use crate::threads;
 
-/// Files to be written, with their places checked.
+/// Files to write, all checked to be writable.
 pub struct CellFiles<'a> {
     files: Vec<MapFile>,
     figures: Vec<(PathBuf, FigureFormat)>,
@@ -37,7 +37,7 @@ impl<'a> CellFiles<'a> {
         self.files.is_empty() && self.figures.is_empty()
     }
 
-    /// Known before anything is computed.
+    /// Runs before anything is computed.
     pub fn refuse_impossible_pictures(&self, main: &Quantity) -> Result<(), Usage> {
         let is_picture = !self.figures.is_empty() || self.files.iter().any(MapFile::is_picture);
         refuse_colormap(main, self.style.colormap)?;
@@ -48,7 +48,7 @@ impl<'a> CellFiles<'a> {
         Ok(())
     }
 
-    /// Writes everything, of which the options' channel is pictured.
+    /// Writes everything; the channel in the options is the one pictured.
     pub fn write(&self, map: &Map, options: FigureOptions, scene: &Scene, quiet: bool) -> Result<()> {
         let main = options.quantity.clone();
         let svg = if self.figures.is_empty() { String::new() } else { self.draw(map, options, scene)? };
@@ -79,7 +79,7 @@ impl<'a> CellFiles<'a> {
     }
 
     fn draw(&self, map: &Map, options: FigureOptions, scene: &Scene) -> Result<String> {
-        /// A long thin map would leave no room for its numbers.
+        /// A longer, thinner map would leave no room for its numbers.
         const MOST: f64 = 6.0;
         let title = if options.title.is_empty() { scene.title().to_owned() } else { options.title };
         let label = match options.quantity {

@@ -20,7 +20,7 @@ use crate::failure::Usage;
 use crate::table::{Align, table};
 use crate::{load, numbers};
 
-/// Computes grids, writes one if asked, and prints their numbers.
+/// Computes grids, writes one if requested, and prints their statistics.
 pub fn run(arguments: &GridArguments) -> Result<String> {
     let mut scene = load::scene(&arguments.scene, arguments.quiet)?;
     if let Some(grid) = placed(&arguments.placed)? {
@@ -52,7 +52,7 @@ pub fn run(arguments: &GridArguments) -> Result<String> {
     if arguments.json { numbers::json(&summary.to_json()) } else { Ok(summary.to_text()) }
 }
 
-/// The grid of the command line, as a scene file would have it.
+/// The grid given on the command line, in the form of a scene file.
 fn placed(arguments: &PlacedGridArguments) -> Result<Option<GridSource>, Usage> {
     let PlacedGridArguments { corner, center, u, v, points, side } = arguments;
     let is_given = corner.is_some() || center.is_some() || u.is_some() || v.is_some() || points.is_some();
@@ -83,7 +83,7 @@ fn chosen<'s>(arguments: &GridArguments, scene: &'s Scene) -> Result<Vec<&'s Gri
 struct Computed<'s> {
     grid: &'s Grid,
     map: Map,
-    /// None where the channel is not one quantity a point.
+    /// None if the channel is not a scalar.
     statistics: Option<Statistics>,
 }
 
@@ -145,7 +145,7 @@ impl Summary<'_> {
             let axes = computed.map.window.coordinates.axes(self.scene.length());
             let place = |extreme| place_text(axes, computed.place(extreme, self.scene));
             let (min, max) = (place(&found.min), place(&found.max));
-            // Writing to a text cannot fail.
+            // Writing to a string cannot fail.
             let _ = writeln!(text, "  {}: minimum at {min}; maximum at {max}", computed.grid.name);
         }
         text
@@ -189,7 +189,7 @@ impl Summary<'_> {
     }
 }
 
-/// How even the light is; nothing where all is dark.
+/// How even the illumination is; none if everything is dark.
 struct Ratios {
     /// Minimum over mean.
     uniformity: Option<f64>,
@@ -208,7 +208,7 @@ fn ratio_text(ratio: Option<f64>) -> String {
     ratio.map_or("–".into(), |ratio| significant(ratio, 4))
 }
 
-/// The numbers for programs; lengths and points in the scene's unit.
+/// The statistics for programs; lengths and points in the scene's unit.
 #[derive(Serialize)]
 struct GridsJson {
     title: String,
@@ -229,10 +229,10 @@ struct GridJson {
     min: Option<ExtremeJson>,
     mean: Option<f64>,
     max: Option<ExtremeJson>,
-    /// Minimum over mean; none where all is dark.
+    /// Minimum over mean; none if everything is dark.
     uniformity: Option<f64>,
     min_to_max: Option<f64>,
-    /// Row by row from the one that is farthest along v.
+    /// Row by row, starting with the row farthest along v.
     values: Option<Vec<Vec<f64>>>,
 }
 

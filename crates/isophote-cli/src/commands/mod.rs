@@ -1,4 +1,4 @@
-//! One file per command: raw arguments become a job, the job runs and gives the text for standard output.
+//! One file per command: raw arguments become a job; the job runs and returns the text for standard output.
 
 mod cells;
 mod check;
@@ -21,7 +21,7 @@ use clap::CommandFactory;
 use crate::args::{Arguments, Command, RenderArguments};
 use crate::failure::Usage;
 
-/// Runs a command; the result is what goes to standard output.
+/// Runs a command; returns the text for standard output.
 pub fn run(arguments: Arguments) -> Result<String> {
     match arguments.command {
         None => rendered(&RenderArguments::lab()),
@@ -40,7 +40,7 @@ pub fn run(arguments: Arguments) -> Result<String> {
     }
 }
 
-/// A map in memory, or in a store that may be larger.
+/// Renders into memory, or into a store that may be larger than memory.
 fn rendered(arguments: &RenderArguments) -> Result<String> {
     match store::asked_for(arguments)? {
         Some(path) => store::render(arguments, path),

@@ -17,7 +17,7 @@ use isophote_export::{ExportError, FileMetadata, Format, atomic, csv, exr, figur
 use crate::failure::Usage;
 use crate::progress::Interruptible;
 
-/// A map file to be written.
+/// A map file to write.
 pub struct MapFile {
     path: PathBuf,
     format: Format,
@@ -31,12 +31,12 @@ pub struct MapStyle {
     pub depth: Depth,
     pub colormap: Option<Colormap>,
     pub rows: csv::Rows,
-    /// How many threads compress, where a format has blocks for several.
+    /// The number of compression threads, for formats that compress in blocks.
     pub threads: NonZeroUsize,
 }
 
 impl MapFile {
-    /// A file whose suffix names a format and whose place can be written: known before anything is computed.
+    /// Checks that the suffix names a format and that the file can be written, before anything is computed.
     pub fn new(path: &Path) -> Result<Self> {
         let format = Format::from_path(path).ok_or_else(|| {
             let mut allowed: Vec<String> = Format::ALL.iter().map(|format| format!(".{}", format.name())).collect();
@@ -47,22 +47,22 @@ impl MapFile {
         Ok(Self { path: path.into(), format })
     }
 
-    /// Whether it is a picture of one channel.
+    /// Whether the file is a picture of one channel.
     pub fn is_picture(&self) -> bool {
         self.format == Format::Png
     }
 
-    /// Whether it is a table with a row for each pixel.
+    /// Whether the file is a table with one row per pixel.
     pub fn is_table(&self) -> bool {
         self.format == Format::Csv
     }
 
-    /// Whether the format holds more than one channel.
+    /// Whether the format can hold more than one channel.
     pub fn holds_many_channels(&self) -> bool {
         matches!(self.format, Format::Exr | Format::Npz | Format::Csv)
     }
 
-    /// Writes the map; notes what a reader of the file should know.
+    /// Writes the map, and adds notes on what a reader of the file should know.
     pub fn write(&self, map: &Map, style: &MapStyle, notes: &mut Vec<String>) -> Result<()> {
         let path = &self.path;
         let note = write_atomically(path, |file| {
@@ -100,14 +100,14 @@ fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<S
     let mut note = format!(": {black} to {white} {unit} from black to white");
     for (count, side) in [(report.clamped_below, "below"), (report.clamped_above, "above")] {
         if count > 0 {
-            // Writing to a text cannot fail.
+            // Writing to a string cannot fail.
             let _ = write!(note, "; {count} pixels {side} are clipped");
         }
     }
     Ok(note)
 }
 
-/// Colours are shown as they are.
+/// Colour channels are shown in their own colours, without a colour map.
 pub fn refuse_colormap(quantity: &Quantity, colormap: Option<Colormap>) -> Result<(), Usage> {
     if *quantity == Quantity::Color && colormap.is_some() {
         let message =
@@ -117,13 +117,13 @@ pub fn refuse_colormap(quantity: &Quantity, colormap: Option<Colormap>) -> Resul
     Ok(())
 }
 
-/// The map's convention, and the luminance that one number of a scene with colours is.
+/// The map's convention and, in a scene with colours, the luminance that a single number stands for.
 pub fn formula_label(map: &Map) -> String {
     let space = map.provenance.color_space.as_ref().map_or(String::new(), |space| format!(", luminance in {space}"));
     format!("{}{space}", map.provenance.convention)
 }
 
-/// A file that is asked for twice would keep what is written last, and nobody would miss the other.
+/// Refuses a path given twice: only the last output would survive, without a warning.
 pub fn refuse_twice<'p>(paths: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), Usage> {
     let mut seen = HashSet::new();
     match paths.into_iter().find(|path| !seen.insert(*path)) {
@@ -132,14 +132,14 @@ pub fn refuse_twice<'p>(paths: impl IntoIterator<Item = &'p PathBuf>) -> Result<
     }
 }
 
-/// What a figure is written as.
+/// The format of a figure.
 #[derive(Clone, Copy)]
 pub enum FigureFormat {
     Svg,
     Png,
 }
 
-/// The format of a figure by its suffix, with its place checked.
+/// The format of a figure by its suffix; also checks that the file can be written.
 pub fn figure_format(path: &Path) -> Result<FigureFormat> {
     let suffix = path.extension().and_then(|suffix| suffix.to_str()).map(str::to_ascii_lowercase);
     let format = match suffix.as_deref() {
@@ -156,7 +156,7 @@ pub fn figure_format(path: &Path) -> Result<FigureFormat> {
 
 /// Writes a figure.
 ///
-/// A PNG carries the metadata, if there are any; an SVG has no place for them that other programs would keep.
+/// A PNG carries the metadata, if any; an SVG has no place for them that other programs would preserve.
 pub fn write_figure(
     svg: &str,
     metadata: Option<&FileMetadata>,
@@ -164,7 +164,7 @@ pub fn write_figure(
     format: FigureFormat,
     notes: &mut Vec<String>,
 ) -> Result<()> {
-    /// Dots per unit of the drawing: sharp on paper and on dense screens.
+    /// Dots per unit of the drawing: sharp on paper and on high-density screens.
     const SCALE: f64 = 2.0;
     let bytes = match format {
         FigureFormat::Svg => svg.as_bytes().to_vec(),
@@ -177,7 +177,7 @@ pub fn write_figure(
     write_bytes(&bytes, path, notes)
 }
 
-/// Writes a file whose content is there already.
+/// Writes a file from bytes already in memory.
 pub fn write_bytes(bytes: &[u8], path: &Path, notes: &mut Vec<String>) -> Result<()> {
     let written = write_atomically(path, |file| Ok(Interruptible(file).write_all(bytes)?));
     crate::progress::check()?;

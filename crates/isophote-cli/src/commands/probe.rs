@@ -15,7 +15,7 @@ use crate::args::ProbeArguments;
 use crate::failure::{self, Usage};
 use crate::{load, numbers};
 
-/// Reads the values at the places that were asked for, or at the scene's own probes.
+/// Reads the values at the requested places, or at the scene's own probes.
 pub fn run(arguments: &ProbeArguments) -> Result<String> {
     let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.quiet)?);
     let requests = requests(arguments, scene.scene())?;
@@ -50,7 +50,7 @@ pub fn run(arguments: &ProbeArguments) -> Result<String> {
     Ok(reading_table::text(&rows, &scene))
 }
 
-/// A place with a name.
+/// A named place.
 struct Request {
     name: String,
     place: ProbePosition,
@@ -112,7 +112,7 @@ fn sphere(arguments: &ProbeArguments, scene: &Scene) -> Result<usize> {
     })
 }
 
-/// Why there is no value, and what to do about it.
+/// Why there is no value, and how to fix it.
 fn refusal(name: &str, error: &ProbeError, scene: &Scene) -> String {
     match error {
         ProbeError::OffSurface(miss) => {
@@ -126,7 +126,7 @@ fn refusal(name: &str, error: &ProbeError, scene: &Scene) -> String {
     }
 }
 
-/// How far --snap moved a point, when it did.
+/// How far --snap moved a point, if it did.
 fn snapped(name: &str, place: &ProbePosition, reading: &ProbeReading, scene: &Scene) -> Option<String> {
     let ProbePosition::NearestTo(asked) = place else { return None };
     let moved = (reading.hit.point.position() - *asked).length();

@@ -32,10 +32,10 @@ struct ChannelsJson {
 
 #[derive(Serialize)]
 struct ValueJson {
-    /// The luminance, in a scene with colours.
+    /// The luminance, if the scene has colours.
     value: f64,
     unit: &'static str,
-    /// The components.
+    /// The colour components.
     #[serde(skip_serializing_if = "Option::is_none")]
     rgb: Option<[f64; 3]>,
 }
@@ -48,10 +48,10 @@ struct LightJson {
     irradiance_rgb: Option<[f64; 3]>,
     cos_theta_i: f64,
     cos_theta_h: f64,
-    /// None of a parallel light.
+    /// None for a parallel light.
     #[serde(skip_serializing_if = "Option::is_none")]
     distance: Option<f64>,
-    /// Likewise.
+    /// None for a parallel light.
     #[serde(skip_serializing_if = "Option::is_none")]
     intensity: Option<f64>,
     visibility: f64,
@@ -105,7 +105,7 @@ impl ProbeJson {
     }
 }
 
-/// Something of each component, in a scene with colours.
+/// A quantity per component, if the scene has colours.
 fn rgb(reading: &ProbeReading, of: &dyn Fn(&ProbeReading) -> f64) -> Option<[f64; 3]> {
     reading.components.as_deref().map(|readings| readings.map(of).into_array())
 }

@@ -11,7 +11,7 @@ use isophote::units::Keyword;
 
 use crate::table::{Align, table};
 
-/// A table of readings, with the published values where there are any.
+/// A table of readings, with the published values if there are any.
 pub fn text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &PreparedScene) -> String {
     let description = scene.scene();
     let length = description.length();
@@ -44,24 +44,24 @@ pub fn text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &PreparedSce
         row
     };
     let rows = readings.iter().flat_map(|reading| std::iter::once(row(reading)).chain(color_rows(reading.1)));
-    // Nobody publishes components: their rows end before that column.
+    // Published values are never given per component, so those rows end before that column.
     let filled = |row: Vec<String>| row.into_iter().chain(has_published.then(String::new)).take(columns.len());
     let rows: Vec<Vec<String>> = rows.map(|row| filled(row).collect()).collect();
     let mut text = table(&columns, &rows);
     if let Some(color) = description.color_label() {
-        // Writing to a text cannot fail.
+        // Writing to a string cannot fail.
         let _ = writeln!(text, "  {color}");
     }
     for (name, reading, _) in readings {
         if let Some(note) = unseen_note(reading, description) {
-            // Writing to a text cannot fail.
+            // Writing to a string cannot fail.
             let _ = writeln!(text, "  {name} is not seen from the eye: {note}");
         }
     }
     text
 }
 
-/// A row for each component, below that of the luminance.
+/// One row per component, below the luminance.
 fn color_rows(reading: &ProbeReading) -> Vec<Vec<String>> {
     let Some(readings) = reading.components.as_deref() else { return Vec::new() };
     let row = |component: &Component| {

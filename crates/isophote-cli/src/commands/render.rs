@@ -1,4 +1,4 @@
-//! `isophote render`: a map, its numbers and its files.
+//! `isophote render`: a map, its statistics and its files.
 
 use std::path::PathBuf;
 
@@ -41,14 +41,14 @@ pub fn run(arguments: &RenderArguments) -> Result<String> {
     if arguments.json { numbers::json(&summary.to_json(&scene)) } else { Ok(summary.to_text(&scene)) }
 }
 
-/// Valid arguments.
+/// A render job with valid arguments.
 struct Job<'a> {
     arguments: &'a RenderArguments,
     /// The channel that is summarised.
     main: Quantity,
-    /// The channel that is pictured: the same, or colours.
+    /// The channel that is pictured: the summarised one, or colours.
     pictured: Quantity,
-    /// The channels that files get.
+    /// The channels written to files.
     wanted: Vec<Quantity>,
     files: Vec<MapFile>,
     figures: Vec<(PathBuf, FigureFormat)>,
@@ -73,14 +73,14 @@ impl<'a> Job<'a> {
         if wanted.is_empty() {
             wanted.extend([main.clone(), pictured.clone()]);
             if files.iter().any(MapFile::holds_many_channels) {
-                // Without ambient light its channel is nothing but zeros.
+                // Without ambient light its channel is all zeros.
                 let has_ambient = scene.ambient().is_some();
                 wanted.extend(
                     Quantity::COMMON.into_iter().filter(|quantity| has_ambient || *quantity != Quantity::Ambient),
                 );
             }
         } else if files.iter().any(MapFile::holds_many_channels) {
-            // What tells the background from the dark goes with every file that has room for it.
+            // The shape index, which tells background from dark surfaces, goes into every file that has room for it.
             wanted.push(Quantity::Shape);
         }
         if arguments.lights {
@@ -101,7 +101,7 @@ impl<'a> Job<'a> {
         Ok(job)
     }
 
-    /// Known before anything is computed.
+    /// Runs before anything is computed.
     fn refuse_impossible_pictures(&self) -> Result<(), Usage> {
         let has_picture = self.files.iter().any(MapFile::is_picture);
         refuse_colormap(&self.pictured, self.style.colormap)?;
@@ -124,7 +124,7 @@ impl<'a> Job<'a> {
 
     fn render(&self, scene: &PreparedScene) -> Result<Map> {
         let arguments = self.arguments;
-        // The irradiance tells which pixels are lit.
+        // The irradiance shows which pixels are lit.
         let sampled = scene.scene().sampling().is_multisampled().then_some(Quantity::Samples);
         let quantities =
             self.wanted.iter().cloned().chain([Quantity::Irradiance, self.main.clone()]).chain(sampled).collect();
@@ -141,7 +141,7 @@ impl<'a> Job<'a> {
     }
 
     fn write(&self, map: &Map, scene: &PreparedScene) -> Result<Vec<String>> {
-        // A figure that cannot be drawn is known before anything is written.
+        // If a figure cannot be drawn, find out before anything is written.
         let svg = if self.figures.is_empty() {
             String::new()
         } else {
@@ -196,7 +196,7 @@ impl<'a> Job<'a> {
     }
 }
 
-/// The probes that the eye sees, where they appear in the map.
+/// The probes that are visible from the eye, at their positions in the map.
 fn marks(map: &Map, scene: &PreparedScene) -> Vec<Mark> {
     let window = map.window;
     let mark = |probe: &isophote::scene::Probe| {

@@ -21,7 +21,7 @@ use crate::failure::{self, Usage};
 use crate::table::{Align, table};
 use crate::{load, numbers};
 
-/// Points of a line that is not told how many.
+/// Default number of points on a line.
 const DEFAULT_SAMPLES: u32 = 513;
 
 /// Computes a section and prints or writes it.
@@ -39,7 +39,7 @@ pub fn run(arguments: &SectionArguments) -> Result<String> {
     if outputs.is_empty() {
         return if arguments.json { numbers::json(&section.to_json()) } else { Ok(section.to_table()) };
     }
-    // What cannot be drawn is found before anything is written.
+    // Find out what cannot be drawn before anything is written.
     let has_figure = outputs.iter().any(|(_, output)| matches!(output, Output::Figure(_)));
     let svg = if has_figure { section.to_svg()? } else { String::new() };
     crate::progress::end_in_order();
@@ -105,7 +105,7 @@ fn quantities(arguments: &SectionArguments, scene: &Scene) -> Result<Vec<Quantit
     Ok(if quantities.is_empty() { vec![Quantity::Brightness] } else { quantities })
 }
 
-/// Samples and what is shown of them.
+/// Samples, and how they are shown.
 struct Section<'s> {
     scene: &'s Scene,
     line: SectionLine,
@@ -130,7 +130,7 @@ impl Section<'_> {
         sample.screen.map(|coordinate| self.scene.screen_unit().from_internal(coordinate))
     }
 
-    /// What runs along the line: x in a row, y in a column, the distance from the first point otherwise.
+    /// The coordinate along the line: x in a row, y in a column, otherwise the distance from the first point.
     fn along(&self, sample: &Sample) -> f64 {
         let [x, y] = self.screen(sample);
         match self.line {
@@ -167,7 +167,7 @@ impl Section<'_> {
 
     fn to_csv(&self) -> String {
         let mut text = String::new();
-        // Writing to a text cannot fail.
+        // Writing to a string cannot fail.
         let _ = writeln!(text, "# {}", self.footer());
         let _ = writeln!(text, "# {}", self.scene.title().replace(char::is_control, " "));
         let _ = writeln!(text, "# units: x, y in {}", self.scene.screen_unit().name());

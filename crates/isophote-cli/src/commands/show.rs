@@ -1,4 +1,4 @@
-//! `isophote show`: what an output file says about itself.
+//! `isophote show`: the metadata of an output file.
 
 use std::fmt::Write;
 
@@ -23,7 +23,7 @@ pub fn run(arguments: &ShowArguments) -> Result<String> {
 
 fn to_text(metadata: &FileMetadata) -> String {
     let mut text = String::new();
-    // Writing to a text cannot fail.
+    // Writing to a string cannot fail.
     let mut row = |name: &str, value: String| {
         let _ = writeln!(text, "  {name:<12}{value}");
     };

@@ -19,7 +19,7 @@ use crate::failure::{self, Paused, Usage};
 use crate::progress::{Progress, end_in_order};
 use crate::{load, numbers, threads};
 
-/// The store that is to be rendered, if one is; refuses what does not go with it, or not without it.
+/// The store to render, if there is one; refuses options that need a store, or that do not work with one.
 pub fn asked_for(arguments: &RenderArguments) -> Result<Option<&Path>, Usage> {
     let Some(store) = arguments.output.iter().find(|path| load::is_store(path)) else {
         let store = &arguments.store;
@@ -52,7 +52,7 @@ pub fn asked_for(arguments: &RenderArguments) -> Result<Option<&Path>, Usage> {
 pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
     let threads = Threads::new(arguments.threads);
     let scene = PreparedScene::on_threads(&load::scene_to_render(arguments)?, &threads);
-    // From here on there may be a store, and Ctrl-C has to say how to go on with it.
+    // From here on a store may exist, so Ctrl-C must say how to resume it.
     end_in_order();
     let workers = Workers { threads: arguments.threads.unwrap_or_else(threads::all), memory: arguments.store.memory };
     let renderer = SimdRenderer::new(arguments.precision, Some(NonZeroUsize::MIN));
@@ -91,9 +91,9 @@ pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
     }
 }
 
-/// Puts the parts of a store together.
+/// Merges the parts of a store.
 pub fn merge(arguments: &MergeArguments) -> Result<String> {
-    // Ctrl-C must not say that nothing was written once a record may be gone.
+    // Once a record may have been removed, Ctrl-C must not say that nothing was written.
     end_in_order();
     let store = Store::open(&arguments.store).map_err(explained)?;
     let name = arguments.store.display().to_string();
@@ -109,7 +109,7 @@ fn printed(statistics: &MapStatistics, scene: &PreparedScene, as_json: bool) -> 
     if as_json { numbers::json(&summary.to_json(scene)) } else { Ok(summary.to_text(scene)) }
 }
 
-/// The channels of the store: the brightness, and its colours if it has any, unless others are named.
+/// The channels of the store: the brightness, plus the colours if the scene has any, unless others are named.
 fn wanted(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Quantity>> {
     let mut named = channels::named(&arguments.channel, scene)?;
     if named.is_empty() {
@@ -141,7 +141,7 @@ fn options_without_effect(arguments: &RenderArguments) -> Vec<String> {
     given.map(|(option, _)| format!("{option} has no effect: it is not for .zarr stores")).collect()
 }
 
-/// What the user can do about it.
+/// The error, with what the user can do about it.
 fn explained(error: StoreError) -> Error {
     match &error {
         StoreError::Exists { done, shards, .. } if done == shards => {
@@ -163,7 +163,7 @@ fn explained(error: StoreError) -> Error {
     }
 }
 
-/// The same for a computation that has begun: what is done stays.
+/// The error of a computation that has already begun: shards that are done are kept.
 fn resumable(error: StoreError, store: &Store, arguments: &RenderArguments) -> Error {
     let (done, shards) = (store.done(), store.plan().count());
     let way = if arguments.store.shard.is_some() { "the same command goes on" } else { "--resume goes on" };

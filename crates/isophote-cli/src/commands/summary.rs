@@ -1,4 +1,4 @@
-//! The numbers of a map, for people and for programs.
+//! The statistics of a map, for people and for programs.
 
 use isophote::analysis::probe::{ProbePosition, ProbeReading};
 use isophote::analysis::statistics::{Counts, Extreme, Statistics, counts, statistics};
@@ -13,11 +13,11 @@ use super::reading_json::ProbeJson;
 use super::reading_table;
 use crate::channels::unit;
 
-/// The numbers of a map.
+/// The statistics of a map.
 pub struct Summary {
-    /// The channel that is summed up.
+    /// The channel that is summarised.
     main: Quantity,
-    /// The part of the image, where it is not all of it.
+    /// The part of the image, if it is not the whole.
     region: Option<Region>,
     counts: Counts,
     statistics: Option<Statistics>,
@@ -25,12 +25,12 @@ pub struct Summary {
     probes: Vec<Reading>,
 }
 
-/// How much of a map was refined.
+/// How much of a map was supersampled.
 #[derive(Clone, Copy)]
 struct Refined {
-    /// Visible pixels with more rays than one.
+    /// Visible pixels with more than one ray.
     pixels: usize,
-    /// Rays in all of them.
+    /// Total number of rays.
     rays: f64,
 }
 
@@ -54,7 +54,7 @@ impl Summary {
         }
     }
 
-    /// The numbers of a map that was never in memory as a whole, of its first channel.
+    /// The statistics of a map that was never in memory as a whole, for its first channel.
     pub fn of_store(map: &MapStatistics, scene: &PreparedScene) -> Self {
         let count = |pixels: u64| usize::try_from(pixels).unwrap_or(usize::MAX);
         let main = map.channels.first();
@@ -168,7 +168,7 @@ fn readings(scene: &PreparedScene) -> Vec<Reading> {
     scene.scene().probes().iter().filter_map(reading).collect()
 }
 
-/// The same for programs; lengths in the scene's unit.
+/// The summary for programs; lengths in the scene's unit.
 #[derive(Serialize)]
 pub struct SummaryJson {
     title: String,
@@ -182,7 +182,7 @@ pub struct SummaryJson {
     color_space: Option<&'static str>,
     channel: String,
     unit: String,
-    /// Pixels with more rays than one, where the scene asks for more.
+    /// Pixels with more than one ray, if the scene asks for more than one.
     #[serde(skip_serializing_if = "Option::is_none")]
     refined: Option<usize>,
     pixels: usize,

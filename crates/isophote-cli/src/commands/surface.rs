@@ -20,7 +20,7 @@ use crate::channels::{named, unit};
 use crate::failure::Usage;
 use crate::{load, numbers};
 
-/// Computes the map of a surface, writes it and prints its numbers.
+/// Computes the map of a surface, writes it and prints its statistics.
 pub fn run(arguments: &SurfaceArguments) -> Result<String> {
     let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.quiet)?);
     let files = CellFiles::new(&arguments.output, &arguments.figure, &arguments.style)?;
@@ -76,7 +76,7 @@ fn shape(name: Option<&str>, scene: &Scene) -> Result<usize> {
     })
 }
 
-/// The direction from the middle of a sphere to a light.
+/// The direction from the centre of a sphere to a light.
 fn towards(name: &str, primitive: Primitive, scene: &Scene) -> Result<Vector> {
     let light = scene.lights().iter().find(|light| light.name == name).ok_or_else(|| {
         let names: Vec<&str> = scene.lights().iter().take(20).map(|light| light.name.as_str()).collect();
@@ -103,7 +103,7 @@ impl Summary<'_> {
     fn to_text(&self) -> String {
         let mut text = String::new();
         if !self.scene.title().is_empty() {
-            // Writing to a text cannot fail.
+            // Writing to a string cannot fail.
             let _ = writeln!(text, "{}\n", self.scene.title());
         }
         let mut row = |name: &str, value: String| {
@@ -208,7 +208,7 @@ impl Summary<'_> {
     }
 }
 
-/// The numbers for programs; points in the scene's unit.
+/// The statistics for programs; points in the scene's unit.
 #[derive(Serialize)]
 struct SurfaceJson {
     title: String,
@@ -224,7 +224,7 @@ struct SurfaceJson {
     convention: &'static str,
     channel: String,
     unit: String,
-    /// Of the cells that have a value.
+    /// The area of the cells that have a value.
     area: f64,
     area_unit: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]

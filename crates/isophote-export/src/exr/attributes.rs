@@ -1,4 +1,4 @@
-//! What an EXR file says in its header, beside the sizes.
+//! The attributes in an EXR file's header, besides the sizes.
 
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{AttributeValue, ImageAttributes, IntegerBounds, LayerAttributes, Text, Vec2};
@@ -9,7 +9,7 @@ use isophote::units::Keyword;
 use crate::metadata::FileMetadata;
 use crate::text::one_line;
 
-/// At most one attribute goes into each `other`: the encoder writes these in the random order of a hash map, and two
+/// At most one attribute goes into each `other`: the encoder writes them in the random order of a hash map, so two
 /// would make the same map give different bytes.
 pub(super) fn of_layer(map: &Map, names: &[Vec<String>]) -> LayerAttributes {
     let mut attributes = LayerAttributes::default();
@@ -40,7 +40,7 @@ pub(super) fn of_image(map: &Map, names: &[Vec<String>]) -> ImageAttributes {
     attributes
 }
 
-/// The standard attribute, which says what R, G, B and Y are amounts of.
+/// The standard attribute that defines the primaries of R, G, B and Y.
 fn chromaticities(space: ColorSpace) -> Chromaticities {
     #[expect(clippy::cast_possible_truncation, reason = "the format's numbers")]
     let vector = |Chromaticity { x, y }: Chromaticity| Vec2(x as f32, y as f32);
@@ -48,7 +48,7 @@ fn chromaticities(space: ColorSpace) -> Chromaticities {
     Chromaticities { red, green, blue, white: vector(space.white()) }
 }
 
-/// The crate's own conversion refuses all but Latin-1; the libraries of `OpenEXR` pass UTF-8 on as it is.
+/// The crate's own conversion rejects everything but Latin-1; the `OpenEXR` libraries pass UTF-8 through unchanged.
 pub(super) fn text(utf8: &str) -> Text {
     Text::from_slice_unchecked(utf8.as_bytes())
 }

@@ -1,6 +1,6 @@
 //! The pixels of an EXR file: blocks of rows, compressed on several threads, written in order.
 //!
-//! The `exr` crate does the file around them. Its own way from samples to blocks takes a call for every sample and a
+//! The `exr` crate writes the rest of the file. Its own path from samples to blocks makes a call for every sample and a
 //! copy of every channel, background or not: 1.7 s for all channels of a map of 3840×2160, before any compression.
 
 use std::io;
@@ -17,14 +17,14 @@ use rayon::prelude::*;
 use crate::exr::planes::Plane;
 use crate::exr::scratch::{BACKGROUND_LEVEL, LEVEL, Scratch};
 
-/// The format's `ZIP16`: rows in a block.
+/// Rows per block in the format's `ZIP16`.
 const ROWS: usize = 16;
 
-/// Blocks that are compressed before they are written: enough to keep all threads busy to the end of a batch, and
-/// little memory beside the map.
+/// Number of blocks compressed before they are written: enough to keep all threads busy until the end of a batch, and
+/// little memory compared with the map.
 const BATCH: usize = 32;
 
-/// Writes all pixels. Whatever the number of threads, the bytes are the same.
+/// Writes all pixels. The bytes do not depend on the number of threads.
 pub(super) fn write<W: io::Write + io::Seek>(
     map: &Map,
     planes: &[Plane<'_>],
@@ -46,7 +46,8 @@ pub(super) fn write<W: io::Write + io::Seek>(
     Ok(())
 }
 
-/// Who compresses: this thread, or a pool of the writer's own. rayon's shared pool would have as many threads as it likes.
+/// Where compression runs: on this thread, or in the writer's own pool, because rayon's shared pool has its own number
+/// of threads.
 enum Workers {
     Alone(Box<Scratch>),
     Together(rayon::ThreadPool),
@@ -76,11 +77,11 @@ impl Workers {
 struct Blocks<'m> {
     map: &'m Map,
     planes: &'m [Plane<'m>],
-    /// A compressed block of full height without a surface: they are all the same.
+    /// A compressed full-height block without a surface: all such blocks are the same.
     background: Option<Vec<u8>>,
 }
 
-/// The rows of each block, from the top.
+/// The rows of each block, from top to bottom.
 fn all_rows(map: &Map) -> Vec<Range<usize>> {
     let height = map.region.size.height as usize;
     (0..height).step_by(ROWS).map(|first| first..(first + ROWS).min(height)).collect()
@@ -99,7 +100,7 @@ impl<'m> Blocks<'m> {
         rows.len() == ROWS && self.runs(rows).is_empty()
     }
 
-    /// The block as it goes into the file.
+    /// The block as stored in the file.
     fn compress(&self, rows: &Range<usize>, scratch: &mut Scratch) -> io::Result<Vec<u8>> {
         if let Some(compressed) = self.background.as_ref().filter(|_| self.is_background(rows)) {
             return Ok(compressed.clone());
@@ -108,7 +109,7 @@ impl<'m> Blocks<'m> {
         scratch.deflate()
     }
 
-    /// The samples: row after row, in each row channel after channel.
+    /// The samples: row by row, and channel by channel within each row.
     fn store(&self, rows: &Range<usize>, samples: &mut Vec<[u8; 4]>) {
         let width = self.map.region.size.width as usize;
         let mut runs = self.runs(rows);

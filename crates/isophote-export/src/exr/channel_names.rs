@@ -1,10 +1,10 @@
-//! What the channels of an EXR file are called; see the table in [`exr`](crate::exr).
+//! The names of channels in an EXR file; see the table in [`exr`](crate::exr).
 
 use isophote::map::{Channel, Map, Quantity};
 
 use crate::names;
 
-/// The name of each channel in the file, three for vectors.
+/// The names of each channel in the file; three for vectors.
 pub(super) fn of(map: &Map) -> Vec<Vec<String>> {
     let plain = |character: char| character.is_alphanumeric() || "-_".contains(character);
     let names = names::unique(map.channels(), plain);

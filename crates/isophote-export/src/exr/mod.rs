@@ -1,17 +1,17 @@
-//! All channels in 32-bit floating point, for programs that show and combine layers of light.
+//! All channels in 32-bit floating point, for programs that display and combine layers of light.
 //!
 //! | channel of the map | in the file |
 //! |---|---|
-//! | brightness | `Y`, in a scene with colours the luminance of `R`, `G`, `B` |
+//! | brightness | `Y`; in a scene with colours, the luminance of `R`, `G`, `B` |
 //! | color | `R`, `G`, `B` |
 //! | irradiance, diffuse, specular | `irradiance.Y`, `diffuse.Y`, `specular.Y` |
 //! | depth (along the ray) | `Z` |
 //! | position, normal | `P.X` `P.Y` `P.Z`, `N.X` `N.Y` `N.Z` |
-//! | shape | `shape.index`, −1 where none is seen |
-//! | irradiance from one light | `light.<name>.Y`, all but letters, digits, `-` and `_` replaced by `_` |
+//! | shape | `shape.index`, −1 where no surface is seen |
+//! | irradiance from one light | `light.<name>.Y`; characters other than letters, digits, `-` and `_` become `_` |
 //!
-//! The standard attribute `chromaticities` tells the space of a scene with colours. The data window is the map's region, the
-//! display window the full image.
+//! The standard attribute `chromaticities` identifies the colour space of a scene with colours. The data window is the
+//! map's region, the display window the full image.
 
 mod attributes;
 mod blocks;
@@ -36,13 +36,13 @@ use planes::Plane;
 
 pub(crate) use read::read_json;
 
-/// Writes one part with all channels of the map, without loss beyond the rounding to 32 bits (relative 6e-8; values
+/// Writes one part with all channels of the map, lossless except for the rounding to 32 bits (relative 6e-8; values
 /// below 1.2e-38 lose digits and below 7e-46 become 0).
 ///
-/// Attributes: `isophote` (the metadata's JSON), `units` (a line per channel), `comments`, `software`; all UTF-8.
+/// Attributes: `isophote` (the metadata as JSON), `units` (one line per channel), `comments`, `software`; all UTF-8.
 ///
-/// So many threads compress; whatever their number, the bytes are the same. The format needs an output that can seek: in
-/// front of the pixels stands where each block of them begins, which is known in the end.
+/// `threads` threads compress; the bytes do not depend on their number. The output must be seekable, because the offset
+/// table of the blocks precedes the pixels and is known only at the end.
 ///
 /// # Errors
 /// A value or index that 32 bits cannot hold; an image beyond the format's coordinates; an error of `out`.
@@ -60,7 +60,7 @@ pub fn write(map: &Map, threads: NonZeroUsize, out: impl Write + Seek) -> Result
     exr::block::write(out, headers, true, |_, chunks| blocks::write(map, &planes, threads, chunks)).map_err(from_exr)
 }
 
-/// All channels of the file, in the order that the format asks for; refuses what 32 bits cannot hold.
+/// All channels of the file, in the order that the format requires; fails for values that 32 bits cannot hold.
 fn planes<'m>(map: &'m Map, names: &'m [Vec<String>]) -> Result<Vec<Plane<'m>>, ExportError> {
     let mut planes = Vec::new();
     for (channel, names) in map.channels().iter().zip(names) {
@@ -76,7 +76,7 @@ fn planes<'m>(map: &'m Map, names: &'m [Vec<String>]) -> Result<Vec<Plane<'m>>, 
     Ok(planes)
 }
 
-/// The format's coordinates are signed, and half of their range is what programs agree on.
+/// The format's coordinates are signed, and programs agree only on half of their range.
 fn check_extent(map: &Map) -> Result<(), ExportError> {
     let Region { corner, size } = map.region;
     let ends = [corner.column.saturating_add(size.width), corner.row.saturating_add(size.height)];

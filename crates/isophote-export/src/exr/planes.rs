@@ -1,4 +1,4 @@
-//! The channels of an EXR file, each of which has one 32-bit number a pixel.
+//! The channels of an EXR file; each holds one 32-bit number per pixel.
 
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ enum Samples<'m> {
 }
 
 impl<'m> Plane<'m> {
-    /// The channel, or a component of it if it holds vectors.
+    /// The channel, or one component of it if it holds vectors.
     pub(super) fn new(name: &'m str, values: &'m Values, component: usize) -> Self {
         let samples = match values {
             Values::Scalar(values) => Samples::Double(values),
@@ -31,7 +31,7 @@ impl<'m> Plane<'m> {
         Self { name, samples }
     }
 
-    /// The first value that has no finite 32-bit counterpart, or index that has no exact one, and its pixel's index.
+    /// The first value without a finite 32-bit counterpart, or index without an exact one, and the index of its pixel.
     pub(super) fn overflow(&self, mask: &Mask) -> Option<(usize, f64)> {
         let too_large = |value: &f64| !single(*value).is_finite();
         mask.runs().iter().find_map(|run| {
@@ -49,7 +49,7 @@ impl<'m> Plane<'m> {
         })
     }
 
-    /// What the file has where no surface is seen.
+    /// The bytes stored where no surface is seen.
     pub(super) fn background(&self) -> [u8; 4] {
         match self.samples {
             Samples::Index(_) => (-1.0_f32).to_le_bytes(),
@@ -57,7 +57,7 @@ impl<'m> Plane<'m> {
         }
     }
 
-    /// Stores the samples of these pixels.
+    /// Writes the samples of these pixels to `line`.
     pub(super) fn store(&self, pixels: Range<usize>, line: &mut [[u8; 4]]) {
         match self.samples {
             Samples::Double(values) => fill(line, values[pixels].iter().map(|value| single(*value))),

@@ -1,11 +1,11 @@
-//! Where an EXR file carries its metadata.
+//! Finds the metadata in an EXR file.
 
 use std::io::{BufRead, Read, Seek, SeekFrom};
 
 use crate::limits::{LONGEST_JSON, read_exactly};
 
-/// Walks the attributes of the first header (name, type, length, value; an empty name ends them) without reading
-/// their values, which a general reader would have to hold.
+/// Walks through the attributes of the first header (name, type, length, value; an empty name ends them) without
+/// reading their values, which a general reader would have to hold in memory.
 pub(crate) fn read_json(file: &mut (impl BufRead + Seek)) -> Result<Option<Vec<u8>>, String> {
     let broken = |error: std::io::Error| error.to_string();
     file.seek(SeekFrom::Start(8)).map_err(broken)?;

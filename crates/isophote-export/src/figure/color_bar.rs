@@ -9,7 +9,7 @@ use crate::figure::text;
 use crate::figure::ticks::Ticks;
 
 const WIDTH: f64 = 16.0;
-/// Height of the arrow for values beyond an end.
+/// Height of the arrow for values beyond an end of the bar.
 const ARROW: f64 = 11.0;
 const TITLE_GAP: f64 = 9.0;
 const TITLE_LINE: f64 = 15.0;
@@ -18,16 +18,16 @@ const TITLE_LINE: f64 = 15.0;
 pub(super) struct ColorBar {
     pub(super) scale: Scale,
     pub(super) ticks: Ticks,
-    /// The title's lines, read from below.
+    /// The lines of the title, which reads from bottom to top.
     pub(super) title: Vec<String>,
     /// Levels of the isophotes.
     pub(super) levels: Vec<f64>,
-    /// Whether values lie below the lower end and above the upper end.
+    /// Whether there are values below the lower end and above the upper end.
     pub(super) beyond: [bool; 2],
 }
 
 impl ColorBar {
-    /// Room in px, from the bar's left edge.
+    /// Width in px, measured from the bar's left edge.
     pub(super) fn width(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "a few lines")]
         let title = TITLE_GAP + self.title.len() as f64 * TITLE_LINE;
@@ -65,7 +65,7 @@ impl ColorBar {
         Ok(())
     }
 
-    /// The rim, with an arrow in the end's colour where values lie beyond that end.
+    /// The outline, with an arrow in the end's colour if there are values beyond that end.
     fn draw_outline(&self, svg: &mut Svg, bar: Rectangle, above: f64, below: f64) {
         let (right, bottom, middle) = (bar.left + WIDTH, bar.top + bar.height, bar.left + 0.5 * WIDTH);
         let corners = |edge: f64, tip: f64| {
@@ -80,13 +80,14 @@ impl ColorBar {
     }
 }
 
-/// Black or white, whichever is seen better on this colour.
+/// Black or white, whichever is more visible on this colour.
 pub(super) fn contrast(color: [u8; 3]) -> &'static str {
-    // Contrast to black and to white is equal where (L + 0.05)² = 0.05 · 1.05 (WCAG 2.2); thin lines want a little more.
+    // The contrast with black equals that with white where (L + 0.05)² = 0.05 · 1.05 (WCAG 2.2); thin lines want a
+    // little more.
     if luminance(color) > 0.21 { "#000000" } else { "#ffffff" }
 }
 
-/// A colour as SVG writes it.
+/// A colour in SVG notation.
 pub(super) fn hex([red, green, blue]: [u8; 3]) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }

@@ -1,8 +1,8 @@
-//! A contour on the page, measured along its length.
+//! A contour on the page, parameterised by its length.
 
 use crate::figure::svg::Place;
 
-/// A broken line on the page with the length in px from its start to each of its places.
+/// A polyline on the page, with the length in px from its start to each point.
 pub(super) struct Curve {
     places: Vec<Place>,
     lengths: Vec<f64>,
@@ -10,7 +10,7 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// At least two places. A closed curve goes back to the first one, which is not given twice.
+    /// At least two points. A closed curve returns to its first point, which is not repeated.
     pub(super) fn new(mut places: Vec<Place>, closed: bool) -> Self {
         if closed {
             places.push(places[0]);
@@ -23,12 +23,13 @@ impl Curve {
         Self { places, lengths, closed }
     }
 
-    /// The whole length in px.
+    /// The total length in px.
     pub(super) fn length(&self) -> f64 {
         self.lengths[self.lengths.len() - 1]
     }
 
-    /// The place at a length from the start; on a closed curve lengths go round, on an open one they stop at the ends.
+    /// The point at a given length from the start; on a closed curve lengths wrap around, on an open one they stop at
+    /// the ends.
     pub(super) fn at(&self, length: f64) -> Place {
         let total = self.length();
         let length = if self.closed { length.rem_euclid(total) } else { length.clamp(0.0, total) };
@@ -39,13 +40,13 @@ impl Curve {
         Place { x: from.x + fraction * (to.x - from.x), y: from.y + fraction * (to.y - from.y) }
     }
 
-    /// How far apart two lengths are along the curve, the shorter way round a closed one.
+    /// The distance between two lengths along the curve; on a closed one, the shorter way round.
     pub(super) fn apart(&self, one: f64, other: f64) -> f64 {
         let apart = (one - other).abs();
         if self.closed { apart.min(self.length() - apart) } else { apart }
     }
 
-    /// The piece between two lengths; on a closed curve `to` may be a round further.
+    /// The part between two lengths; on a closed curve `to` may be one round further.
     pub(super) fn piece(&self, from: f64, to: f64) -> Vec<Place> {
         let rounds: &[f64] = if self.closed { &[0.0, 1.0] } else { &[0.0] };
         let mut piece = vec![self.at(from)];
@@ -60,7 +61,7 @@ impl Curve {
         piece
     }
 
-    /// Places at most `step` px apart along the whole curve, with their lengths from the start.
+    /// Points at most `step` px apart along the whole curve, with their lengths from the start.
     pub(super) fn samples(&self, step: f64) -> impl Iterator<Item = (f64, Place)> {
         let total = self.length();
         let count = (total / step).ceil().max(1.0);

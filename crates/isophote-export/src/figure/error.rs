@@ -14,7 +14,7 @@ pub enum FigureError {
     /// A value to be drawn is infinite or not a number.
     #[error("{name} is {value}, which has no place in a figure")]
     NotFinite {
-        /// The channel or the series, with the index in it.
+        /// The channel, or the series with the index of the value.
         name: String,
         /// The value.
         value: f64,
@@ -22,34 +22,34 @@ pub enum FigureError {
     /// The ends of the colour bar are reversed, equal or not finite.
     #[error("`range` is {low}..{high}: its ends must be finite, the lower one first")]
     Range {
-        /// The lower end, as given.
+        /// The lower end as given.
         low: f64,
-        /// The upper end, as given.
+        /// The upper end as given.
         high: f64,
     },
-    /// A mark does not lie on the picture.
+    /// A mark lies outside the picture.
     #[error("mark `{name}` at x = {x}, y = {y} lies outside the map's window")]
     MarkOutside {
-        /// Its name.
+        /// The mark's name.
         name: String,
-        /// Where it was asked for, in the window's unit.
+        /// Its requested x, in the window's unit.
         x: f64,
-        /// Where it was asked for, in the window's unit.
+        /// Its requested y, in the window's unit.
         y: f64,
     },
-    /// A section has no two places, or none where a surface is seen.
+    /// A section has fewer than two positions, or none where a surface is seen.
     #[error("the section has {what}, so there is no line to draw")]
     EmptySection {
         /// What is missing.
         what: &'static str,
     },
-    /// The text given to [`svg_to_png`](super::svg_to_png) is no SVG.
+    /// The text given to [`svg_to_png`](super::svg_to_png) is not SVG.
     #[error("not a valid SVG: {0}")]
     Svg(String),
-    /// The PNG would have no pixels, or more than 16384 a side.
+    /// The PNG would have no pixels, or more than 16384 along a side.
     #[error("at `scale` {scale} the picture is {width} × {height} pixels; 1 to 16384 a side are possible")]
     PictureSize {
-        /// The scale, as given.
+        /// The scale as given.
         scale: f64,
         /// Width in pixels.
         width: f64,

@@ -1,4 +1,4 @@
-//! The box that a figure is drawn in, with its axes.
+//! The box around a plot, with its axes.
 
 use crate::figure::svg::{Anchor, INK, Place, Rectangle, Svg, Text};
 use crate::figure::text;
@@ -11,28 +11,28 @@ pub(super) const TICK_STYLE: &str = "stroke=\"#1a1a1a\" stroke-width=\"0.8\"";
 pub(super) const NUMBER_GAP: f64 = 3.0;
 pub(super) const AXIS_TITLE_GAP: f64 = 8.0;
 
-/// Where values lie on the page.
+/// Maps values to positions on the page.
 pub(super) struct Frame {
     pub(super) rectangle: Rectangle,
-    /// Values at the left and the right edge.
+    /// Values at the left and right edges.
     pub(super) x: [f64; 2],
-    /// Values at the lower and the upper edge.
+    /// Values at the lower and upper edges.
     pub(super) y: [f64; 2],
 }
 
-/// What is written along an edge.
+/// Ticks and title along an edge.
 pub(super) struct Axis {
     pub(super) ticks: Ticks,
     pub(super) title: String,
 }
 
 impl Axis {
-    /// Room in px for a horizontal axis, below its edge.
+    /// Height in px of a horizontal axis, below its edge.
     pub(super) fn height() -> f64 {
         TICK_LENGTH + NUMBER_GAP + TICK_SIZE + AXIS_TITLE_GAP + TITLE_SIZE
     }
 
-    /// Room in px for a vertical axis, left of its edge.
+    /// Width in px of a vertical axis, left of its edge.
     pub(super) fn width(&self) -> f64 {
         let numbers = text::widest(&self.ticks.labels, TICK_SIZE);
         TICK_LENGTH + NUMBER_GAP + numbers + AXIS_TITLE_GAP + TITLE_SIZE
@@ -56,7 +56,7 @@ impl Frame {
         }
     }
 
-    /// Light lines at the ticks, to be drawn below everything else.
+    /// Light lines at the ticks, drawn below everything else.
     pub(super) fn draw_grid(&self, svg: &mut Svg, x: &Axis, y: &Axis) {
         const STYLE: &str = "stroke=\"#e4e4e4\" stroke-width=\"0.8\"";
         for &value in &x.ticks.values {
@@ -71,7 +71,7 @@ impl Frame {
         }
     }
 
-    /// The box, its ticks with numbers, and the titles of both axes.
+    /// The box, its ticks and labels, and the titles of both axes.
     pub(super) fn draw_axes(&self, svg: &mut Svg, x: &Axis, y: &Axis) {
         self.draw_horizontal(svg, x);
         self.draw_vertical(svg, y);

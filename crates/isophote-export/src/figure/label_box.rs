@@ -1,8 +1,8 @@
-//! The room that a text takes on the page, turned with the text.
+//! The area that a text covers on the page, rotated with the text.
 
 use crate::figure::svg::{Place, Rectangle};
 
-/// A turned rectangle.
+/// A rotated rectangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LabelBox {
     pub(super) center: Place,
@@ -34,7 +34,7 @@ impl LabelBox {
         })
     }
 
-    /// Whether two boxes share a place: none of the four directions of their sides separates them.
+    /// Whether two boxes overlap, that is, none of the four directions of their sides separates them.
     pub(super) fn overlaps(&self, other: &Self) -> bool {
         let directions = [self.turn, other.turn].map(|turn| [turn, turn + std::f64::consts::FRAC_PI_2]);
         directions.as_flattened().iter().all(|direction| {
@@ -69,7 +69,7 @@ mod tests {
         let level = label(0.0, 0.0, 0.0);
         assert!(level.overlaps(&label(19.0, 3.0, 0.0)) && !level.overlaps(&label(21.0, 0.0, 0.0)));
         assert!(level.overlaps(&label(0.0, 0.0, FRAC_PI_4)));
-        // Upright boxes around these two would overlap.
+        // The axis-aligned bounding boxes of these two would overlap.
         assert!(!label(0.0, 0.0, FRAC_PI_4).overlaps(&label(6.0, -6.0, FRAC_PI_4)));
         assert!(label(0.0, 0.0, FRAC_PI_4).overlaps(&label(6.0, 6.0, FRAC_PI_4)));
     }

@@ -1,6 +1,6 @@
-//! What a figure consists of, from the lowest layer up: an image each, or what is drawn between two of them.
+//! The layers of a figure from the bottom up: each is one image, or everything that is drawn between two images.
 //!
-//! resvg would draw images too, but has its reader of PNG only together with those of GIF, JPEG and WebP.
+//! resvg could draw images too, but bundles its PNG reader with those for GIF, JPEG and WebP.
 
 use resvg::tiny_skia::{FilterQuality, Paint, Pattern, Pixmap, PixmapMut, Rect, SpreadMode, Transform};
 use resvg::usvg::roxmltree::{Document, Node as Element};
@@ -28,7 +28,7 @@ pub(super) fn of(svg: &str, options: &Options) -> Result<Layers, usvg::Error> {
     Ok(Layers { lowest, above })
 }
 
-/// The same file with these of its elements alone.
+/// The same file with only the chosen elements.
 fn with_elements<'d>(svg: &str, all: &[Element], chosen: impl Iterator<Item = &'d Element<'d, 'd>>) -> String {
     let start = all.first().map_or(svg.len(), |first| first.range().start);
     let end = all.last().map_or(svg.len(), |last| last.range().end);
@@ -44,7 +44,7 @@ impl Layers {
         self.lowest.size()
     }
 
-    /// Draws them one upon the other.
+    /// Draws the layers on top of each other.
     pub(super) fn draw(&self, transform: Transform, page: &mut PixmapMut) {
         for layer in std::iter::once(&self.lowest).chain(&self.above) {
             match image_in(layer.root()) {
@@ -63,7 +63,7 @@ fn image_in(group: &Group) -> Option<&Image> {
     })
 }
 
-/// As resvg does it; what is no PNG is left out.
+/// Works as in resvg; images other than PNG are skipped.
 fn draw_image(image: &Image, transform: Transform, page: &mut PixmapMut) {
     let ImageKind::PNG(data) = image.kind() else { return };
     let Ok(pixels) = Pixmap::decode_png(data) else { return };
@@ -87,7 +87,7 @@ mod tests {
     const RED_DOT: &str =
         "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
 
-    /// A page of 10 × 10 px with these elements.
+    /// A page of 10 × 10 px with the given elements.
     fn drawn(elements: &str) -> Pixmap {
         let svg = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"10\" height=\"10\">{elements}</svg>");
         let mut page = Pixmap::new(10, 10).unwrap();

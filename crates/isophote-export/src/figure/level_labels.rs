@@ -1,4 +1,4 @@
-//! Where the levels are written on the isophotes.
+//! Places the level labels on the isophotes.
 
 use std::collections::HashMap;
 
@@ -7,20 +7,20 @@ use crate::figure::label_box::LabelBox;
 use crate::figure::svg::{Place, Rectangle};
 
 pub(super) const LEVEL_SIZE: f64 = 9.0;
-/// Gap in px between a number and the line on either side of it.
+/// Gap in px between a label and the line on either side of it.
 const PADDING: f64 = 2.5;
-/// Distance in px between the places tried along a line, and between the samples of lines to keep clear of.
+/// Distance in px between the positions tried along a line, and between the samples of lines to avoid.
 const STEP: f64 = 4.0;
-/// Side in px of the squares that samples are sorted into.
+/// Side in px of the square cells that samples are sorted into.
 const SQUARE: f64 = 16.0;
-/// Chord over arc below which a line bends too much below its number.
+/// Chord-to-arc ratio below which a line bends too much under its label.
 const STRAIGHT_ENOUGH: f64 = 0.95;
 
-/// A number on its line, and the piece of the line that it replaces.
+/// A label on its line, and the part of the line that it replaces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LevelLabel {
     pub(super) room: LabelBox,
-    /// Lengths along the curve between which the line is not drawn; on a closed curve `from` may be negative.
+    /// The lengths along the curve between which the line is not drawn; on a closed curve `from` may be negative.
     pub(super) from: f64,
     pub(super) to: f64,
 }
@@ -31,13 +31,13 @@ struct Sample {
     place: Place,
 }
 
-/// What numbers must keep clear of.
+/// What labels must stay clear of.
 pub(super) struct Surroundings<'figure> {
     curves: &'figure [Curve],
     samples: HashMap<[i32; 2], Vec<Sample>>,
     taken: Vec<LabelBox>,
     inside: Rectangle,
-    /// Whether a surface is seen at a place of the page.
+    /// Whether a surface is visible at a point of the page.
     is_surface: &'figure dyn Fn(Place) -> bool,
 }
 
@@ -57,9 +57,9 @@ impl<'figure> Surroundings<'figure> {
         Self { curves, samples, taken, inside, is_surface }
     }
 
-    /// A place for a number on each curve, from the widths in px of the numbers; `None` where a curve has no room for it.
+    /// A position for a label on each curve, given the labels' widths in px; `None` if a curve has no room for one.
     ///
-    /// Short curves choose first, as they have the least choice.
+    /// Short curves choose first because they have the fewest options.
     pub(super) fn place_all(&mut self, widths: &[f64]) -> Vec<Option<LevelLabel>> {
         let mut order: Vec<usize> = (0..self.curves.len()).collect();
         order.sort_by(|&one, &other| self.curves[one].length().total_cmp(&self.curves[other].length()));
@@ -87,7 +87,7 @@ impl<'figure> Surroundings<'figure> {
         rated.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, label)| label)
     }
 
-    /// How bad a place is: bent, steep, crowded, over the silhouette; `None` where it is not possible at all.
+    /// The cost of a position, higher if it is bent, steep, crowded or over the silhouette; `None` if it is impossible.
     fn cost(&self, index: usize, label: &LevelLabel) -> Option<f64> {
         let curve = &self.curves[index];
         let straightness = curve.at(label.from).distance(curve.at(label.to)) / (label.to - label.from);
@@ -106,7 +106,7 @@ impl<'figure> Surroundings<'figure> {
         Some(20.0 * (1.0 - straightness) + steepness + f64::from(is_crowded) + 3.0 * f64::from(leaves))
     }
 
-    /// Whether a line other than the label's own piece runs through the room.
+    /// Whether a line other than the label's own part crosses the label's box.
     fn is_crossed(&self, index: usize, label: &LevelLabel, room: &LabelBox) -> bool {
         let middle = f64::midpoint(label.from, label.to);
         let own = 0.5 * (label.to - label.from) + room.half[1];
@@ -122,14 +122,14 @@ impl<'figure> Surroundings<'figure> {
     }
 }
 
-/// The number centred on the piece of the curve that begins at `start`, along its chord and never upside down.
+/// A label centred on the part of the curve that begins at `start`, along its chord and never upside down.
 fn label(curve: &Curve, start: f64, width: f64) -> LevelLabel {
     let (from, to) = (start, start + width + 2.0 * PADDING);
     let (first, middle, last) = (curve.at(from), curve.at(f64::midpoint(from, to)), curve.at(to));
     let chord = Place { x: f64::midpoint(first.x, last.x), y: f64::midpoint(first.y, last.y) };
     let center = Place { x: f64::midpoint(chord.x, middle.x), y: f64::midpoint(chord.y, middle.y) };
     let direct = (last.y - first.y).atan2(last.x - first.x);
-    // Into −90°..90°, −90° (read from below) for a vertical line.
+    // Maps the angle to −90°..90°; a vertical line gets −90° (read from below).
     let half_turns = (direct / std::f64::consts::PI + 0.5).floor();
     let turn = direct - half_turns * std::f64::consts::PI;
     LevelLabel { room: LabelBox { center, half: [0.5 * width, 0.45 * LEVEL_SIZE], turn }, from, to }
@@ -165,7 +165,7 @@ mod tests {
             assert!(label.room.turn.abs() <= std::f64::consts::FRAC_PI_2);
             assert!(label.room.lies_in(&PAGE) && !label.room.overlaps(&obstacle));
             assert!(labels[..index].iter().all(|other| !other.room.overlaps(&label.room)));
-            // Only its own circle runs through a number.
+            // Only its own circle may cross a label.
             let own = curves.iter().position(|curve| {
                 let middle = curve.at(f64::midpoint(label.from, label.to));
                 middle.distance(label.room.center) < 3.0
@@ -181,7 +181,7 @@ mod tests {
         use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
         let (low_left, high_right) = (Place { x: 10.0, y: 300.0 }, Place { x: 300.0, y: 10.0 });
         let high_left = Place { x: 10.0, y: 10.0 };
-        // Clockwise: rising to the right is negative, and a vertical line is read from below.
+        // Angles are clockwise: rising to the right is negative, and a vertical line is read from below.
         for (from, to, turn) in [
             (low_left, high_right, -FRAC_PI_4),
             (high_right, low_left, -FRAC_PI_4),

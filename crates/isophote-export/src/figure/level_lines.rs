@@ -1,4 +1,4 @@
-//! Isophotes on a map figure: thin lines with their level written on them.
+//! Isophotes on a map figure: thin lines labelled with their level.
 
 use isophote::analysis::isophotes::Isophote;
 
@@ -12,15 +12,16 @@ use crate::figure::svg::{Anchor, Place, Rectangle, Svg, Text};
 use crate::figure::text;
 use crate::figure::ticks::written;
 
-/// Places nearer than this in px are left out of a line: nobody sees them, and files stay small.
+/// Points closer together than this in px are left out of a line: the difference is invisible, and files stay small.
 const FINEST: f64 = 0.4;
-/// Open pieces shorter than this in px are not drawn: along a limb the pixel steps cut steep contours into such dust.
+/// Open pieces shorter than this in px are not drawn: along a limb, the pixel steps cut steep contours into such
+/// fragments.
 const SHORTEST_PIECE: f64 = 6.0;
-/// Room in px between a number and the frame.
+/// Space in px between a label and the frame.
 const RIM: f64 = 3.0;
 
-/// Draws all isophotes. Numbers keep clear of `taken`, and of places without a surface where they can; they are divided
-/// by 10^exponent, as those of the colour bar.
+/// Draws all isophotes. Labels stay clear of `taken`, and where possible of areas without a surface; like those of the
+/// colour bar, their numbers are divided by 10^exponent.
 pub(super) fn draw(
     svg: &mut Svg,
     frame: &Frame,
@@ -58,7 +59,8 @@ pub(super) fn draw(
     }
 }
 
-/// The colour map's colour at the level is the ground that the line runs on: black or white is chosen against it.
+/// The colour map's colour at the level is the background of the line, which is drawn in black or white to contrast
+/// with it.
 fn draw_line(svg: &mut Svg, curve: &Curve, label: Option<&LevelLabel>, ground: [u8; 3]) {
     let style = format!(
         "stroke=\"{}\" stroke-width=\"0.8\" stroke-opacity=\"0.85\" stroke-linejoin=\"round\"",

@@ -12,21 +12,21 @@ use crate::figure::svg::{Anchor, INK, Place, Rectangle, Svg, Text};
 use crate::figure::text;
 use crate::figure::ticks::{self, Ticks};
 
-/// Longer side of the picture in px.
+/// Length of the picture's longer side in px.
 const PICTURE: f64 = 480.0;
 const BAR_GAP: f64 = 18.0;
-/// Narrower pages have no room for a title.
+/// Minimum page width in px: narrower pages have no room for a title.
 const NARROWEST: f64 = 320.0;
 const LEGEND_SIZE: f64 = 9.5;
 
-/// A map as an SVG figure with axes in the window's units, equal scales in both directions (unless the options have other
-/// proportions), a colour bar, isophotes with their levels written on them, and marks.
+/// A map as an SVG figure with axes in the window's units, equal scales in both directions (unless the options set
+/// other proportions), a colour bar, isophotes labelled with their levels, and marks.
 ///
-/// Pixels without a surface are hatched, so that "nothing there" is not taken for "dark".
+/// Pixels without a surface are hatched, so that "no surface" is not mistaken for "dark".
 ///
 /// # Errors
-/// [`FigureError`]: the channel is missing, or neither scalar nor colours, a value is not finite, the range is not one,
-/// nothing is seen, or a mark lies outside the window.
+/// [`FigureError`]: the channel is missing, or is neither scalar nor colours; a value is not finite; the range is
+/// invalid; no surface is seen; or a mark lies outside the window.
 pub fn map_figure_svg(map: &Map, options: &FigureOptions) -> Result<String, FigureError> {
     let content = Content::new(map, options)?;
     let layout = Layout::new(&content);
@@ -39,7 +39,7 @@ pub fn map_figure_svg(map: &Map, options: &FigureOptions) -> Result<String, Figu
     Ok(svg.finish(layout.width, layout.page.height(layout.bottom)))
 }
 
-/// Everything that is drawn, before it has a place.
+/// Everything to be drawn, before layout.
 struct Content<'figure> {
     map: &'figure Map,
     options: &'figure FigureOptions,
@@ -110,14 +110,14 @@ impl<'figure> Content<'figure> {
         Ok(())
     }
 
-    /// Room in px right of the picture.
+    /// Space in px to the right of the picture.
     fn right_width(&self) -> f64 {
         let legend = if self.has_gaps { 21.0 + text::width(&self.options.no_surface, LEGEND_SIZE) } else { 0.0 };
         BAR_GAP + self.picture.bar_width().max(legend)
     }
 }
 
-/// Where everything stands on the page, in px.
+/// The positions of everything on the page, in px.
 struct Layout {
     page: Page,
     frame: Frame,
@@ -136,7 +136,7 @@ impl Layout {
         let made_by = [caption.as_str(), provenance.program.as_str(), provenance.renderer.as_str()];
         let footer = made_by.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ");
         let page = Page::new(width, &content.options.title, &footer);
-        // The colour bar's title is read along the picture's side, and may be longer than that side.
+        // The colour bar's title runs along the side of the picture, and may be longer than that side.
         let overhang = 0.5 * (content.picture.bar_title_length() - picture_height).max(0.0);
         let rectangle = Rectangle {
             left: MARGIN + content.y.width() + 0.5 * (width - natural),
@@ -149,17 +149,17 @@ impl Layout {
     }
 }
 
-/// Pale, cool and striped: like no colour of any colour map.
+/// Pale, cool and striped: unlike any colour of any colour map.
 const HATCHING: &str = "<defs><pattern id=\"no-surface\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\" \
     patternTransform=\"rotate(45)\"><rect width=\"6\" height=\"6\" fill=\"#f1f2f5\"/><rect width=\"1\" height=\"6\" \
     fill=\"#d3d6dd\"/></pattern></defs>";
 
-/// Whether so many degrees are read by right angles and their parts.
+/// Whether a range of angles is large enough for ticks at divisors of a right angle.
 fn goes_round(axis: CoordinateAxis, [first, last]: [f64; 2]) -> bool {
     axis.unit == "°" && last - first >= 90.0
 }
 
-/// Whether the pixel at a place of the page shows a surface.
+/// Whether the pixel at a point of the page shows a surface.
 fn is_surface(map: &Map, picture: &Rectangle, place: Place) -> bool {
     let size = map.region.size;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the image")]

@@ -1,4 +1,4 @@
-//! Probe places on a map figure.
+//! Probe positions on a map figure.
 
 use crate::figure::error::FigureError;
 use crate::figure::frame::Frame;
@@ -8,31 +8,31 @@ use crate::figure::text;
 
 const NAME_SIZE: f64 = 10.0;
 const RADIUS: f64 = 2.8;
-/// Distance in px from a dot's centre to its name.
+/// Distance in px from the centre of a dot to its name.
 const REACH: f64 = 6.5;
 
-/// A named place on the screen, such as that of a probe.
+/// A named point on the screen, such as that of a probe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
-    /// Written beside the dot; may be empty.
+    /// Shown beside the dot; may be empty.
     pub name: String,
-    /// To the right, in the unit of the map's window.
+    /// Rightwards, in the unit of the map's window.
     pub x: f64,
-    /// Up, in the unit of the map's window.
+    /// Upwards, in the unit of the map's window.
     pub y: f64,
 }
 
-/// A mark with the place of its name.
+/// A mark and the position of its name.
 pub(super) struct PlacedMark<'figure> {
     name: &'figure str,
     dot: Place,
     room: LabelBox,
 }
 
-/// Finds a side of each dot where its name hides no other dot and no other name.
+/// For each dot, finds a side where its name covers no other dot and no other name.
 ///
 /// # Errors
-/// [`FigureError::MarkOutside`] for the first mark that does not lie in the frame.
+/// [`FigureError::MarkOutside`] for the first mark outside the frame.
 pub(super) fn place<'figure>(frame: &Frame, marks: &'figure [Mark]) -> Result<Vec<PlacedMark<'figure>>, FigureError> {
     let is_inside =
         |mark: &Mark| (frame.x[0]..=frame.x[1]).contains(&mark.x) && (frame.y[0]..=frame.y[1]).contains(&mark.y);
@@ -55,7 +55,7 @@ pub(super) fn place<'figure>(frame: &Frame, marks: &'figure [Mark]) -> Result<Ve
 }
 
 impl PlacedMark<'_> {
-    /// What other texts must keep clear of: the dot and the name.
+    /// The areas that other texts must avoid: the dot and the name.
     pub(super) fn rooms(&self) -> [LabelBox; 2] {
         [dot_room(self.dot), self.room]
     }
@@ -74,7 +74,7 @@ fn dot_room(dot: Place) -> LabelBox {
     LabelBox { center: dot, half: [RADIUS + 1.5; 2], turn: 0.0 }
 }
 
-/// The sides of a dot, best first: right above, left above, right below, left below, right, left, above, below.
+/// The sides of a dot, best first: upper right, upper left, lower right, lower left, right, left, above, below.
 fn name_rooms(dot: Place, width: f64) -> [LabelBox; 8] {
     let half = [0.5 * width + 1.5, 0.5 * NAME_SIZE + 1.0];
     let (near, beside) = (0.6 * REACH, REACH + half[0]);

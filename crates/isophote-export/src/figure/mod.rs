@@ -1,7 +1,7 @@
 //! Figures fit for a report: a map with axes, colour bar, isophotes and marks; a section as a line plot.
 //!
-//! Figures are written as SVG by a small writer of our own. [`svg_to_png`] draws them with one embedded font and none of
-//! the system's, so that a picture does not depend on the machine.
+//! Figures are written as SVG by a small writer of our own. [`svg_to_png`] draws them using only one embedded font, so
+//! that a picture does not depend on the system's fonts.
 
 mod color_bar;
 mod curve;

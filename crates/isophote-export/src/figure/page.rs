@@ -1,9 +1,9 @@
-//! What every figure has around its box: a title above and a footer below.
+//! What every figure has around its plot: a title above and a footer below.
 
 use crate::figure::svg::{Anchor, PALE_INK, Place, Svg, Text};
 use crate::figure::text;
 
-/// White rim of the page in px.
+/// White margin of the page in px.
 pub(super) const MARGIN: f64 = 14.0;
 
 const TITLE_SIZE: f64 = 14.0;
@@ -24,19 +24,19 @@ impl Page {
         Self { width, title: text::wrap(title, TITLE_SIZE, room), footer: text::wrap(footer, FOOTER_SIZE, room) }
     }
 
-    /// Where the figure proper begins.
+    /// The top of the plot area.
     pub(super) fn top(&self) -> f64 {
         let gap = if self.title.is_empty() { 0.0 } else { 7.0 };
         MARGIN + lines(&self.title, TITLE_LINE) + gap
     }
 
-    /// Height of the whole page, for a figure proper that ends at `bottom`.
+    /// Height of the whole page if the plot area ends at `bottom`.
     pub(super) fn height(&self, bottom: f64) -> f64 {
         let gap = if self.footer.is_empty() { MARGIN } else { 10.0 + 0.6 * MARGIN };
         bottom + gap + lines(&self.footer, FOOTER_LINE)
     }
 
-    /// Writes the title above `middle`, moved sideways where it would not fit, and the footer below `bottom`.
+    /// Writes the title centred above `middle`, shifted sideways if it would not fit, and the footer below `bottom`.
     pub(super) fn draw(&self, svg: &mut Svg, middle: f64, bottom: f64) {
         let half = 0.5 * text::widest(&self.title, TITLE_SIZE);
         let x = middle.min(self.width - MARGIN - half).max(MARGIN + half);

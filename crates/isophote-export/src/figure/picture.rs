@@ -1,4 +1,4 @@
-//! What a map figure shows inside its axes: numbers by a colour map with isophotes, or colours as they are.
+//! What a map figure shows inside its axes: numbers with a colour map and isophotes, or colours as they are.
 
 use isophote::analysis::isophotes::{Isophote, isophotes, nice_levels};
 use isophote::map::{Map, Quantity, Scalars, Values};
@@ -17,14 +17,14 @@ use crate::figure::{level_lines, text};
 
 /// The picture of a channel.
 pub(super) enum Picture<'figure> {
-    /// Of one number a pixel.
+    /// One number per pixel.
     Numbers { values: Scalars<'figure>, isophotes: Vec<Isophote>, bar: ColorBar },
-    /// Of three, which need no colour bar: they are what they look like.
+    /// Three numbers per pixel, which need no colour bar: they are shown in their own colours.
     Colors { colors: &'figure [[f64; 3]], scale: ColorScale, unit: &'figure str, space: &'figure str },
 }
 
 impl<'figure> Picture<'figure> {
-    /// Of the channel that the options ask for, on a picture of this height in px.
+    /// The picture of the channel in the options, with a height in px.
     pub(super) fn new(map: &'figure Map, options: &FigureOptions, height: f64) -> Result<Self, FigureError> {
         let channel = map.channel(&options.quantity);
         if let (Quantity::Color, Some(Values::Vector(colors))) =
@@ -33,7 +33,7 @@ impl<'figure> Picture<'figure> {
             let unit = channel.map_or("", |channel| channel.unit.as_str());
             return Self::of_colors(map, colors, unit, options.range);
         }
-        // Asked first without levels: it checks the channel, and says best what is wrong with it.
+        // Called first without levels: it checks the channel, and has the best error message if something is wrong.
         isophotes(map, &options.quantity, &[])?;
         let values = map.scalar(&options.quantity).unwrap_or(Scalars::Double(&[]));
         let seen = seen_range(map, &options.quantity, values)?;
@@ -93,7 +93,7 @@ impl<'figure> Picture<'figure> {
         }
     }
 
-    /// Room in px that the colour bar takes.
+    /// Width in px that the colour bar takes.
     pub(super) fn bar_width(&self) -> f64 {
         match self {
             Self::Numbers { bar, .. } => bar.width(),
@@ -101,7 +101,7 @@ impl<'figure> Picture<'figure> {
         }
     }
 
-    /// Room in px that the colour bar's title takes along the picture's side.
+    /// Length in px that the colour bar's title takes along the side of the picture.
     pub(super) fn bar_title_length(&self) -> f64 {
         match self {
             Self::Numbers { bar, .. } => text::widest(&bar.title, TITLE_SIZE),
@@ -109,7 +109,7 @@ impl<'figure> Picture<'figure> {
         }
     }
 
-    /// What no colour bar says.
+    /// What a colour bar would otherwise say.
     pub(super) fn caption(&self) -> Option<String> {
         match self {
             Self::Numbers { .. } => None,
@@ -121,7 +121,7 @@ impl<'figure> Picture<'figure> {
     }
 }
 
-/// The least and the greatest value seen; `None` where no surface is seen.
+/// The minimum and maximum seen; `None` if no surface is seen.
 fn seen_range(map: &Map, quantity: &Quantity, values: Scalars<'_>) -> Result<Option<[f64; 2]>, FigureError> {
     let mut seen: Option<[f64; 2]> = None;
     for index in map.mask().indices() {
@@ -135,7 +135,7 @@ fn seen_range(map: &Map, quantity: &Quantity, values: Scalars<'_>) -> Result<Opt
     Ok(seen)
 }
 
-/// The range asked for, or that of what is seen, widened about a constant.
+/// The requested range, or the range seen, widened if it is a single value.
 fn range(asked: Option<[f64; 2]>, seen: Option<[f64; 2]>) -> Result<[f64; 2], FigureError> {
     match (asked, seen) {
         (Some([low, high]), _) if (high - low).is_normal() && low < high => Ok([low, high]),

@@ -1,4 +1,4 @@
-//! A figure as PNG, drawn with the embedded font alone.
+//! A figure as PNG, drawn only with the embedded font.
 
 use std::sync::{Arc, OnceLock};
 
@@ -12,13 +12,14 @@ use crate::png::METADATA_KEYWORD;
 
 const LARGEST_SIDE: f64 = 16384.0;
 
-/// Draws a figure of this module as a PNG file with `scale` pixels a px.
+/// Draws a figure of this module as a PNG file with `scale` pixels per px.
 ///
-/// Every text is set in the embedded font, whatever fonts the system has, and no file is read. Images are drawn that are PNG
-/// and not in a group, as those of figures are. The file carries the metadata, a [`FileMetadata`](crate::FileMetadata) as JSON, where there are any.
+/// All text is set in the embedded font, whatever fonts the system has, and no files are read. Images are drawn if they
+/// are PNG and not inside a group, which is how figures hold them. The file carries the metadata, a
+/// [`FileMetadata`](crate::FileMetadata) as JSON, if there are any.
 ///
 /// # Errors
-/// [`FigureError`]: the text is no SVG, or the picture would have no pixels or too many.
+/// [`FigureError`]: the text is not SVG, or the picture would have no pixels or too many.
 pub fn svg_to_png(svg: &str, scale: f64, metadata: Option<&str>) -> Result<Vec<u8>, FigureError> {
     let layers = layers::of(svg, &options()).map_err(|error| FigureError::Svg(error.to_string()))?;
     let size = layers.size();
@@ -63,7 +64,7 @@ fn options() -> Options<'static> {
     Options {
         font_family: FAMILY.into(),
         fontdb: Arc::clone(fonts),
-        // The default would open files named in the SVG.
+        // The default would open files referenced in the SVG.
         image_href_resolver: ImageHrefResolver {
             resolve_data: ImageHrefResolver::default_data_resolver(),
             resolve_string: Box::new(|_, _| None),
@@ -77,7 +78,7 @@ mod tests {
     use super::*;
     use crate::figure::read_back::decode;
 
-    /// How many pixels of a row of texts are dark, for each of its letters.
+    /// The number of dark pixels for each of a row of letters.
     fn dark_pixels(family: &str) -> Vec<usize> {
         let letters = ["А", "Я", "²", "⁻", "θ", "≤", "A"];
         letters.map(|letter| {

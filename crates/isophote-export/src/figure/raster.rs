@@ -8,11 +8,11 @@ use crate::colormap::Colormap;
 use crate::figure::error::FigureError;
 use crate::figure::svg::{Rectangle, Svg, number};
 
-/// From values to colours.
+/// The mapping from values to colours.
 #[derive(Clone, Copy)]
 pub(super) struct Scale {
     pub(super) colormap: Colormap,
-    /// The values with the first and the last colour.
+    /// The values shown in the first and the last colour.
     pub(super) range: [f64; 2],
 }
 
@@ -22,7 +22,7 @@ impl Scale {
     }
 }
 
-/// The map's pixels, each a pixel of the image, in the colour of its index; transparent where no surface is seen.
+/// The map as an image, one image pixel per map pixel, coloured by value; transparent where no surface is seen.
 pub(super) fn draw_map(
     svg: &mut Svg,
     map: &Map,
@@ -35,12 +35,12 @@ pub(super) fn draw_map(
         let [red, green, blue] = color(index);
         pixels[4 * index..][..4].copy_from_slice(&[red, green, blue, 255]);
     }
-    // More map pixels than px on the page: let the viewer average, or thin features would drop out.
+    // More map pixels than px on the page: let the viewer average, or thin features would disappear.
     let is_coarse = f64::from(size.width) <= 2.0 * place.width;
     draw_image(svg, size, &pixels, place, is_coarse)
 }
 
-/// The 256 colours, the last one on top.
+/// The 256 colours, with the last one at the top.
 pub(super) fn draw_ramp(svg: &mut Svg, colormap: Colormap, place: Rectangle) -> Result<(), FigureError> {
     let color = |index: u32| {
         let [red, green, blue] = colormap.color(f64::from(index) / 255.0);
@@ -59,7 +59,7 @@ fn draw_image(
 ) -> Result<(), FigureError> {
     let Rectangle { left, top, width, height } = place;
     let [left, top, width, height] = [left, top, width, height].map(number);
-    // As a style: the value is no word of the SVG 1.1 attribute, and readers ignore it there.
+    // As a style: the SVG 1.1 attribute does not allow this value, so readers would ignore it there.
     let rendering = if pixelated { " style=\"image-rendering:pixelated\"" } else { "" };
     let data = STANDARD.encode(encode(size, rgba)?);
     svg.raw(&format!(

@@ -1,4 +1,4 @@
-//! Reads figures back, for tests: texts with their room, images with their pixels.
+//! Reads figures back for tests: texts with the space they occupy, images with their pixels.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

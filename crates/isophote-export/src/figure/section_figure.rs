@@ -11,64 +11,65 @@ const WIDTH: f64 = 520.0;
 const HEIGHT: f64 = 300.0;
 const LEGEND_SIZE: f64 = 10.0;
 const LEGEND_LINE: f64 = 17.0;
-/// Length in px of a line's sample in the legend, and the gap after it.
+/// Length in px of a line sample in the legend, and the gap after it.
 const SAMPLE: [f64; 2] = [24.0, 6.0];
 const LEGEND_GAP: f64 = 20.0;
 
-/// M. Okabe and K. Ito, "Color universal design", 2008: seven colours that people with colour blindness tell apart.
+/// M. Okabe and K. Ito, "Color universal design", 2008: seven colours that people with colour blindness can
+/// distinguish.
 const COLORS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000"];
-/// One a round of the colours, so that 28 series differ.
+/// One per round of the colours, so that 28 series are distinct.
 const DASHES: [&str; 4] = ["", "6 3", "2 2.5", "8 3 2 3"];
 
-/// A line of a section figure.
+/// One line of a section figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Written in the legend where there are several.
+    /// Shown in the legend if there are several series.
     pub name: String,
-    /// In the order in which they are joined.
+    /// In the order in which they are connected.
     pub points: Vec<SectionPoint>,
 }
 
-/// A value at a place of the section.
+/// A value at a position along the section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SectionPoint {
-    /// The place along the section, in the options' `x_unit`.
+    /// The position along the section, in the options' `x_unit`.
     pub x: f64,
-    /// The value in the options' `y_unit`; `None` where no surface is seen, which interrupts the line.
+    /// The value in the options' `y_unit`; `None` if no surface is seen, which interrupts the line.
     pub value: Option<f64>,
 }
 
-/// The words of a section figure.
+/// The texts of a section figure.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SectionOptions {
-    /// Above the figure; broken into lines where it is long. None where empty.
+    /// Above the figure; broken into lines if it is long. No title if empty.
     pub title: String,
-    /// What runs along the horizontal axis: "x".
+    /// The quantity on the horizontal axis: "x".
     pub x_label: String,
     /// Its unit.
     pub x_unit: String,
-    /// What the values are: "brightness B, lab (3.3)".
+    /// The quantity on the vertical axis: "brightness B, lab (3.3)".
     pub y_label: String,
     /// Their unit.
     pub y_unit: String,
-    /// The small line below: program and version, as in a map's provenance.
+    /// The small line at the bottom: program and version, as in a map's provenance.
     pub footer: String,
 }
 
-/// Series of values along a line as an SVG figure: axes with units, a light grid, gaps where nothing is seen, and a legend
-/// above the box where there are several series.
+/// Series of values along a line as an SVG figure: axes with units, a light grid, gaps where nothing is seen, and a
+/// legend above the plot if there are several series.
 ///
-/// The vertical axis begins at 0 where that costs little room.
+/// The vertical axis starts at 0 if that costs little space.
 ///
 /// # Errors
-/// [`FigureError`]: a number is not finite, or there are no two places or no value at all.
+/// [`FigureError`]: a number is not finite, there are fewer than two positions, or there is no value at all.
 pub fn section_figure_svg(series: &[Series], options: &SectionOptions) -> Result<String, FigureError> {
     let [x_range, y_range] = ranges(series)?;
     let x_ticks = Ticks::side_by_side(x_range, WIDTH, TICK_SIZE);
     let y_ticks = Ticks::stacked(y_range, HEIGHT);
     let x = Axis { title: ticks::title(&options.x_label, &options.x_unit, x_ticks.exponent), ticks: x_ticks };
     let y = Axis { title: ticks::title(&options.y_label, &options.y_unit, y_ticks.exponent), ticks: y_ticks };
-    // The last number below the box reaches beyond its right edge.
+    // The last label below the plot extends beyond its right edge.
     let right = 0.5 * text::widest(&x.ticks.labels, TICK_SIZE) + 2.0;
     let width = 2.0 * MARGIN + y.width() + WIDTH + right;
     let page = Page::new(width, &options.title, &options.footer);
@@ -120,7 +121,7 @@ fn ranges(series: &[Series]) -> Result<[[f64; 2]; 2], FigureError> {
     Ok([x, padded(y)])
 }
 
-/// Some air above and below the values, from 0 where they come near it.
+/// Adds some space above and below the values, and starts at 0 if they come close to it.
 fn padded([low, high]: [f64; 2]) -> [f64; 2] {
     let span = high - low;
     if span <= 1e-12 * high.abs().max(low.abs()) {
@@ -152,7 +153,7 @@ fn line_style(index: usize) -> String {
     format!("stroke=\"{color}\" stroke-width=\"1.5\" stroke-linejoin=\"round\"{dash}")
 }
 
-/// Places of the legend's entries, `y` counted from its top; empty for a single series.
+/// Positions of the legend's entries, `y` measured from its top; empty for a single series.
 fn legend(series: &[Series], left: f64) -> Vec<Place> {
     if series.len() < 2 {
         return Vec::new();

@@ -1,14 +1,14 @@
-//! A writer of SVG: elements in drawing order, every text escaped.
+//! An SVG writer: elements in drawing order, all text escaped.
 
 use std::fmt::Write;
 
-/// Fallbacks for programs without the first one; Verdana has nearly its widths.
+/// Fallbacks for programs that lack the first font; Verdana has nearly the same widths.
 const FONTS: &str = "DejaVu Sans, Verdana, Bitstream Vera Sans, sans-serif";
 pub(super) const INK: &str = "#1a1a1a";
 pub(super) const PALE_INK: &str = "#7a7a7a";
 pub(super) const PAPER: &str = "#ffffff";
 
-/// A place on the page in px: x to the right, y down.
+/// A point on the page in px: x to the right, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
     pub(super) x: f64,
@@ -40,7 +40,7 @@ impl Svg {
         Self { body: String::new() }
     }
 
-    /// The whole file; the size is in px.
+    /// The complete file; the size is in px.
     pub(super) fn finish(self, width: f64, height: f64) -> String {
         let (width, height) = (number(width.ceil()), number(height.ceil()));
         format!(
@@ -51,20 +51,20 @@ impl Svg {
         )
     }
 
-    /// An element as it stands: for attributes that hold no user text.
+    /// An element, written unchanged: only for attributes without user text.
     pub(super) fn raw(&mut self, element: &str) {
         self.body.push_str(element);
         self.body.push('\n');
     }
 
-    /// `style` is a row of attributes.
+    /// `style` is a string of attributes.
     pub(super) fn rectangle(&mut self, rectangle: Rectangle, style: &str) {
         let Rectangle { left, top, width, height } = rectangle;
         let [left, top, width, height] = [left, top, width, height].map(number);
         self.raw(&format!("<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" {style}/>"));
     }
 
-    /// A path through the places. `style` is a row of attributes, `fill` among them where it is not "none".
+    /// A path through the points. `style` is a string of attributes, including `fill` unless it is "none".
     pub(super) fn path(&mut self, places: &[Place], closed: bool, style: &str) {
         let mut data = String::new();
         for (index, place) in places.iter().enumerate() {
@@ -91,7 +91,7 @@ impl Svg {
         let halo = halo.as_ref().map_or(String::new(), |color| {
             format!(" stroke=\"{color}\" stroke-width=\"2.6\" stroke-linejoin=\"round\" paint-order=\"stroke\"")
         });
-        // Half the height of a capital below the middle; dominant-baseline is read differently by every program.
+        // Half the height of a capital below the middle; programs interpret dominant-baseline differently.
         let drop = 0.364 * size;
         let place = if *degrees == 0.0 {
             format!("x=\"{}\" y=\"{}\"", number(at.x), number(at.y + drop))
@@ -104,7 +104,7 @@ impl Svg {
     }
 }
 
-/// Which end of a text stands at its place.
+/// Which end of a text is at its position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Anchor {
     Start,
@@ -121,18 +121,18 @@ pub(super) struct Text<'text> {
     /// Clockwise.
     pub(super) degrees: f64,
     pub(super) color: &'text str,
-    /// Colour of a rim that keeps the text readable over lines.
+    /// Colour of an outline that keeps the text readable on top of lines.
     pub(super) halo: Option<String>,
 }
 
 impl<'text> Text<'text> {
-    /// Level, in ink, without a halo.
+    /// Horizontal black text, without a halo.
     pub(super) fn new(content: &'text str, at: Place, size: f64, anchor: Anchor) -> Self {
         Self { content, at, size, anchor, degrees: 0.0, color: INK, halo: None }
     }
 }
 
-/// At most two decimals: a hundredth of a pixel is not seen, and files stay small.
+/// At most two decimals: a hundredth of a pixel is invisible, and files stay small.
 pub(super) fn number(value: f64) -> String {
     let fixed = format!("{value:.2}");
     let short = fixed.trim_end_matches('0').trim_end_matches('.');

@@ -1,17 +1,17 @@
-//! How wide a text is in the embedded font, and where to break it.
+//! Measures text in the embedded font, and breaks it into lines.
 
 use std::sync::OnceLock;
 
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};
 
-/// The font `DejaVu Sans`, cut down to the characters of a figure; see `font/README.md`.
+/// `DejaVu Sans`, subset to the characters used in figures; see `font/README.md`.
 pub(super) const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
 
-/// Advance of a character that the font lacks: that of a wide capital, in parts of the font size.
+/// Advance of a character missing from the font: that of a wide capital, as a fraction of the font size.
 const UNKNOWN_WIDTH: f64 = 0.8;
 
-/// Width of a line of text in px, without kerning: at most a few percent too wide.
+/// Width of a line of text in px, without kerning: at most a few per cent too wide.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     let font = font();
     let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
@@ -20,12 +20,12 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
     size * text.chars().map(|character| advance(character).map_or(UNKNOWN_WIDTH, f64::from)).sum::<f64>()
 }
 
-/// Width of the widest of some lines in px.
+/// Width of the widest of several lines in px.
 pub(super) fn widest<'text>(lines: impl IntoIterator<Item = &'text String>, size: f64) -> f64 {
     lines.into_iter().map(|line| width(line, size)).fold(0.0, f64::max)
 }
 
-/// The text in lines of at most `room` px, broken at spaces and at line ends; a longer word keeps its own line.
+/// The text in lines of at most `room` px, broken at spaces and newlines; a longer word gets its own line.
 pub(super) fn wrap(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for paragraph in text.lines() {

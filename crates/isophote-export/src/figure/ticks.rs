@@ -1,26 +1,26 @@
-//! Numbers beside axes, colour bars and isophotes.
+//! The numbers on axes, colour bars and isophotes.
 
 use isophote::analysis::levels::nice_ticks;
 
 use crate::figure::text;
 
-/// Ticks with the numbers written beside them. A number times 10^exponent is the tick's value.
+/// Ticks and their labels. A label times 10^exponent is the tick's value.
 pub(super) struct Ticks {
     pub(super) values: Vec<f64>,
     pub(super) labels: Vec<String>,
-    /// Not 0 where the plain numbers would be long; it belongs into the axis title.
+    /// Nonzero if the plain numbers would be long; it is shown in the axis title.
     pub(super) exponent: i32,
 }
 
 impl Ticks {
-    /// About so many round numbers from end to end of the range.
+    /// About this many round numbers across the range.
     pub(super) fn new(range: [f64; 2], about: usize) -> Self {
         let exponent = common_exponent(range);
         let values = nice_ticks(range[0], range[1], about);
         Self { labels: written(&values, exponent), values, exponent }
     }
 
-    /// As many ticks along `length` px as leave room between numbers written side by side.
+    /// As many ticks along `length` px as leave space between labels written side by side.
     pub(super) fn side_by_side(range: [f64; 2], length: f64, size: f64) -> Self {
         let all_fit = |ticks: &Self| {
             let [first, second, ..] = ticks.values[..] else { return true };
@@ -31,12 +31,12 @@ impl Ticks {
         (1..=wish).rev().map(|about| Self::new(range, about)).find(all_fit).unwrap_or_else(|| Self::new(range, 0))
     }
 
-    /// As many ticks along `length` px as look well with numbers above each other.
+    /// As many ticks along `length` px as look good with labels stacked vertically.
     pub(super) fn stacked(range: [f64; 2], length: f64) -> Self {
         Self::new(range, usize::max(count(length, 60.0), 2))
     }
 
-    /// Ticks of angles along `length` px: as many as leave room for numbers of three digits.
+    /// Ticks of angles along `length` px: as many as leave room for three-digit labels.
     pub(super) fn of_degrees(range: [f64; 2], length: f64) -> Self {
         let fits = |step: &&f64| **step / (range[1] - range[0]) * length >= 38.0;
         let step = DEGREES.iter().find(fits).copied().unwrap_or(360.0);
@@ -48,10 +48,10 @@ impl Ticks {
     }
 }
 
-/// Steps between ticks that divide a right angle.
+/// Tick steps for angles: divisors of a right angle, and 180.
 const DEGREES: [f64; 9] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0];
 
-/// Numbers as they stand in the figure, divided by 10^exponent: all with the same decimals, as few as tell them all.
+/// Labels for values divided by 10^exponent: all with the same number of decimals, as few as keep them distinct.
 pub(super) fn written(values: &[f64], exponent: i32) -> Vec<String> {
     let power = 10_f64.powi(exponent.abs());
     let scaled: Vec<f64> =
@@ -64,7 +64,7 @@ pub(super) fn written(values: &[f64], exponent: i32) -> Vec<String> {
     scaled.iter().map(|value| format!("{value:.decimals$}").replace('-', "−")).collect()
 }
 
-/// A multiple of 3, as in the prefixes of units; 0 where plain numbers are short enough to be read.
+/// A multiple of 3, as in unit prefixes; 0 if the plain numbers are short enough to read.
 pub(super) fn common_exponent(range: [f64; 2]) -> i32 {
     let largest = range[0].abs().max(range[1].abs());
     if largest == 0.0 || (1e-3..1e5).contains(&largest) {
@@ -75,7 +75,7 @@ pub(super) fn common_exponent(range: [f64; 2]) -> i32 {
     exponent.div_euclid(3) * 3
 }
 
-/// An axis title: "x, m"; "B, 10⁻⁶ W/m²" where the numbers are divided by 10⁻⁶. Pure numbers have no unit.
+/// An axis title: "x, m"; "B, 10⁻⁶ W/m²" if the numbers are divided by 10⁻⁶. Pure numbers have no unit.
 pub(super) fn title(label: &str, unit: &str, exponent: i32) -> String {
     let unit = if unit == "1" { "" } else { unit };
     let power = if exponent == 0 { String::new() } else { format!("10{}", superscript(exponent)) };

@@ -1,4 +1,4 @@
-//! The picture of a channel of colours, as a screen shows them.
+//! The picture of a colour channel, as a screen shows it.
 
 use std::io::Write;
 
@@ -11,10 +11,10 @@ use crate::png::encode::{CHUNK, METADATA_KEYWORD, from_png, rounded, set_compres
 use crate::png::options::{Depth, PictureOptions, PictureReport};
 use crate::text::one_line;
 
-/// What the metadata says of it.
+/// The encoding named in the metadata.
 const ENCODING: &str = "sRGB";
 
-/// Writes the picture: linear RGB, scaled by one range, in sRGB with its transfer function; missed pixels black.
+/// Writes the picture: linear RGB, scaled by one range, in sRGB with its transfer function; missed pixels are black.
 pub(super) fn write(
     map: &Map,
     channel: &Channel,
@@ -47,7 +47,7 @@ pub(super) fn write(
     Ok(report)
 }
 
-/// Row after row.
+/// Writes the pixels row by row.
 fn paint(
     map: &Map,
     colors: &[[f64; 3]],

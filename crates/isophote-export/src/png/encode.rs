@@ -1,4 +1,4 @@
-//! What all pictures have in common: how they are encoded, and where their metadata stand.
+//! Common to all pictures: how they are encoded, and where their metadata are.
 
 use std::io::{BufRead, Seek, Write};
 
@@ -11,13 +11,13 @@ use crate::text::Number;
 /// Keyword of the text chunk that holds a picture's metadata.
 pub(crate) const METADATA_KEYWORD: &str = "isophote";
 
-/// Bytes of compressed pixels that are written at once.
+/// Bytes of compressed pixels written at a time.
 pub(super) const CHUNK: usize = 1 << 16;
 
-/// Level 3 of zlib-rs, rows predicted from the left neighbour for 8 bits and from the upper one for 16. Compressing the
-/// lab's picture of 800×600 (3840×2160) takes 0.35 ms and 9.4 kB (5 ms, 70 kB) for 8 bits, 1.0 ms and 48 kB (20 ms,
-/// 407 kB) for 16. Level 2 takes 0.26 ms and 10.8 kB (4.5 ms, 94 kB), level 4 0.45 ms and 8.6 kB; the encoder's `Fast`
-/// 0.08 ms, but 19 kB (1.7 ms, 197 kB).
+/// Level 3 of zlib-rs, with rows predicted from the left neighbour for 8 bits and from the upper one for 16.
+/// Compressing the lab's picture of 800×600 (3840×2160) takes 0.35 ms and 9.4 kB (5 ms, 70 kB) for 8 bits, and 1.0 ms
+/// and 48 kB (20 ms, 407 kB) for 16. Level 2 takes 0.26 ms and 10.8 kB (4.5 ms, 94 kB), level 4 0.45 ms and 8.6 kB; the
+/// encoder's `Fast` takes 0.08 ms, but 19 kB (1.7 ms, 197 kB).
 pub(super) fn set_compression(encoder: &mut png::Encoder<impl Write>, depth: Depth) {
     encoder.set_deflate_compression(png::DeflateCompression::Level(3));
     encoder.set_filter(match depth {
@@ -33,8 +33,8 @@ pub(super) fn set_depth(encoder: &mut png::Encoder<impl Write>, depth: Depth) {
     });
 }
 
-/// To nearest, a half upwards, as `f64::round` does for what is not negative; that is a call on machines without
-/// SSE4.1, and then costs more than the division. Both steps are exact.
+/// Rounds to nearest, halves up, like `f64::round` for non-negative numbers. On machines without SSE4.1 that is a
+/// function call, which costs more than the division. Both steps are exact.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a level is between 0 and 65535")]
 pub(super) fn rounded(level: f64) -> u16 {
     let whole = level as u16;
@@ -60,7 +60,7 @@ pub(crate) fn read_json(file: &mut (impl BufRead + Seek)) -> Result<Option<Vec<u
         let chunks = &reader.info().utf8_text;
         chunks.iter().find(|chunk| chunk.keyword == METADATA_KEYWORD).map(png::text_metadata::ITXtChunk::get_text)
     };
-    // Other programs that save the picture again may put the texts after the pixels.
+    // Other programs that re-save the picture may put the text chunks after the pixels.
     let mut text = found(&reader);
     if text.is_none() {
         reader.finish().map_err(|error| error.to_string())?;

@@ -1,4 +1,4 @@
-//! A picture of one channel, normalised: the only place where numbers become grey levels or colours.
+//! A normalised picture of one channel: the only place where numbers become grey levels or colours.
 
 mod color;
 mod encode;
@@ -15,15 +15,15 @@ use crate::error::ExportError;
 pub(crate) use encode::{METADATA_KEYWORD, read_json};
 pub use options::{Depth, PictureColor, PictureOptions, PictureReport};
 
-/// Writes the picture, row 0 on top; missed pixels are black, with a colour map too.
+/// Writes the picture with row 0 at the top; missed pixels are black, even with a colour map.
 ///
 /// A value v becomes ((v − black)/(white − black))^(1/gamma), times 255 or 65535, rounded to nearest.
-/// Colours are scaled by one range, which is from 0 to the largest component by default, and shown in sRGB with its own
-/// transfer function, whatever space they are of.
-/// Text chunks `Title`, `Software`, `Description` and `isophote` (the metadata's JSON) come before the pixels.
+/// Colours are scaled by one range, by default from 0 to the largest component, and shown in sRGB with its transfer
+/// function, whatever their own colour space.
+/// The text chunks `Title`, `Software`, `Description` and `isophote` (the metadata as JSON) come before the pixels.
 ///
 /// # Errors
-/// No such channel, or not a scalar one; a range, gamma or depth that makes no picture; an error of `out`.
+/// The channel is missing or cannot be shown; the range, gamma or depth is invalid; an error of `out`.
 pub fn write(map: &Map, options: &PictureOptions, out: impl Write) -> Result<PictureReport, ExportError> {
     let channel = channel::find(map, &options.quantity)?;
     match (&channel.quantity, &channel.values) {

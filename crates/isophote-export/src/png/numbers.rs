@@ -1,4 +1,4 @@
-//! The picture of a channel of one number a pixel, in grey levels or in the colours of a colour map.
+//! The picture of a scalar channel, in grey levels or in the colours of a colour map.
 
 use std::io::Write;
 
@@ -11,7 +11,7 @@ use crate::png::encode::{CHUNK, METADATA_KEYWORD, from_png, rounded, set_compres
 use crate::png::options::{Depth, PictureOptions, PictureReport};
 use crate::text::one_line;
 
-/// Writes the picture; missed pixels black, with a colour map too.
+/// Writes the picture; missed pixels are black, even with a colour map.
 pub(super) fn write(
     map: &Map,
     channel: &Channel,
@@ -28,9 +28,9 @@ pub(super) fn write(
     for (keyword, text) in texts(map, channel, options, range) {
         encoder.add_itxt_chunk(keyword.into(), text).map_err(from_png)?;
     }
-    // No gAMA chunk: browsers would brighten a proportional picture by it, most other programs ignore it, and the
-    // same file would look different in each. Without it all show the numbers in the file, those that the
-    // description explains.
+    // No gAMA chunk: browsers would use it to brighten a proportional picture, most other programs ignore it, and the
+    // same file would look different in each. Without it all of them show the numbers in the file, as the description
+    // explains them.
     let mut writer = encoder.write_header().map_err(from_png)?;
     let mut pixels = writer.stream_writer_with_size(CHUNK).map_err(from_png)?;
     let report = quantize(map, values, options, range, &mut pixels)?;
@@ -39,7 +39,7 @@ pub(super) fn write(
     Ok(report)
 }
 
-/// The numbers of the channel, if the options make a picture of them.
+/// The numbers of the channel, if the options can make a picture of them.
 fn scalars<'v>(channel: &'v Channel, options: &PictureOptions) -> Result<Scalars<'v>, ExportError> {
     if !(options.gamma > 0.0 && options.gamma.is_finite()) {
         return Err(ExportError::Gamma { gamma: options.gamma });
@@ -56,7 +56,7 @@ fn scalars<'v>(channel: &'v Channel, options: &PictureOptions) -> Result<Scalars
     Err(ExportError::NotPicture { name: channel.quantity.name(), holds })
 }
 
-/// Black and white.
+/// The values of black and white.
 fn range_for(
     map: &Map,
     channel: &Channel,
@@ -73,7 +73,7 @@ fn range_for(
     }
 }
 
-/// Writes row after row: a buffer for the whole picture would take longer to get from the system than to fill.
+/// Writes row by row: allocating a buffer for the whole picture would take longer than filling it.
 fn quantize(
     map: &Map,
     values: Scalars<'_>,
@@ -110,7 +110,7 @@ fn paint(values: impl Iterator<Item = f64>, pixels: &mut [u8], options: &Picture
     let levels = values.map(|value| {
         report.clamped_below += usize::from(value < black);
         report.clamped_above += usize::from(value > white);
-        // 0/0 would be no number in a map without light.
+        // In a map without light, 0/0 would give NaN.
         let linear = if black < white { ((value - black) / (white - black)).clamp(0.0, 1.0) } else { 0.0 };
         #[expect(clippy::float_cmp, reason = "1 is the exact default, and then powers are not worth their time")]
         if exponent == 1.0 { linear } else { libm::pow(linear, exponent) }

@@ -1,4 +1,4 @@
-//! What a picture shows, and what it then tells.
+//! What a picture shows, and the report on how it was made.
 
 use isophote::map::Quantity;
 
@@ -9,16 +9,16 @@ pub struct PictureOptions<'a> {
     pub quantity: Quantity,
     /// The values of black and white in the channel's unit; by default 0 and the greatest visible value.
     pub range: Option<[f64; 2]>,
-    /// 1 is proportional, 2.2 lifts the dark parts; finite and above 0.
+    /// 1 is proportional, 2.2 brightens dark parts; must be finite and above 0.
     pub gamma: f64,
-    /// Bits of a sample.
+    /// Bits per sample.
     pub depth: Depth,
-    /// Colours in place of grey levels, 8 bits only.
+    /// A colour map instead of grey levels; 8 bits only.
     pub color: Option<PictureColor<'a>>,
 }
 
 impl PictureOptions<'_> {
-    /// Eight bits of grey, proportional to the channel, its greatest value white.
+    /// Eight bits of grey, proportional to the channel, with its greatest value white.
     #[must_use]
     pub fn new(quantity: Quantity) -> Self {
         Self { quantity, range: None, gamma: 1.0, depth: Depth::Eight, color: None }
@@ -28,13 +28,13 @@ impl PictureOptions<'_> {
 /// A named colour map.
 #[derive(Clone, Copy)]
 pub struct PictureColor<'a> {
-    /// Its name, for the file's description.
+    /// The name to record in the file's description.
     pub name: &'a str,
-    /// The sRGB colour of a number from 0 to 1.
+    /// The sRGB colour for a number from 0 to 1.
     pub color: &'a dyn Fn(f64) -> [u8; 3],
 }
 
-/// Bits of a sample.
+/// Bits per sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
     /// 0 to 255.
@@ -54,7 +54,7 @@ impl Depth {
     }
 }
 
-/// What became of the values.
+/// How the values were mapped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureReport {
     /// The values of black and white in the channel's unit; both are 0 where no visible value is positive.

@@ -1,4 +1,4 @@
-//! Colours in every format, read back by a reader that is not ours.
+//! Colours in every format, read back by independent readers.
 
 use image::ImageFormat;
 use isophote::color::ColorSpace;
@@ -11,7 +11,7 @@ use crate::figure::{FigureOptions, map_figure_svg};
 use crate::png::{Depth, PictureColor, PictureOptions, PictureReport, write};
 use crate::{ExportError, FileMetadata, Format};
 
-/// Of the sample's pixels 0, 2, 3 and 4 are seen.
+/// Pixels 0, 2, 3 and 4 of the sample are visible.
 const COLORS: [[f64; 3]; 6] =
     [[2.0, 0.0, 0.0], [0.0; 3], [0.0, 1.0, 0.0], [1.0, 1.0, 1.0], [0.002, 0.5, 2.0], [0.0; 3]];
 
@@ -56,7 +56,7 @@ fn sixteen_bits_and_a_range_hold_for_colours_too() {
     assert_eq!((report.clamped_below, report.clamped_above), (0, 2));
 }
 
-/// By the matrix of ITU-R BT.2087 half of the green of BT.2020 is (−0.2938, 0.5665, −0.0503) of sRGB.
+/// By the matrix of ITU-R BT.2087, half of the green of BT.2020 is (−0.2938, 0.5665, −0.0503) in sRGB.
 #[test]
 fn another_space_is_shown_in_the_primaries_of_srgb() {
     let (samples, report) = picture(&colored(ColorSpace::Rec2020), &options());

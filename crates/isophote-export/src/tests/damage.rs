@@ -1,4 +1,5 @@
-//! Cut, changed and lying files of every format: an error or the right answer, never a panic or gigabytes of memory.
+//! Truncated, altered and lying files in every format: they give an error or the right answer, never a panic or
+//! gigabytes of memory.
 
 use std::{io::Cursor, sync::OnceLock};
 
@@ -24,7 +25,7 @@ proptest! {
     fn changed_bits_and_missing_ends_never_panic(
         which in 0..Format::ALL.len(),
         flips in prop::collection::vec((any::<prop::sample::Index>(), 0..8_u8), 0..6),
-        // Most lengths stand near the ends of a file, where changes far inside cannot matter.
+        // Most lengths are near the ends of a file; changes far inside would miss them.
         near in prop::collection::vec((0..64_usize, any::<bool>(), any::<u8>()), 0..4),
         cut in prop::option::of(any::<prop::sample::Index>()),
     ) {

@@ -32,7 +32,7 @@ pub(super) fn channels(image: &FlatImage) -> BTreeMap<String, Vec<f32>> {
 }
 
 fn attribute(image: &FlatImage, name: &str) -> String {
-    // The reader may sort attributes of the only layer with those of the image.
+    // The reader may assign attributes of the only layer to the image or to the layer.
     let (shared, own) = (&image.attributes.other, &image.layer_data[0].attributes.other);
     match shared.get(&Text::from(name)).unwrap_or_else(|| &own[&Text::from(name)]) {
         AttributeValue::Text(text) => String::from_utf8(text.as_slice().into()).unwrap(),
@@ -76,8 +76,8 @@ fn every_channel_reads_back_rounded_to_32_bits() {
     assert_eq!(channels["shape.index"], [0.0, -1.0, 7.0, 0.0, 1.0, -1.0]);
 }
 
-/// Blocks of 16 rows: with runs at both ends of rows, two of background alone, one of noise that does not become
-/// shorter, and one that is cut off by the image's end.
+/// Blocks of 16 rows: some with runs at both ends of rows, two of background only, one of noise that does not compress,
+/// and one cut off by the end of the image.
 #[test]
 #[expect(clippy::cast_possible_truncation, reason = "the format's rounding is what is compared")]
 fn blocks_with_and_without_a_surface_read_back_as_they_are() {

@@ -38,7 +38,7 @@ fn every_format_carries_the_scene_and_all_that_describes_its_numbers() {
 #[test]
 fn windows_survive_to_the_last_bit() {
     let mut map = sample();
-    // Ten million decimals of these shapes are read wrongly by parsers that are only nearly right.
+    // Out of ten million decimals of these forms, parsers that are only nearly correct misread some.
     map.window.x = [-0.1 - 0.2, 1.0 / 3.0];
     map.window.y = [-1.797_693_134_862_315_7e308, 5e-324];
     for format in Format::ALL {

@@ -1,4 +1,4 @@
-//! Every format written from one small map and read back by a reader that is not ours.
+//! Every format, written from one small map and read back by an independent reader.
 
 mod color;
 mod damage;
@@ -20,7 +20,7 @@ use isophote::units::{Keyword, LengthUnit};
 use crate::png::PictureOptions;
 use crate::{ExportError, Format, csv, npy, npz};
 
-/// A map out of a larger image, from its pixel 1, 2 on.
+/// A part of a larger image, starting at column 1, row 2.
 fn begun(full: Resolution, size: Resolution) -> MapBuilder {
     let window =
         Window { x: [-1.5, 1.5], y: [-2.0, 0.0], length: LengthUnit::Millimetre, coordinates: Coordinates::Screen };
@@ -35,8 +35,7 @@ fn begun(full: Resolution, size: Resolution) -> MapBuilder {
     Map::builder(full, window, provenance).region(Region { corner: Pixel { column: 1, row: 2 }, size })
 }
 
-/// Two rows of three pixels out of a larger image, two of them missed; with the numbers and names that formats trip
-/// over.
+/// Two rows of three pixels from a larger image, two of them missed; with numbers and names that formats trip over.
 fn sample() -> Map {
     let scalar = |values: [f64; 6]| Values::Scalar(values.into());
     let vector = |values: [[f64; 3]; 6]| Values::Vector(values.into());
@@ -53,7 +52,7 @@ fn sample() -> Map {
     map.build().unwrap()
 }
 
-/// The brightness of rows of so many pixels, and which of them are seen.
+/// A brightness map with rows of `width` pixels, visible where `is_seen` is true.
 fn grid(width: usize, brightness: &[f64], is_seen: impl Fn(f64) -> bool) -> Map {
     let [width, height] = [width, brightness.len() / width].map(|side| u32::try_from(side).unwrap());
     let shapes = brightness.iter().map(|value| if is_seen(*value) { 0 } else { -1 }).collect();
@@ -63,12 +62,12 @@ fn grid(width: usize, brightness: &[f64], is_seen: impl Fn(f64) -> bool) -> Map 
     map.build().unwrap()
 }
 
-/// A single row, all of it seen.
+/// A single row, all of it visible.
 fn row(brightness: &[f64]) -> Map {
     grid(brightness.len(), brightness, |_| true)
 }
 
-/// So many pixels a row, seen where the value is not 0.
+/// Rows of `width` pixels, visible where the value is not 0.
 fn rows(width: usize, brightness: &[f64]) -> Map {
     grid(width, brightness, |value| value != 0.0)
 }
@@ -94,7 +93,7 @@ fn in_single_precision(map: &Map) -> Map {
     with_channels(map, map.channels().iter().map(single))
 }
 
-/// More than one, so that blocks may be finished in any order.
+/// More than one, so that blocks may finish in any order.
 const THREADS: NonZeroUsize = NonZeroUsize::new(3).unwrap();
 
 fn encode(map: &Map, format: Format, out: &mut (impl Write + Seek)) -> Result<(), ExportError> {
@@ -139,7 +138,7 @@ fn a_channel_that_is_not_there_is_named_with_those_that_are() {
     assert_eq!(error.to_string(), "no channel ‘depth’ in this map: it has brightness, shape");
 }
 
-/// A disk with room for so many bytes, over which a writer may go back and forth.
+/// A disk with limited space, on which a writer may seek.
 struct Disk {
     file: Cursor<Vec<u8>>,
     room: usize,
@@ -166,7 +165,7 @@ impl Seek for Disk {
 fn a_disk_that_fills_up_at_any_moment_is_an_error() {
     let map = sample();
     for format in Format::ALL {
-        // The archive's writer goes back to fill in sizes: there every byte is another situation.
+        // The archive writer seeks back to fill in sizes, so every byte there is a different situation.
         let step = if *format == Format::Npz { 1 } else { 29 };
         for room in (0..encoded(&map, *format).unwrap().len()).step_by(step) {
             let error = encode(&map, *format, &mut Disk { file: Cursor::default(), room }).unwrap_err();

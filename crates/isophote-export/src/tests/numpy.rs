@@ -1,4 +1,4 @@
-//! `NumPy` itself reads what we write, and `pandas` and `OpenEXR` where they are installed beside it.
+//! `NumPy` itself reads what we write, and so do `pandas` and `OpenEXR` if they are installed.
 
 use std::{env, fs, process::Command};
 
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::{encoded, sample};
 use crate::{FileMetadata, Format, csv, npy};
 
-/// `ISOPHOTE_PYTHON` names a Python that must have `NumPy`; without it `python3` is tried, and may lack it.
+/// `ISOPHOTE_PYTHON` names a Python that must have `NumPy`; without it `python3` is tried, which may lack it.
 #[test]
 fn numpy_reads_the_same_numbers() {
     let named = env::var_os("ISOPHOTE_PYTHON");

@@ -23,6 +23,6 @@ fn members_above_4_gib_are_whole() {
     let mut archive = zip::ZipArchive::new(BufReader::new(File::open(file.path()).unwrap())).unwrap();
     let mut member = archive.by_name("position.npy").unwrap();
     assert_eq!(member.size(), 128 + 24 * pixels as u64);
-    // Compares the checksum on the way.
+    // Also verifies the checksum.
     assert_eq!(io::copy(&mut member, &mut io::sink()).unwrap(), 128 + 24 * pixels as u64);
 }

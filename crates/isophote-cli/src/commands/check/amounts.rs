@@ -1,4 +1,4 @@
-//! What of a scene has a number for each component of a colour.
+//! The quantities of a scene that have one value per colour component.
 
 use isophote::light::{Light, LightKind};
 use isophote::scene::{Lighting, Scene};
@@ -23,7 +23,7 @@ pub(super) fn radiance_of(lighting: &Lighting) -> f64 {
     lighting.ambient.map_or(0.0, |ambient| ambient.radiance)
 }
 
-/// An amount of each component, where they differ; else the one number that it is.
+/// An amount per component if they differ, otherwise the single number.
 pub(super) fn components(scene: &Scene, of: impl Fn(&Lighting) -> f64, one: f64) -> Result<[f64; 3], f64> {
     let Some(color) = scene.color() else { return Err(one) };
     let amounts = color.lighting.map(of);

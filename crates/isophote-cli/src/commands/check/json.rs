@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::amounts::{components, intensity_of, power_of, radiance_of};
 
-/// The scene as it is understood.
+/// The scene as Isophote understands it.
 pub(super) fn of(scene: &Scene) -> Value {
     let materials = scene.materials().iter().enumerate().map(|(index, material)| material_json(scene, index, material));
     let lights = scene.lights().iter().enumerate().map(|(index, light)| light_json(scene, index, light));
@@ -131,7 +131,7 @@ fn warning_json(warning: &Problem) -> Value {
     json!({"path": warning.path, "message": warning.message, "help": warning.help, "line": line})
 }
 
-/// An amount of each component where they differ.
+/// An amount, per component if they differ.
 fn amount_json(scene: &Scene, of: impl Fn(&Lighting) -> f64, one: f64) -> Value {
     components(scene, of, one).map_or_else(|one| json!(one), |amounts| json!(amounts))
 }

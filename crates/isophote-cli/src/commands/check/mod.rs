@@ -1,4 +1,4 @@
-//! `isophote check`: the scene as it is understood.
+//! `isophote check`: the scene as Isophote understands it.
 
 mod amounts;
 mod json;

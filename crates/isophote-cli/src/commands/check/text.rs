@@ -14,13 +14,13 @@ use isophote::vector::Vector;
 use super::amounts::{components, intensity_of, power_of, radiance_of};
 use crate::table::{Align, table};
 
-/// The scene as it is understood.
+/// The scene as Isophote understands it.
 pub(super) fn of(scene: &Scene) -> String {
     let camera = scene.camera();
     let frame = CameraFrame::<f64>::new(camera);
     let convention = scene.convention();
     let mut text = String::new();
-    // Writing to a text cannot fail.
+    // Writing to a string cannot fail.
     let mut row = |name: &str, value: String| {
         let _ = writeln!(text, "  {name:<12}{value}");
     };
@@ -63,7 +63,7 @@ pub(super) fn of(scene: &Scene) -> String {
     text
 }
 
-/// The name of the row and what stands in it.
+/// The name of the row and its content.
 fn projection_text(projection: &Projection) -> [String; 2] {
     let edges = |[left, right]: [f64; 2], [bottom, top]: [f64; 2]| {
         let [left, right, bottom, top] = [left, right, bottom, top].map(short);
@@ -180,7 +180,7 @@ fn vector(vector: Vector) -> String {
     format!("({x}, {y}, {z})")
 }
 
-/// An amount of each component where they differ.
+/// An amount, per component if they differ.
 fn amount(scene: &Scene, of: impl Fn(&Lighting) -> f64, one: f64) -> String {
     components(scene, of, one).map_or_else(short, |amounts| format!("[{}]", amounts.map(short).join(", ")))
 }

@@ -24,7 +24,7 @@ fn mark(name: &str, x: f64, y: f64) -> Mark {
     Mark { name: name.into(), x, y }
 }
 
-/// A ball's cosine: 1 at the centre, 0 at the limb.
+/// The cosine over a ball: 1 at the centre, 0 at the limb.
 fn ball(pixels: u32) -> Map {
     square_map(pixels, 1.5, |x, y| {
         let square = 1.0 - x * x - y * y;
@@ -68,7 +68,7 @@ fn numbers_stand_at_the_pixels_of_their_values_and_scales_are_equal() {
     let place = images(&svg)[0].place;
     assert!((place.width / place.height - 120.0 / 80.0).abs() < 1e-9, "equal scales");
     let texts = texts(&svg);
-    // Numbers with one place each: 40 stands on both axes.
+    // Labels that occur only once: 40 is on both axes.
     let below = find(&texts, "−20")[0].room.center;
     assert!((below.x - (place.left + 40.0 / 120.0 * place.width)).abs() < 0.02);
     assert!(below.y > place.top + place.height);
@@ -87,7 +87,7 @@ fn every_level_is_written_on_its_line_along_it_and_upright() {
     let texts = texts(&svg);
     let is_inside = |text: &&WrittenText| text.room.lies_in(&place);
     let numbers: Vec<&WrittenText> = texts.iter().filter(is_inside).collect();
-    // 1.75 only cuts the corners: too short for a number.
+    // 1.75 only cuts the corners: too short for a label.
     for level in ["0.25", "0.50", "0.75", "1.00", "1.25", "1.50"] {
         let number = numbers.iter().find(|text| text.content == level).unwrap_or_else(|| panic!("{level}"));
         let [x, y] = [
@@ -96,7 +96,7 @@ fn every_level_is_written_on_its_line_along_it_and_upright() {
         ];
         let radius = level.parse::<f64>().unwrap().sqrt();
         assert!((x.hypot(y) - radius).abs() < 3.0 / place.width * 2.0, "{level} at {x}, {y}");
-        // Along the circle: across the radius. On the page y points down.
+        // Along the circle, so perpendicular to the radius. On the page y points down.
         let (sine, cosine) = number.room.turn.sin_cos();
         assert!((x * cosine - y * sine).abs() < 0.05 * radius, "{level}");
         assert!(cosine >= 0.0);
@@ -119,7 +119,7 @@ fn a_line_leaves_a_gap_for_its_number() {
     assert_eq!(pieces, [line(start, first - 2.5), line(last + 2.5, end)]);
 }
 
-/// First and last x of the paths that begin at a height.
+/// First and last x of the paths that begin at a given height.
 fn pieces_at(svg: &str, height: f64) -> Vec<[f64; 2]> {
     let paths = svg.lines().filter(|line| line.starts_with("<path") && line.contains("stroke-opacity"));
     let data = paths.filter_map(|line| line.split('"').nth(1));

@@ -17,7 +17,7 @@ fn series(name: &str, values: &[Option<f64>]) -> Series {
     Series { name: name.into(), points }
 }
 
-/// Places of the paths with a series' colour.
+/// Coordinates of the paths in a series' colour.
 fn lines(svg: &str, color: &str) -> Vec<Vec<f64>> {
     let paths = svg.lines().filter(|line| line.starts_with("<path") && line.contains(color));
     paths
