@@ -126,7 +126,7 @@ mod tests {
             let threads = Threads::new(NonZeroUsize::new(count));
             let squares: Vec<u32> = threads.map((0..100).collect(), |number: u32| number * number);
             assert!(squares.iter().zip(0..).all(|(square, number)| *square == number * number));
-            let ours = threads.map(vec![(); 8], |()| rayon::current_num_threads());
+            let ours: Vec<usize> = threads.map(vec![(); 8], |()| rayon::current_num_threads());
             let expected = if count == 1 { rayon::current_num_threads() } else { count };
             assert_eq!(ours, vec![expected; 8]);
         }

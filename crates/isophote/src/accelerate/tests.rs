@@ -28,7 +28,7 @@ fn boxes(least: usize) -> impl Strategy<Value = Vec<Option<Bounds>>> {
 
 #[expect(clippy::cast_possible_truncation, reason = "a few boxes")]
 fn tree_over(boxes: &[Option<Bounds>]) -> Accelerator {
-    Accelerator::new(boxes.len() as u32, |number| boxes[number as usize])
+    Accelerator::new(&Threads::single(), boxes.len() as u32, |number| boxes[number as usize])
 }
 
 fn moved(boxes: &[Option<Bounds>], size: f64, place: Vector) -> Vec<Option<Bounds>> {

@@ -19,7 +19,7 @@ impl Cylinder {
         Self { body: Cone::new(from, to, [radius, radius]) }
     }
 
-    /// See [`Cone::meet`].
+    /// See [`Cone::intersect`].
     pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         self.body.intersect(ray, accuracy)
     }
