@@ -1,4 +1,4 @@
-//! The one suite that every renderer passes.
+//! The conformance suite that every renderer passes.
 
 use crate::color::Rgb;
 use crate::double_double::DoubleDouble;
@@ -12,16 +12,16 @@ use crate::shade::LightTerm;
 use crate::tolerance::{DOUBLE, Tolerance};
 use crate::vector::Vector;
 
-/// What was found when a renderer was held against exact arithmetic.
+/// The deviation of a renderer from exact arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// The largest error, as a part of the map's peak.
+    /// The largest error, as a fraction of the map's peak.
     pub of_peak: f64,
     /// The largest relative error where the cosines are large enough.
     pub relative: f64,
     /// The largest relative error, whatever the cosines, of values above a thousandth of the peak.
     pub at_edges: f64,
-    /// Pixels that were compared.
+    /// The number of compared pixels.
     pub visible: usize,
 }
 
@@ -31,45 +31,45 @@ pub enum NonConformance {
     /// It did not render at all.
     #[error("{0}")]
     Render(#[from] RenderError),
-    /// It sees a surface where there is none, none where there is one, or another one.
+    /// It sees a surface where there is none, none where there is one, or the wrong one.
     #[error("column {}, row {}: sees shape {found}, should see {expected} (−1: none)", pixel.column, pixel.row)]
     Visibility {
-        /// Where.
+        /// The pixel.
         pixel: Pixel,
-        /// What it sees.
+        /// The shape that it sees.
         found: i32,
-        /// What is to be seen.
+        /// The shape that it should see.
         expected: i32,
     },
-    /// A pixel without a surface is not zero.
+    /// A pixel without a surface that is not zero.
     #[error("column {}, row {}: {channel} is {value} where no surface is", pixel.column, pixel.row)]
     NotZero {
-        /// Where.
+        /// The pixel.
         pixel: Pixel,
-        /// Of what.
+        /// The channel.
         channel: String,
         /// The value.
         value: f64,
     },
-    /// A value is too far off.
+    /// A value whose error is too large.
     #[error(
         "column {}, row {}: {channel} is {found:e} instead of {expected:e}: off by {error:e} {of}, allowed {allowed:e}",
         pixel.column, pixel.row
     )]
     Value {
-        /// Where.
+        /// The pixel.
         pixel: Pixel,
-        /// Of what.
+        /// The channel.
         channel: String,
-        /// What it says.
+        /// The rendered value.
         found: f64,
-        /// What is right.
+        /// The correct value.
         expected: f64,
-        /// How far off it is.
+        /// The error.
         error: f64,
         /// `of the peak`, `relative` or `absolutely`.
         of: &'static str,
-        /// How far off it may be.
+        /// The allowed error.
         allowed: f64,
     },
 }
@@ -79,9 +79,9 @@ const COMPARED: [Quantity; 5] =
     [Quantity::Brightness, Quantity::Irradiance, Quantity::Diffuse, Quantity::Specular, Quantity::Ambient];
 const IRRADIANCE: usize = 1;
 
-/// Holds a renderer against the same formulas in 32 digits, pixel by pixel: what is seen and that nothing is where no
-/// surface is; brightness, irradiance and its parts, by light too; depth, position and normal. Of a scene with colours each
-/// component.
+/// Compares a renderer with the same formulas in 32 digits, pixel by pixel: the visible shapes, and zeros where there is no
+/// surface; brightness, irradiance and its parts, including those of single lights; depth, position and normal. In a scene
+/// with colours, each component.
 ///
 /// # Errors
 /// The first pixel that is out of tolerance.
@@ -148,7 +148,7 @@ impl Deviation {
     }
 }
 
-/// What exact arithmetic gives, to 32 digits.
+/// The results of exact arithmetic, to 32 digits.
 struct Exact {
     pixels: Vec<Option<ExactPixel>>,
     /// The brightest pixel of each compared channel.
@@ -164,13 +164,13 @@ struct Peak {
 struct ExactPixel {
     shape: i32,
     values: [f64; 5],
-    /// The smallest of cosθ_o, the lit lights' cosθ_i and [their own](cosine_of_emission).
+    /// The smallest of cosθ_o, the lit lights' cosθ_i and [their own](cosine_of_emission) cosines.
     least_cosine: f64,
-    /// n tanθ_h of the highlights, by their share in each value.
+    /// n tanθ_h of the highlights, weighted by their share in each value.
     flanks: [f64; 5],
-    /// In metres.
+    /// The distance, in metres.
     distance: f64,
-    /// In metres.
+    /// The position, in metres.
     position: Vector,
     normal: Vector,
     /// R, in metres.
@@ -237,8 +237,8 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     })
 }
 
-/// cosγ of a Lambertian light: the relative error of its intensity is that of a direction over cosγ. Of any other light,
-/// what takes its place; 1 where the intensity does not depend on the direction.
+/// cosγ of a Lambertian light: the relative error of its intensity is that of a direction over cosγ. For any other light,
+/// the equivalent number; 1 if the intensity does not depend on the direction.
 #[must_use]
 pub fn cosine_of_emission(light: &Light, term: &LightTerm<DoubleDouble>) -> f64 {
     match &light.kind {
@@ -256,7 +256,7 @@ fn rounded(vector: Vector<DoubleDouble>) -> Vector {
     vector.map(DoubleDouble::rounded)
 }
 
-/// Lengths as parts of themselves and of the shape's size, the normal as part of its length, which is 1.
+/// Lengths relative to themselves and to the shape's size, the normal relative to its length, which is 1.
 fn compare_geometry(
     map: &Map,
     index: usize,
@@ -285,7 +285,7 @@ fn compare_geometry(
     Ok(())
 }
 
-/// Each light's share as a part of the brightest irradiance of all lights.
+/// Each light's share, as a fraction of the brightest irradiance of all lights.
 fn compare_lights(
     map: &Map,
     index: usize,

@@ -1,26 +1,26 @@
-//! Numbers of 32 digits: the unevaluated sum of two doubles.
+//! Numbers with 32 digits: the unevaluated sum of two doubles.
 //!
-//! They trace the few rays for which a double is not enough, and they are the yardstick by which the tests measure
-//! the error of everything else. (Ours, because the crate at hand, twofloat 0.8.4, gave (1/3)·3 − 1 = −5.6e-17 and
-//! exp(ln x) to 11 digits.) Algorithms: Dekker 1971; Knuth, TAOCP 4.2.2; Joldeș, Muller and Popescu, "Tight and
+//! They trace the few rays for which a double is not enough, and they are the reference against which the tests measure the
+//! error of everything else. (This is our own implementation because the available crate, twofloat 0.8.4, gave (1/3)·3 − 1 =
+//! −5.6e-17 and exp(ln x) to 11 digits.) Algorithms: Dekker 1971; Knuth, TAOCP 4.2.2; Joldeș, Muller and Popescu, "Tight and
 //! rigorous error bounds for basic building blocks of double-word arithmetic", ACM TOMS 44(2), 2017.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::real::Real;
 
-/// A number of about 106 bits: `high + low`, with |low| at most half a unit in the last place of `high`. Or a vector of
-/// such numbers, in two vectors of doubles.
+/// A number with about 106 bits: `high + low`, with |low| at most half a unit in the last place of `high`. Or a vector of
+/// such numbers, as two vectors of doubles.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct DoubleDouble<T = f64> {
     high: T,
     low: T,
 }
 
-/// A number type whose products can be had exactly, as two numbers.
+/// A number type whose products can be computed exactly, as two numbers.
 ///
-/// Pairs of vectors must be computed in place, for the instructions at hand; of pairs of doubles that would only make the
-/// program large. So each type says by itself how its operations are called.
+/// Operations on pairs of vectors must be inlined, so that they use the selected instruction set; for pairs of doubles,
+/// inlining would only make the program large. So each type defines how its operations are called.
 pub trait ExactProduct: Real {
     /// self · factor − product, exactly, when `product` is the rounded self · factor.
     #[must_use]
@@ -39,7 +39,7 @@ pub trait ExactProduct: Real {
     fn quotient_of_pairs(first: DoubleDouble<Self>, second: DoubleDouble<Self>) -> DoubleDouble<Self>;
 }
 
-/// The operations of [`ExactProduct`] on pairs, with how they are called.
+/// The operations of [`ExactProduct`] on pairs, with their inlining attribute.
 macro_rules! operations_on_pairs {
     ($inline:meta) => {
         #[$inline]
@@ -80,14 +80,14 @@ impl<T> DoubleDouble<T> {
 }
 
 impl<T: ExactProduct> DoubleDouble<T> {
-    /// A number of half the digits, exactly.
+    /// A number with half the digits, exactly.
     #[must_use]
     #[inline(always)]
     pub fn exactly(high: T) -> Self {
         Self { high, low: high.splat_like(0.0) }
     }
 
-    /// The nearest number of half the digits.
+    /// The nearest number with half the digits.
     #[must_use]
     #[inline(always)]
     pub fn nearest(self) -> T {
@@ -103,7 +103,7 @@ impl<T: ExactProduct> DoubleDouble<T> {
         Self { high, low: (a - (high - b_kept)) + (b - b_kept) }
     }
 
-    /// a · b, exactly (but for underflow).
+    /// a · b, exactly (except for underflow).
     #[must_use]
     #[inline(always)]
     pub fn product_of(a: T, b: T) -> Self {
@@ -143,8 +143,8 @@ impl DoubleDouble {
         if self.high < 0.0 {
             return Self::from_f64(1.0) / (-self).exp();
         }
-        // eˣ = (e^(x/1024))^1024: of the small argument a short series has all the digits. It is kept as e^y − 1,
-        // whose squaring rule (1 + z)² − 1 = 2z + z² loses none of them.
+        // eˣ = (e^(x/1024))^1024: for the small argument, a short series has full accuracy. It is stored as e^y − 1, for
+        // which the squaring rule (1 + z)² − 1 = 2z + z² loses no digits.
         let halvings = 10;
         let scale = 0.5_f64.powi(halvings);
         let small = Self { high: self.high * scale, low: self.low * scale };
@@ -161,7 +161,7 @@ impl DoubleDouble {
         minus_one + one
     }
 
-    /// ln x for x > 0, to about 30 digits: Newton's step on the double's logarithm, twice.
+    /// ln x for x > 0, to about 30 digits: two Newton steps from the double's logarithm.
     #[must_use]
     pub fn ln(self) -> Self {
         let one = Self::from_f64(1.0);
@@ -172,13 +172,13 @@ impl DoubleDouble {
         logarithm
     }
 
-    /// Sine and cosine of an angle within ±100, to about 29 digits behind the point.
+    /// Sine and cosine of an angle within ±100, to about 29 decimal places.
     #[must_use]
     pub fn sine_and_cosine(self) -> (Self, Self) {
         let one = Self::from_f64(1.0);
         let quarters = (self.high / std::f64::consts::FRAC_PI_2).round();
         let rest = self - Self::PI * Self::from_f64(0.5 * quarters);
-        // Of an angle up to an eighth of a turn the series have all the digits by the 29th power.
+        // For an angle up to an eighth of a turn, the series have full accuracy by the 29th power.
         let square = rest * rest;
         let (mut sine, mut cosine) = (rest, one);
         let (mut sine_term, mut cosine_term) = (rest, one);
@@ -197,7 +197,7 @@ impl DoubleDouble {
         }
     }
 
-    /// A power with an exponent above 0 of a base in 0…1: the whole part of the exponent by squaring, the rest by
+    /// A power with an exponent above 0 of a base in 0…1: the integer part of the exponent by repeated squaring, the rest by
     /// the logarithm.
     #[must_use]
     pub fn power(self, exponent: f64) -> Self {
@@ -243,7 +243,7 @@ impl<T: ExactProduct> Real for DoubleDouble<T> {
 
     #[inline(always)]
     fn is_less(self, other: Self) -> T::Mask {
-        // The difference of two such numbers is never rounded to the other sign.
+        // The difference of two such numbers is never rounded to the opposite sign.
         let difference = self - other;
         difference.high.is_less(difference.high.splat_like(0.0))
     }
@@ -270,7 +270,7 @@ impl<T: ExactProduct> DoubleDouble<T> {
         Self::normalized(product.high, product.low + across)
     }
 
-    /// Long division, three digits of 53 bits.
+    /// Long division, with three digits of 53 bits.
     #[inline(always)]
     pub(crate) fn over(self, other: Self) -> Self {
         let first = self.high / other.high;
@@ -344,7 +344,7 @@ mod tests {
 
     #[test]
     fn known_numbers_have_their_second_double() {
-        // The nearest doubles to √2, ln 2 and e, and what they leave over (50-digit values).
+        // The nearest doubles to √2, ln 2 and e, and their remainders (50-digit values).
         assert_same(
             DoubleDouble::from_f64(2.0).sqrt(),
             DoubleDouble { high: std::f64::consts::SQRT_2, low: -9.667_293_313_452_913e-17 },

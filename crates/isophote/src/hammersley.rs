@@ -1,15 +1,15 @@
-//! Hammersley's points: few of them stand for an area.
+//! Hammersley points: few of them represent an area well.
 
-/// So many points of the unit square, evenly around its middle. Of n = 2^m points, every rectangle of area 1/n whose sides
-/// are powers of 1/2 holds exactly one (a (0, m, 2)-net), so that edges of any direction cut off about their share of them.
-/// One point is the centre.
+/// This many points of the unit square, spread evenly around its middle. Of n = 2^m points, every rectangle of area 1/n
+/// whose sides are powers of 1/2 contains exactly one (a (0, m, 2)-net), so that edges in any direction cut off roughly
+/// their share of them. One point is the centre.
 pub fn points(count: u32) -> Vec<[f64; 2]> {
     let count = count.max(1);
     let shift = 0.5 - (0..count).map(mirrored).sum::<f64>() / f64::from(count);
     (0..count).map(|index| [(f64::from(index) + 0.5) / f64::from(count), mirrored(index) + shift]).collect()
 }
 
-/// The bits of a number, mirrored at the binary point.
+/// The bits of a number, reversed behind the binary point.
 fn mirrored(index: u32) -> f64 {
     f64::from(index.reverse_bits()) / 4_294_967_296.0
 }

@@ -1,12 +1,12 @@
-//! Vectors of lanes, each lane a pixel: the only file that names the SIMD crate.
+//! SIMD vectors with one pixel per lane: the only file that names the SIMD crate.
 //!
-//! A vector has 16 numbers in single precision or 8 in double, in one register or two; with the widest registers two vectors
-//! are computed side by side. Where registers have 16 bytes, vectors have 4 and 2 numbers: emulating wider ones makes code
-//! large and slow to compile. Every lane is computed alone and rounded alike, so neither a machine's width nor a
-//! pixel's place in a vector changes a bit. (With the exception of machines that have no fused multiplication and addition:
-//! SSE and WebAssembly round products before they add. AVX2, AVX-512 and NEON agree.)
+//! A vector has 16 numbers in single precision or 8 in double, in one register or two; with the widest registers, two
+//! vectors are computed side by side. Where registers have 16 bytes, vectors have 4 and 2 numbers: emulating wider ones
+//! makes the code large and slow to compile. Every lane is computed independently and rounded alike, so neither the
+//! machine's vector width nor a pixel's position in a vector changes a bit. (The exception is machines without fused
+//! multiply-add: SSE and WebAssembly round products before adding. AVX2, AVX-512 and NEON agree.)
 //!
-//! Everything generic over [`Lane`] must be `#[inline(always)]`: what is not ends up compiled for the baseline.
+//! Everything generic over [`Lane`] must be `#[inline(always)]`: anything else is compiled for the baseline instruction set.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -18,10 +18,10 @@ use fearless_simd::{
 use crate::double_double::{DoubleDouble, ExactProduct, operations_on_pairs};
 use crate::real::Real;
 
-/// What vectors are computed by.
+/// The instruction set that vectors are computed with.
 pub trait SimdToken: Copy {
-    /// Does a part of a job; mark the closure `#[inline(always)]`. The part is compiled by itself: compilers take long over
-    /// large functions, about as the square of their size.
+    /// Runs part of a job in a function of its own; mark the closure `#[inline(always)]`. Compile time grows roughly with
+    /// the square of a function's size, so large functions are split.
     fn in_own_function<R>(self, part: impl FnOnce() -> R) -> R;
 }
 
@@ -34,22 +34,22 @@ impl<S: Simd> SimdToken for S {
 
 /// A vector of numbers.
 pub trait Lane: Real {
-    /// One of its numbers.
+    /// The type of one of the numbers.
     type Element: Element;
-    /// The instructions that compute it.
+    /// The instruction set that computes it.
     type Token: SimdToken;
     /// How many numbers there are.
     const COUNT: usize;
-    /// The vector of a single one, where this one is two of them.
+    /// The single vector type, where this one is a pair.
     type Narrow: Lane<Element = Self::Element, Token = Self::Token>;
 
     /// The same number in every lane.
     fn splat(token: Self::Token, element: Self::Element) -> Self;
 
-    /// Reads the numbers; the slice has [`COUNT`](Self::COUNT) of them at least.
+    /// Reads the numbers; the slice must have at least [`COUNT`](Self::COUNT) of them.
     fn load(token: Self::Token, numbers: &[Self::Element]) -> Self;
 
-    /// Reads doubles and rounds them; the slice has [`COUNT`](Self::COUNT) of them at least.
+    /// Reads doubles and rounds them; the slice must have at least [`COUNT`](Self::COUNT) of them.
     fn load_doubles(token: Self::Token, numbers: &[f64]) -> Self;
 
     /// Bit i tells whether the mask is set in lane i.
@@ -66,7 +66,8 @@ pub trait Lane: Real {
     #[must_use]
     fn min(self, other: Self) -> Self;
 
-    /// For lane i the distance (first + i) − origin, computed in double precision and then rounded. `first` is whole.
+    /// For lane i, the distance (first + i) − origin, computed in double precision and then rounded. `first` must be an
+    /// integer.
     fn distances(token: Self::Token, first: f64, origin: f64) -> Self;
 
     /// Writes the numbers; the slice has room for [`COUNT`](Self::COUNT).
@@ -76,15 +77,15 @@ pub trait Lane: Real {
     #[must_use]
     fn product_rest(self, factor: Self, product: Self) -> Self;
 
-    /// k of x = m·2ᵏ with 1 ≤ m < 2, for a positive normal x.
+    /// The k of x = m·2ᵏ with 1 ≤ m < 2, for a positive normal x.
     #[must_use]
     fn exponent(self) -> Self;
 
-    /// m of x = m·2ᵏ with 1 ≤ m < 2, for a positive normal x.
+    /// The m of x = m·2ᵏ with 1 ≤ m < 2, for a positive normal x.
     #[must_use]
     fn mantissa(self) -> Self;
 
-    /// 2ᵏ of a whole number k within the range of exponents of normal numbers.
+    /// 2ᵏ for an integer k within the exponent range of normal numbers.
     #[must_use]
     fn power_of_two(self) -> Self;
 }
@@ -98,24 +99,24 @@ impl<V: Lane<Element = f64>> ExactProduct for V {
     operations_on_pairs!(inline(always));
 }
 
-/// A number of a lane.
+/// The number type of a lane.
 pub trait Element: Copy + Default + PartialOrd + Send + Sync + 'static {
-    /// Significant digits: what polynomials are cut for.
+    /// Its precision, which sets the degree of polynomials.
     const PRECISION: Precision;
 
-    /// The nearest such number.
+    /// The nearest number of this type.
     fn from_f64(value: f64) -> Self;
 
     /// The number, exactly.
     fn to_f64(self) -> f64;
 
-    /// The same numbers, if they are doubles.
+    /// The same slice, if this type is `f64`.
     fn of_doubles(numbers: &mut [f64]) -> Option<&mut [Self]>;
 
-    /// The same numbers, if they are of single precision.
+    /// The same slice, if this type is `f32`.
     fn of_singles(numbers: &mut [f32]) -> Option<&mut [Self]>;
 
-    /// The same numbers, if they are of that type.
+    /// The same slice, if this type is `E`.
     fn cast<E: Element>(numbers: &mut [Self]) -> Option<&mut [E]>;
 }
 
@@ -199,18 +200,18 @@ impl Element for f32 {
     }
 }
 
-/// The instructions of a machine.
+/// An instruction set of the machine.
 #[derive(Clone, Copy, Debug)]
 pub struct Instructions(Level);
 
 impl Instructions {
-    /// The best that this machine has.
+    /// The best instruction set of this machine.
     #[must_use]
     pub fn best() -> Self {
         Self(known(Level::new()))
     }
 
-    /// All that this machine has, for tests that hold each of them to the same results.
+    /// All instruction sets of this machine, for tests that compare their results.
     #[must_use]
     pub fn all() -> Vec<Self> {
         let best = Level::new();
@@ -222,7 +223,7 @@ impl Instructions {
         levels.into_iter().flatten().map(Self).collect()
     }
 
-    /// Their usual name, such as `avx512`.
+    /// Its usual name, such as `avx512`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {
@@ -238,7 +239,7 @@ impl Instructions {
         }
     }
 
-    /// Whether a product is added without being rounded first: such machines agree in every bit.
+    /// Whether it has fused multiply-add, which does not round the product: such machines agree in every bit.
     #[must_use]
     #[inline(always)]
     pub fn fuse(self) -> bool {
@@ -251,13 +252,13 @@ impl Instructions {
         }
     }
 
-    /// Runs a job with vectors for these instructions.
+    /// Runs a job with vectors for this instruction set.
     pub fn run<J: LaneJob>(self, job: J) -> J::Output {
         job.run_by(self)
     }
 }
 
-/// A level for which kernels are compiled.
+/// A level that kernels are compiled for.
 fn known(level: Level) -> Level {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     if let (Level::Sse4_2(_), Some(token)) = (level, level.as_sse2()) {
@@ -266,27 +267,27 @@ fn known(level: Level) -> Level {
     level
 }
 
-/// Something to be computed with vectors.
+/// A computation on vectors.
 pub trait LaneJob {
-    /// What comes of it.
+    /// Its result.
     type Output;
 
-    /// Computes it; mark it `#[inline(always)]`.
+    /// Runs it; mark it `#[inline(always)]`.
     fn run<S, D>(self, token: S::Token) -> Self::Output
     where
         S: Lane<Element = f32>,
         D: Lane<Element = f64, Token = S::Token>;
 
-    /// Computes it by these instructions. All that a job calls is compiled into this function, once for each kind of
-    /// instructions. (As a method of the job it is compiled beside other jobs, and not with them.)
+    /// Runs it with this instruction set. Everything that a job calls is compiled into this function, once per instruction
+    /// set. (Because it is a method of the job, each job is compiled separately.)
     #[inline(never)]
     fn run_by(self, instructions: Instructions) -> Self::Output
     where
         Self: Sized,
     {
         let level = instructions.0;
-        // Not the crate's `dispatch!`: that compiles a kernel for SSE4.2 too, unless flags from outside the source say
-        // otherwise. Machines between SSE2 and AVX2 (2008 to 2013) take the SSE2 kernels.
+        // Not the crate's `dispatch!`, which would also compile a kernel for SSE4.2 unless build flags set outside the
+        // source say otherwise. Machines between SSE2 and AVX2 (2008 to 2013) use the SSE2 kernels.
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         {
             if let Some(token) = level.as_avx512() {
@@ -311,7 +312,7 @@ pub trait LaneJob {
     }
 }
 
-/// Where there are no vector instructions.
+/// For machines without vector instructions.
 fn run_without<J: LaneJob>(level: Level, job: J) -> J::Output {
     #[cfg(any(
         all(target_arch = "wasm32", not(target_feature = "simd128")),
@@ -329,11 +330,11 @@ fn run_with<S: Simd, J: LaneJob>(simd: S, job: J) -> J::Output {
     simd.vectorize(
         #[inline(always)]
         || {
-            // Two vectors in flight hide the latency of the divider. Where a vector fills two registers of sixteen, there
-            // is no room for two.
+            // Two vectors in flight hide the latency of the divider. Where a vector already fills two of sixteen registers,
+            // there is no room for two.
             match const { <S::f32s as SimdBase<S>>::LEN } {
                 16 => job.run::<Pair<f32x16<S>>, Pair<f64x8<S>>>(simd),
-                // NEON has registers for four at a time.
+                // NEON has enough registers for four at a time.
                 4 if !cfg!(target_arch = "aarch64") => job.run::<f32x4<S>, f64x2<S>>(simd),
                 _ => job.run::<f32x16<S>, f64x8<S>>(simd),
             }
@@ -426,7 +427,7 @@ macro_rules! lane {
                 if Instructions(self.simd.level()).fuse() {
                     return fearless_simd::SimdFloat::mul_add(self, factor, -product);
                 }
-                // Dekker's way: numbers of half the digits, whose products are exact.
+                // Dekker's splitting: halves with half the digits, whose products are exact.
                 let halves = |whole: Self| {
                     let shifted = whole * $half;
                     let upper = shifted - (shifted - whole);
@@ -438,7 +439,7 @@ macro_rules! lane {
 
             #[inline(always)]
             fn exponent(self) -> Self {
-                // The exponent's bits, put below the binary point of a number whose last digit counts ones.
+                // Puts the exponent bits below the binary point of a number whose last digit counts ones.
                 let bits: $bits<S> = self.bitcast();
                 let whole = <Self as Lane>::splat(self.simd, $whole);
                 let biased = (bits >> $width) | whole.bitcast::<$bits<S>>();

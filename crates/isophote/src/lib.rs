@@ -2,7 +2,8 @@
 //!
 //! # A tour
 //!
-//! A [scene](scene::Scene) is a text in TOML or JSON. It is checked once, as a whole; what comes out is valid, in metres.
+//! A [scene](scene::Scene) is TOML or JSON text. It is validated once, as a whole; the result is valid, with lengths in
+//! metres.
 //!
 //! ```
 //! use isophote::scene::{Scene, Syntax};
@@ -35,7 +36,7 @@
 //! # Ok::<(), isophote::scene::SceneError>(())
 //! ```
 //!
-//! What is wrong with a scene is said with its place, its value and what is allowed.
+//! An error message names the place in the scene, the value, and what is allowed.
 //!
 //! ```
 //! # use isophote::scene::{Scene, Syntax};
@@ -43,8 +44,8 @@
 //! assert!(error.to_string().contains("allowed: mm, cm, m"));
 //! ```
 //!
-//! [`PreparedScene`](prepare::PreparedScene) lays a scene out for tracing. A [`Renderer`](render::Renderer) makes a
-//! [`Map`](map::Map) of it: named channels with units, and a mask that tells which pixels see a surface.
+//! [`PreparedScene`](prepare::PreparedScene) prepares a scene for tracing. A [`Renderer`](render::Renderer) turns it into a
+//! [`Map`](map::Map): named channels with units, and a mask of the pixels that see a surface.
 //!
 //! ```
 //! use isophote::analysis::statistics::statistics;
@@ -63,7 +64,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A [probe](analysis::probe) is the value at a point, and explains itself.
+//! A [probe](analysis::probe) gives the value at a point, and can explain how it was computed.
 //!
 //! ```
 //! use isophote::analysis::probe::ProbePosition;

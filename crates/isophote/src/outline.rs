@@ -1,4 +1,4 @@
-//! Where a shape appears on the screen: for renderers that go along rows instead of tracing ray by ray.
+//! Where a shape appears on the screen: for renderers that work along rows instead of tracing ray by ray.
 
 use crate::camera::{CameraFrame, Projection, Screen, between};
 use crate::double_double::{DoubleDouble, ExactProduct};
@@ -14,7 +14,7 @@ pub enum Outline {
     Unseen,
     /// Within an ellipse.
     Ellipse(Box<Ellipse>),
-    /// In a place that has no such simple form: the eye is inside, or the shape reaches beside or behind it.
+    /// In a region without such a simple form: the eye is inside, or the shape extends beside or behind it.
     Unknown,
 }
 
@@ -31,10 +31,10 @@ impl Outline {
     }
 }
 
-/// The outline of a sphere that is wholly before the eye, and what its pixels see.
+/// The outline of a sphere that is wholly in front of the eye, and what its pixels see.
 ///
-/// In units of the radius from the eye, with the screen at distance 1, the sphere's centre is c and a ray goes along
-/// d = (x, y, 1). Its clearance cos²θ_o is
+/// In units of the radius, relative to the eye, with the screen at distance 1, the sphere's centre is c and a ray has the
+/// direction d = (x, y, 1). Its clearance cos²θ_o is
 ///
 /// ```text
 /// cos²θ_o = 1 − ‖d × c‖²/‖d‖² = A (x − x_a)(x_b − x)/‖d‖²,   A = c_y² + c_z² − 1
@@ -42,51 +42,51 @@ impl Outline {
 /// y_a, y_b = (c_y c_z ∓ √A)/Z,   Z = c_z² − 1
 /// ```
 ///
-/// Everything is computed once in 32 digits and counted in pixels from the one nearest to the outline's middle: after
-/// that a double loses no digit by a great distance, nor to a small outline far from the axis. What is left is the
+/// Everything is computed once with 32 digits, in pixels relative to the one nearest to the outline's middle. After that, a
+/// double loses no digits because of a great distance, or because a small outline is far from the axis. What remains is the
 /// rounding of the roots themselves, a few ε of the clearance anywhere.
 #[derive(Clone, Copy, Debug)]
 pub struct Ellipse<T = f64> {
-    /// The pixel from which columns and rows are counted: whole numbers, not always within the image.
+    /// The pixel relative to which columns and rows are counted: whole numbers, not always within the image.
     pub column: T,
     /// See [`column`](Self::column).
     pub row: T,
-    /// The rows where the outline begins and ends, counted from `row`.
+    /// The rows where the outline begins and ends, relative to `row`.
     pub rows: [T; 2],
-    /// m, counted from `column`, in the row `row` and its growth from row to row.
+    /// m, relative to `column`, in the row `row`, and its change per row.
     pub middle: [T; 2],
     /// w² over (v − v_a)(v_b − v), in pixels.
     pub width_squared: T,
     /// cos²θ_o ‖d‖² over (u − u_a)(u_b − u), in pixels.
     pub clearance: T,
-    /// d at the pixel from which is counted, and its growth from column to column and row to row.
+    /// d at the reference pixel, and its change per column and per row.
     pub direction: [Vector<T>; 3],
     /// d × c likewise.
     pub moment: [Vector<T>; 3],
-    /// From the eye to the centre, in radii.
+    /// The vector from the eye to the centre, in radii.
     pub center: Vector<T>,
 }
 
-/// A row of an outline, in any number type. u is a column, counted from [`Ellipse::column`].
+/// A row of an outline, in any number type. u is a column, relative to [`Ellipse::column`].
 #[derive(Clone, Copy, Debug)]
 pub struct RowOfEllipse<T = f64> {
-    /// Where the outline begins and ends; the same twice where the row misses it.
+    /// Where the outline begins and ends; twice the same number if the row misses it.
     pub roots: [T; 2],
     /// cos²θ_o ‖d‖² over (u − u_a)(u − u_b): negative.
     pub clearance: T,
     /// d at u = 0.
     pub direction: Vector<T>,
-    /// The growth of d from column to column.
+    /// The change of d per column.
     pub direction_step: Vector<T>,
     /// d × c at u = 0, in radii.
     pub moment: Vector<T>,
-    /// The growth of d × c from column to column.
+    /// The change of d × c per column.
     pub moment_step: Vector<T>,
-    /// From the eye to the centre, in radii.
+    /// The vector from the eye to the centre, in radii.
     pub center: Vector<T>,
 }
 
-/// A place in a row of an outline, with the digits that near the outline only the roots know.
+/// A position in a row of an outline, with distances from the roots, which are accurate near the outline.
 #[derive(Clone, Copy, Debug)]
 pub struct PlaceInRow<T = f64> {
     /// u.
@@ -97,7 +97,7 @@ pub struct PlaceInRow<T = f64> {
     pub after_last: T,
 }
 
-/// What is seen at a place in a row.
+/// What is seen at a position in a row.
 #[derive(Clone, Copy, Debug)]
 pub struct PointInRow<T = f64> {
     /// The point, in radii from the centre, which is its anchor.
@@ -124,7 +124,7 @@ impl<T: Copy> RowOfEllipse<T> {
 }
 
 impl RowOfEllipse {
-    /// The clearance cos²θ_o at a column: negative outside the outline, but in a row that misses it not as negative as it
+    /// The clearance cos²θ_o at a column: negative outside the outline; in a row that misses it, not as negative as it
     /// should be.
     #[must_use]
     #[inline(always)]
@@ -136,7 +136,7 @@ impl RowOfEllipse {
 }
 
 impl<T: Real> RowOfEllipse<T> {
-    /// The point of the sphere at a place; anything outside the outline.
+    /// The point of the sphere at a position; meaningless outside the outline.
     ///
     /// P − C = d × (d × c)/‖d‖² − cosθ_o d/‖d‖ in radii: the perpendicular from the centre to the ray, and half the chord.
     #[inline(always)]
@@ -154,7 +154,7 @@ impl<T: Real> RowOfEllipse<T> {
     }
 }
 
-/// How far before the eye, in radii, the nearest point of a sphere must be for an ellipse to be trusted.
+/// How far in front of the eye, in radii, the nearest point of a sphere must be for its ellipse to be reliable.
 pub(crate) const BEFORE_THE_EYE: f64 = 1e-3;
 
 impl Ellipse {
@@ -191,14 +191,14 @@ impl Ellipse {
         steps.chain(outline).all(fits)
     }
 
-    /// Its area in pixels.
+    /// Its area, in pixels.
     #[must_use]
     pub fn area(&self) -> f64 {
         let half_height = 0.5 * (self.rows[1] - self.rows[0]);
         std::f64::consts::PI * half_height * half_height * self.width_squared.sqrt()
     }
 
-    /// t, the distance from the eye at a column of the image in a row, in radii; of a pixel that the outline covers.
+    /// t, the distance from the eye at a column of the image in a row, in radii; for a pixel that the outline covers.
     #[must_use]
     pub fn distance_at(&self, row: u32, column: f64) -> f64 {
         let row = self.in_row(row);
@@ -209,8 +209,8 @@ impl Ellipse {
 }
 
 impl<T: ExactProduct> Ellipse<T> {
-    /// The outline of a sphere at least [`BEFORE_THE_EYE`], given by its centre in radii from the eye, in the axes of the
-    /// scene and in those of the camera.
+    /// The outline of a sphere that is at least [`BEFORE_THE_EYE`] in front of the eye, given by its centre relative to the
+    /// eye, in radii, in the axes of the scene and in those of the camera.
     #[inline(always)]
     pub(crate) fn new(
         from_eye: Vector<DoubleDouble<T>>,
@@ -285,7 +285,7 @@ impl<T: Copy> Ellipse<T> {
 }
 
 impl<T: Copy> Ellipse<T> {
-    /// All numbers the same.
+    /// An outline with all numbers equal.
     pub(crate) fn filled_with(number: T) -> Self {
         let vector = Vector { x: number, y: number, z: number };
         Self {
@@ -301,7 +301,7 @@ impl<T: Copy> Ellipse<T> {
         }
     }
 
-    /// Puts each number into its place in another outline.
+    /// Stores each number in its place in another outline.
     #[inline(always)]
     pub(crate) fn put_into<U>(self, other: &mut Ellipse<U>, mut put: impl FnMut(T, &mut U)) {
         let mut vector = |from: Vector<T>, to: &mut Vector<U>| {
@@ -330,12 +330,12 @@ impl<T: Copy> Ellipse<T> {
 }
 
 impl<T: Real> Ellipse<T> {
-    /// A row, counted from [`row`](Self::row).
+    /// A row, relative to [`row`](Self::row).
     #[must_use]
     #[inline(always)]
     pub fn row_at(&self, v: T) -> RowOfEllipse<T> {
         let width_squared = self.width_squared * ((v - self.rows[0]) * (self.rows[1] - v));
-        // Only a root that is nearly double needs to know how much it misses the row: the clearance tells.
+        // Only a nearly double root would need to know by how much it misses the row; the clearance handles that.
         let width = width_squared.max_zero().sqrt();
         let middle = self.middle[0] + self.middle[1] * v;
         RowOfEllipse {
@@ -350,7 +350,7 @@ impl<T: Real> Ellipse<T> {
     }
 }
 
-/// Whether a sphere of radius 1 is wholly beyond one of the four planes through the eye and an edge of the window.
+/// Whether a sphere of radius 1 is entirely beyond one of the four planes through the eye and an edge of the window.
 fn is_beside_the_window([x, y, z]: [f64; 3], window: &Screen) -> bool {
     let beyond = |along: f64, [low, high]: [f64; 2]| {
         let [low, high] = [low, high].map(|edge| edge / window.distance);
@@ -403,7 +403,7 @@ impl PixelGrid {
         }
     }
 
-    /// x of column 0 and y of row 0, and their growth from pixel to pixel.
+    /// x of column 0 and y of row 0, and their steps from pixel to pixel.
     pub fn rounded(&self) -> ([f64; 2], [f64; 2]) {
         ([self.first_x.rounded(), self.first_y.rounded()], [self.column_step.rounded(), self.row_step.rounded()])
     }
@@ -432,20 +432,20 @@ fn vector_of<U>(vector: Vector<DoubleDouble>, convert: &impl Fn(f64) -> U) -> Ve
 }
 
 impl<T: ExactProduct> PixelGrid<T> {
-    /// From the eye to a centre, in radii.
+    /// The vector from the eye to a centre, in radii.
     #[inline(always)]
     pub fn seen_from_eye(&self, center: Vector<DoubleDouble<T>>, radius: DoubleDouble<T>) -> Vector<DoubleDouble<T>> {
         (center - self.eye) * (radius.splat_like(1.0) / radius)
     }
 
-    /// The same in the axes of the camera: right, up, forward.
+    /// A vector converted to the axes of the camera: right, up, forward.
     #[inline(always)]
     pub fn in_camera(&self, from_eye: Vector<DoubleDouble<T>>) -> Vector<DoubleDouble<T>> {
         Vector::new(self.right.dot(from_eye), self.up.dot(from_eye), self.forward.dot(from_eye))
     }
 }
 
-/// The nearest whole number, up to [`FARTHEST`].
+/// The nearest integer, up to [`FARTHEST`].
 #[inline(always)]
 fn nearest_whole<T: ExactProduct>(number: DoubleDouble<T>) -> T {
     let number = number.nearest();
@@ -456,5 +456,5 @@ fn nearest_whole<T: ExactProduct>(number: DoubleDouble<T>) -> T {
     (bounded + magic) - magic
 }
 
-/// Columns and rows are counted exactly up to here.
+/// Columns and rows are exact up to here.
 const FARTHEST: f64 = 1e15;

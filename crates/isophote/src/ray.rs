@@ -3,8 +3,8 @@
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
-/// A ray from the eye, or from a surface to a light. It starts at `anchor + offset`, kept apart because far from the
-/// origin the sum would lose the digits that the offset still has.
+/// A ray from the eye, or from a surface to a light. It starts at `anchor + offset`; the two are stored separately because,
+/// far from the origin, the sum would lose digits that the offset still has.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray<T = f64> {
     /// A place near the start, in metres.
@@ -16,7 +16,7 @@ pub struct Ray<T = f64> {
 }
 
 impl<T: Scalar> Ray<T> {
-    /// Where the ray starts, as seen from a place.
+    /// The start of the ray, relative to a place.
     #[inline(always)]
     pub fn start_from(&self, place: Vector) -> Vector<T> {
         (self.anchor - Vector::from_f64(place)) + self.offset

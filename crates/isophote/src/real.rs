@@ -1,31 +1,31 @@
-//! The number types over which the formulas are written once.
+//! The number types for which the formulas are written once.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A real number: a double, a [pair of doubles](crate::double_double::DoubleDouble) of 32 digits, or a vector of lanes
-/// that compute several pixels at once.
+/// A real number: a double, a [pair of doubles](crate::double_double::DoubleDouble) with 32 digits, or a SIMD vector whose
+/// lanes compute several pixels at once.
 ///
-/// Branches are [`select`](Real::select) on masks, so that a type that holds several numbers can be one too.
-/// Addition, subtraction, multiplication, division and the square root are correctly rounded.
+/// Branches are [`select`](Real::select) on masks, so that types that hold several numbers can implement it too. Addition,
+/// subtraction, multiplication, division and the square root are correctly rounded.
 pub trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
-    /// The answer of a comparison.
+    /// The result of a comparison.
     type Mask: Copy;
 
-    /// About the square of the type's precision: a part of a sum of squares that is lost beside the whole.
+    /// Roughly the square of the type's precision: the fraction of a sum of squares that is negligible.
     const NEGLIGIBLE_SQUARE: f64;
 
-    /// A constant, of the same kind as `self`, whose value is not used: a vector of lanes knows by its kind which
-    /// instructions the machine has.
+    /// A constant of the same kind as `self`, whose value is not used: a SIMD vector carries the machine's instruction set
+    /// in its type.
     #[must_use]
     fn splat_like(self, value: f64) -> Self;
 
-    /// The square root of a number that is not negative.
+    /// The square root of a nonnegative number.
     #[must_use]
     fn sqrt(self) -> Self;
 
-    /// self · factor + addend, with one rounding where the machine has it in one instruction, else with two.
+    /// self · factor + addend, with a single rounding if the machine has an instruction for it, otherwise with two.
     #[must_use]
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
@@ -45,7 +45,7 @@ pub trait Real:
         Self::select(self.is_less(other), other, self)
     }
 
-    /// The number, or zero where it is negative.
+    /// The number, or zero if it is negative.
     #[must_use]
     #[inline(always)]
     fn max_zero(self) -> Self {

@@ -57,7 +57,7 @@ impl Convention {
         }
     }
 
-    /// Its formula, as a person writes it.
+    /// Its formula in readable form.
     #[must_use]
     pub fn formula(self) -> &'static str {
         match self {
@@ -85,21 +85,21 @@ impl Convention {
         }
     }
 
-    /// Whether the coefficients of a material enter at all.
+    /// Whether it uses the coefficients of a material at all.
     #[must_use]
     pub fn uses_material(self) -> bool {
         self != Self::Irradiance
     }
 
-    /// Whether the specular coefficient and the shininess of a material enter.
+    /// Whether it uses the specular coefficient and the shininess of a material.
     #[must_use]
     pub fn has_specular_part(self) -> bool {
         !matches!(self, Self::Irradiance | Self::Lambert)
     }
 }
 
-/// c(n) = (n+2)(n+4) / (8π (n + 2^(−n/2))): the constant that makes the lobe (N·H)ⁿ reflect exactly what falls on
-/// it at normal incidence (3.6). Its inverse is the albedo A(n) of the bare lobe.
+/// c(n) = (n+2)(n+4) / (8π (n + 2^(−n/2))): the constant with which the lobe (N·H)ⁿ reflects exactly all the light that
+/// falls on it at normal incidence (3.6). Its inverse is the albedo A(n) of the bare lobe.
 ///
 /// `shininess` is positive; the result is in sr⁻¹.
 #[must_use]
@@ -108,7 +108,7 @@ pub fn lobe_constant(shininess: f64) -> f64 {
     (n + 2.0) * (n + 4.0) / (8.0 * PI * (n + libm::exp2(-0.5 * n)))
 }
 
-/// What a surface is made of.
+/// The material coefficients of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reflectance {
     /// k_d, 0…1 (sr⁻¹ in the `course` convention).
@@ -119,9 +119,9 @@ pub struct Reflectance {
     pub shininess: f64,
 }
 
-/// How (N·H)ⁿ is computed from what is proportional to cos²θ_h and sin²θ_h.
+/// How (N·H)ⁿ is computed from numbers proportional to cos²θ_h and sin²θ_h.
 pub trait Lobe<T: Real> {
-    /// What [`value`](Self::value) has to be divided by; positive. Their sum makes shares of them.
+    /// The divisor that [`value`](Self::value) needs; positive. The sum of the two turns them into fractions.
     #[inline(always)]
     fn denominator(&self, cos_squared: T, sin_squared: T) -> T {
         cos_squared + sin_squared
@@ -131,7 +131,7 @@ pub trait Lobe<T: Real> {
     fn value(&self, cos_squared: T, sin_squared: T, inverse: T) -> T;
 }
 
-/// The lobe of single numbers; none, and 0 everywhere, without a shininess.
+/// The lobe for single numbers; without a shininess there is none, and it is 0 everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScalarLobe {
     shininess: Option<f64>,
@@ -140,7 +140,7 @@ pub struct ScalarLobe {
 impl<T: Scalar> Lobe<T> for ScalarLobe {
     #[inline(always)]
     fn value(&self, cos_squared: T, sin_squared: T, _: T) -> T {
-        // Divided, not multiplied by the inverse: n multiplies each rounding.
+        // Divided, not multiplied by the inverse, because n amplifies each rounding error.
         let squares = (cos_squared + sin_squared).max(T::from_f64(f64::MIN_POSITIVE));
         match self.shininess {
             Some(shininess) => T::cosine_power(cos_squared / squares, sin_squared / squares, shininess),
@@ -179,8 +179,8 @@ impl BrightnessFormula {
         Self { diffuse_constant, diffuse_cosine, specular, shininess, depends_on_viewer }
     }
 
-    /// The factor of E in the diffuse part. Zero where the surface faces away from the viewer (θ_o ≥ 90°), but
-    /// for the irradiance itself, which knows no viewer.
+    /// The factor of E in the diffuse part. Zero where the surface faces away from the viewer (θ_o ≥ 90°), except for the
+    /// irradiance itself, which does not depend on a viewer.
     #[inline(always)]
     pub fn diffuse_factor<T: Real>(&self, cos_theta_o: T) -> T {
         let constant = cos_theta_o.splat_like(self.diffuse_constant);
@@ -194,7 +194,7 @@ impl BrightnessFormula {
         Self::towards_viewer(cos_theta_o, cos_theta_o.splat_like(self.specular))
     }
 
-    /// n, where the formula has a highlight.
+    /// n, if the formula has a highlight.
     #[must_use]
     pub fn sharpness(&self) -> Option<f64> {
         (self.specular != 0.0).then_some(self.shininess)

@@ -1,4 +1,4 @@
-//! Maps of given functions, for tests of what reads maps.
+//! Maps of given functions, for testing code that reads maps.
 
 use crate::map::{Coordinates, Map, Provenance, Quantity, Resolution, Values, Window};
 use crate::units::LengthUnit;
@@ -10,7 +10,7 @@ pub(crate) struct Seen {
     pub(crate) shape: i32,
 }
 
-/// A map of brightness over the window −half..half in both directions, in metres; `seen` is asked at pixel centres.
+/// A map of brightness over the window −half..half in both directions, in metres; `seen` is called at pixel centres.
 pub(crate) fn square_map(pixels: u32, half: f64, seen: impl Fn(f64, f64) -> Option<Seen>) -> Map {
     let size = Resolution { width: pixels, height: pixels };
     let window =
@@ -38,7 +38,7 @@ pub(crate) fn square_map(pixels: u32, half: f64, seen: impl Fn(f64, f64) -> Opti
     map.build().expect("channels of one size, 0 where nothing is seen")
 }
 
-/// Everywhere shape 0, with this brightness.
+/// Shape 0 everywhere, with this brightness.
 pub(crate) fn everywhere(brightness: impl Fn(f64, f64) -> f64) -> impl Fn(f64, f64) -> Option<Seen> {
     move |x, y| Some(Seen { brightness: brightness(x, y), shape: 0 })
 }

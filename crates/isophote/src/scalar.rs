@@ -1,16 +1,16 @@
-//! Single numbers: a double, or a pair of doubles of 32 digits.
+//! Single numbers: a double, or a pair of doubles with 32 digits.
 
 use crate::double_double::DoubleDouble;
 use crate::real::Real;
 
-/// A single number: it can be asked whether it is smaller, and comes from a double.
+/// A single number: it can be compared, and converted from a double.
 ///
 /// The transcendental functions come from one portable library: the same scene gives the same bytes on every machine.
 pub trait Scalar: Real<Mask = bool> {
     /// A double, exactly.
     fn from_f64(value: f64) -> Self;
 
-    /// A number of 32 digits, to the digits of this type.
+    /// A number with 32 digits, rounded to this type.
     fn from_precise(value: DoubleDouble) -> Self;
 
     /// The nearest double.
@@ -19,14 +19,14 @@ pub trait Scalar: Real<Mask = bool> {
     /// The same number with 32 digits.
     fn precise(self) -> DoubleDouble;
 
-    /// Sine and cosine of an angle in radians, within ±100. The angle comes with 32 digits, because a double of it would have
-    /// lost what the sine of a large angle still shows.
+    /// Sine and cosine of an angle in radians, within ±100. The angle has 32 digits, because rounding it to a double would
+    /// lose digits that still affect the sine of a large angle.
     fn sine_and_cosine_of(angle: DoubleDouble) -> (Self, Self);
 
     /// cosⁿ of an angle, from the squares of its cosine and its sine: the lobe (N·H)ⁿ of (3.3) to (3.6).
     ///
-    /// Near the lobe's peak the power of the cosine would multiply its rounding error by n; the sine is small there
-    /// and carries the digits, so cosⁿ = exp(n/2 · ln(1 − sin²)).
+    /// Near the lobe's peak, the power of the cosine would amplify its rounding error by n; the sine is small there and
+    /// stays accurate, so cosⁿ = exp(n/2 · ln(1 − sin²)).
     fn cosine_power(cos_squared: Self, sin_squared: Self, exponent: f64) -> Self;
 
     /// Zero.
@@ -106,8 +106,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Against the 30-digit power e^x. The relative errors of the square, the logarithm and the product come to 2.1ε
-        /// together; |x| makes them absolute ones of the exponent, and the exponential adds its own.
+        /// Compared with the 30-digit power e^x. The relative errors of the square, the logarithm and the product add up to
+        /// 2.1ε; multiplied by |x| they become absolute errors of the exponent, and the exponential adds its own.
         #[test]
         fn the_lobe_keeps_its_digits_for_any_shininess(sin in 0.0..0.999_f64, exponent in 0.1..100_000.0_f64) {
             let sin_squared = DoubleDouble::product_of(sin, sin);

@@ -1,4 +1,4 @@
-//! The formula: from light to brightness (3.1) to (3.9). It stands here once, for every number type.
+//! The brightness formulas (3.1) to (3.9), implemented once for every number type.
 
 use crate::color::Rgb;
 use crate::light::{Emitter, PlacedEmitter};
@@ -9,12 +9,12 @@ use crate::shape::SurfacePoint;
 use crate::sum::Sum;
 use crate::vector::Vector;
 
-/// What a surface point sends to the eye, summed over all lights.
+/// The light that a surface point sends to the eye, summed over all lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shading<T = f64> {
     /// E = Σ E_j + E_a (3.1), (3.9), W/m² or lx.
     pub irradiance: T,
-    /// What of E is ambient light (3.9), W/m² or lx.
+    /// The ambient part of E (3.9), W/m² or lx.
     pub ambient: T,
     /// The diffuse part of B, in the convention's unit.
     pub diffuse: T,
@@ -23,7 +23,7 @@ pub struct Shading<T = f64> {
 }
 
 impl<T: Real> Shading<T> {
-    /// The brightness that comes of E, ambient light included, and of Σ E_j (N·H_j)ⁿ, by a formula.
+    /// The brightness that a formula gives for E (ambient light included) and Σ E_j (N·H_j)ⁿ.
     #[inline(always)]
     pub fn new(irradiance: T, lobes: T, ambient: T, formula: &BrightnessFormula, cos_theta_o: T) -> Self {
         let (diffuse, specular) = (formula.diffuse_factor(cos_theta_o), formula.specular_factor(cos_theta_o));
@@ -39,7 +39,7 @@ impl<T: Real> Shading<T> {
 }
 
 impl Shading {
-    /// The shading of a scene with colours, from that of its components: every number is their luminance (3.10).
+    /// The shading of a scene with colours, from the shadings of its components: every number is their luminance (3.10).
     #[must_use]
     pub fn luminance(components: &Rgb<Self>, weights: Rgb) -> Self {
         let of = |number: fn(&Self) -> f64| components.map(number).weighted_by(weights);
@@ -52,10 +52,10 @@ impl Shading {
     }
 }
 
-/// Sums the brightness of a surface point over the emitters, in their order.
+/// Sums the brightness of a surface point over the emitters, in order.
 ///
-/// `visibility(k)` is v of (3.1) for the emitter k: 1, or 0 in shadow, or the part that is seen. `ambient` is E_a of (3.9).
-/// `each(j, term)` sees the term of every emitter, with the index of its light.
+/// `visibility(k)` is v of (3.1) for emitter k: 1, or 0 in shadow, or the visible fraction. `ambient` is E_a of (3.9).
+/// `each(j, term)` is called with every emitter's term and the index of its light.
 #[inline(always)]
 pub fn shade<T: Scalar>(
     point: &SurfacePoint<T>,
@@ -77,43 +77,43 @@ pub fn shade<T: Scalar>(
     Shading::new(irradiance.value(), lobes.value(), ambient, formula, point.cos_theta_o)
 }
 
-/// The irradiances of some lights, taken from the terms that [`shade`] goes through.
+/// The irradiances of selected lights, accumulated from the terms that [`shade`] visits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ByLight(Vec<(usize, f64)>);
 
 impl ByLight {
-    /// Of the lights with these indices, still dark.
+    /// Selects the lights with these indices; all irradiances start at 0.
     pub fn of(lights: impl IntoIterator<Item = usize>) -> Self {
         Self(lights.into_iter().map(|light| (light, 0.0)).collect())
     }
 
-    /// Takes a term of a light if it is one of them.
+    /// Adds a term if its light is selected.
     pub fn take(&mut self, light: usize, term: &LightTerm) {
         for (_, irradiance) in self.0.iter_mut().filter(|(wanted, _)| *wanted == light) {
             *irradiance += term.irradiance;
         }
     }
 
-    /// Those of all of them, in W/m² or lx.
+    /// The irradiances of all selected lights, in W/m² or lx.
     pub fn irradiances(&self) -> impl Iterator<Item = f64> {
         self.0.iter().map(|(_, irradiance)| *irradiance)
     }
 
-    /// E_j of a light, in W/m² or lx; 0 if it is none of them.
+    /// E_j of a light, in W/m² or lx; 0 if the light is not selected.
     #[must_use]
     pub fn irradiance(&self, light: usize) -> f64 {
         self.0.iter().find(|(wanted, _)| *wanted == light).map_or(0.0, |(_, irradiance)| *irradiance)
     }
 }
 
-/// An emitter's term of the sum, or a light's, with the steps that lead to it.
+/// One emitter's (or light's) term of the sum, with the intermediate results.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightTerm<T = f64> {
     /// v_j.
     pub visibility: T,
     /// L_j, the unit vector to the light.
     pub direction: Vector<T>,
-    /// r_j, in metres; 1 for a parallel light, which has none.
+    /// r_j, in metres; 1 for a parallel light, which has no distance.
     pub distance: T,
     /// I_j(ω) towards the point, W/sr or cd; E₀ of a parallel light, W/m² or lx.
     pub intensity: T,
@@ -158,11 +158,11 @@ impl<T: Real> LightTerm<T> {
 
 /// E_j = v_j I_j cosθ_i / r_j² (3.1) or v_j E₀ cosθ_i (3.8), and the lobe (N·H_j)ⁿ of (3.3) to (3.6).
 ///
-/// Neither L nor H is normalised: r H is split into its part along N, (cosθ_i + cosθ_o) r, and the part across, of
-/// whose squares cos²θ_h and sin²θ_h are the shares. Both parts keep their digits where the other one is small. What
-/// must be divided by (r³ for the irradiance, the sum of the squares for the lobe) is divided by at once.
+/// Neither L nor H is normalised. r H is split into its component along N, (cosθ_i + cosθ_o) r, and the component across;
+/// the squares of the two are in the ratio of cos²θ_h to sin²θ_h. Each component stays accurate where the other one is
+/// small. Divisions are combined: a single one by r³ for the irradiance, and by the sum of the squares for the lobe.
 ///
-/// (What the sums do not use of the term costs nothing: compilers leave it out.)
+/// (Fields of the term that the sums do not use cost nothing: the compiler removes them.)
 #[inline(always)]
 pub fn light_term<T: Real>(
     point: &SurfacePoint<T>,
@@ -182,8 +182,8 @@ pub fn light_term<T: Real>(
     let cos_squared = half_along * half_along;
     let sin_squared = half_across.dot(half_across);
 
-    // H has no length only when the light stands straight behind the surface: then nothing is seen or nothing is lit,
-    // and the guard keeps 0/0 out of it.
+    // H has zero length only when the light is straight behind the surface, where nothing is visible or nothing is lit; the
+    // guard avoids 0/0 there.
     let negligible = distance_squared * distance.splat_like(T::NEGLIGIBLE_SQUARE);
     let squares = lobe.denominator(cos_squared, sin_squared).max(negligible);
     let cubed = distance_squared * distance;

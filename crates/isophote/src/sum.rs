@@ -1,10 +1,10 @@
-//! Sums that keep their digits.
+//! Sums without loss of accuracy.
 
 use crate::real::Real;
 use crate::scalar::Scalar;
 
-/// A sum that keeps the digits which plain addition would lose (Neumaier's form of Kahan's sum, with Knuth's
-/// branch-free exact addition). The error of n terms of one sign is that of a single rounding, whatever n is.
+/// A sum that keeps the digits that plain addition would lose (Neumaier's form of Kahan summation, with Knuth's branch-free
+/// exact addition). The error of n terms of one sign is that of a single rounding, whatever n is.
 #[derive(Clone, Copy)]
 pub struct Sum<T> {
     total: T,
@@ -12,7 +12,7 @@ pub struct Sum<T> {
 }
 
 impl<T: Scalar> Sum<T> {
-    /// Nothing summed yet.
+    /// An empty sum.
     #[must_use]
     #[inline(always)]
     pub fn new() -> Self {
@@ -21,7 +21,7 @@ impl<T: Scalar> Sum<T> {
 }
 
 impl<T: Real> Sum<T> {
-    /// Nothing summed yet, from a zero of the right kind.
+    /// An empty sum, from a zero of the right type.
     #[must_use]
     #[inline(always)]
     pub fn starting_at(zero: T) -> Self {

@@ -1,7 +1,6 @@
-//! Numbers as people read them.
+//! Numbers in readable form.
 
-/// A number with so many significant digits, without zeros at its end; as a power of ten when it is very large or
-/// very small.
+/// A number with this many significant digits, without trailing zeros; as a power of ten if it is very large or very small.
 #[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {

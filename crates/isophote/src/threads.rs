@@ -1,4 +1,4 @@
-//! The threads of a computation: every parallel loop runs on those that the caller asked for.
+//! The threads of a computation: every parallel loop runs on the threads that the caller asked for.
 
 use std::fmt;
 use std::num::NonZeroUsize;
@@ -7,31 +7,31 @@ use std::sync::{Arc, OnceLock};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// So many threads, started when they are first needed and shared by clones. With one thread, where the system
-/// has none, or in a process that was forked off from theirs, the caller's does all the work.
+/// A number of threads, started when first needed and shared by clones. With one thread, on systems without threads, or in a
+/// forked process whose parent started them, the calling thread does all the work.
 #[derive(Clone, Debug)]
 pub struct Threads {
     count: usize,
     pool: Arc<OnceLock<Pool>>,
 }
 
-/// Threads that were started, or why they were not, and in which process: those of a parent do not exist in one that was
-/// forked off, and who waits for them waits for ever.
+/// The started threads (or the reason why they did not start) and the process that they belong to: a parent's threads do not
+/// exist in a forked process, and waiting for them there would never end.
 #[derive(Debug)]
 struct Pool {
     process: u32,
     threads: Result<ThreadPool, String>,
 }
 
-/// WebAssembly has none, unless it is compiled for shared memory.
+/// WebAssembly has no threads unless it is compiled for shared memory.
 const HAS_THREADS: bool = cfg!(any(not(target_family = "wasm"), target_feature = "atomics"));
 
 /// The threads could not be started.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ThreadsError {
-    /// What was asked for.
+    /// The number of threads that was asked for.
     pub threads: usize,
-    /// What the system says.
+    /// The system's error message.
     pub reason: String,
 }
 
@@ -44,28 +44,28 @@ impl fmt::Display for ThreadsError {
 impl std::error::Error for ThreadsError {}
 
 impl Default for Threads {
-    /// As many as there are processors.
+    /// One thread per processor.
     fn default() -> Self {
         Self::new(None)
     }
 }
 
 impl Threads {
-    /// So many; as many as there are processors when unstated.
+    /// This many threads; one per processor when `None`.
     #[must_use]
     pub fn new(count: Option<NonZeroUsize>) -> Self {
-        // Told outright: a pool would otherwise take its size from an environment variable.
+        // Set explicitly: otherwise the pool would take its size from an environment variable.
         let count = count.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
         Self { count: if HAS_THREADS { count } else { 1 }, pool: Arc::default() }
     }
 
-    /// The caller's alone.
+    /// The calling thread only.
     #[must_use]
     pub fn single() -> Self {
         Self { count: 1, pool: Arc::default() }
     }
 
-    /// How many there are.
+    /// The number of threads.
     #[must_use]
     pub fn count(&self) -> usize {
         self.count
@@ -86,16 +86,16 @@ impl Threads {
         }
     }
 
-    /// Starts them, if they are not yet.
+    /// Starts the threads if they are not running yet.
     ///
     /// # Errors
-    /// What the system says if it refuses.
+    /// The system's message if it refuses.
     pub fn start(&self) -> Result<(), ThreadsError> {
         self.pool().map(|_| ())
     }
 
-    /// Does the same to each of some things, one at a time on each thread. (On the caller's alone where others could not
-    /// be started: [`start`](Self::start) tells.)
+    /// Applies a function to each item, in parallel. (On the calling thread alone if no others could be started:
+    /// [`start`](Self::start) reports that.)
     pub fn map<T: Send, U: Send, C: FromParallelIterator<U> + FromIterator<U> + Send>(
         &self,
         things: Vec<T>,

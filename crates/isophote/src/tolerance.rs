@@ -1,38 +1,38 @@
-//! The one table of tolerances: what is promised, and what tests read.
+//! The single table of tolerances: what is promised, and what the tests check.
 
-/// How far a value may be from that of exact arithmetic.
+/// How far a value may deviate from exact arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// At every visible pixel, limb included, as a part of the map's peak.
+    /// At every visible pixel, limb included, as a fraction of the map's peak.
     pub of_peak: f64,
-    /// Where even the brightest pixel has a cosine below this, the picture shows nothing but the neighbourhood of the
-    /// terminator or of the limb: all of it is then as uncertain as that cosine, and `of_peak` grows as 1/cosine.
+    /// If even the brightest pixel has a cosine below this, the picture shows only the neighbourhood of the terminator or of
+    /// the limb: all of it is then as uncertain as that cosine, and `of_peak` grows as 1/cosine.
     pub peak_cosine: f64,
     /// Relative, wherever cosθ_o, cosθ_i of every lit light and cosγ of every Lambertian one exceed
     /// [`above_cosine`](Self::above_cosine), for values above [`above_value`](Self::above_value).
     pub relative: f64,
-    /// As a part of the peak. (A highlight goes on falling for ever, and its relative error grows as it falls; nobody
-    /// sees it by then.)
+    /// As a fraction of the peak. (A highlight never stops falling off, and its relative error grows as it falls, but by
+    /// then it is invisible.)
     pub above_value: f64,
-    /// Towards the limb and the terminator the problem itself loses digits, as 1/cosine.
+    /// Towards the limb and the terminator, the problem itself loses digits, as 1/cosine.
     pub above_cosine: f64,
-    /// On the flank of a highlight the problem itself loses digits too, as n tanθ_h (weighted by the share of each
-    /// highlight in the value): `relative` grows by itself for every such flank.
+    /// On the flank of a highlight, the problem itself loses digits too, as n tanθ_h (weighted by the share of each
+    /// highlight in the value): `relative` increases by its own amount for every such flank.
     pub flank: f64,
-    /// Where a channel's peak is less, its numbers have lost digits already by being so small.
+    /// If a channel's peak is smaller than this, its numbers have already lost digits through being so small.
     pub least_peak: f64,
-    /// Relative, for values above a thousandth of the peak; it grows as `of_peak` does, and as 1/cosine below
+    /// Relative, for values above a thousandth of the peak; it grows like `of_peak`, and as 1/cosine below
     /// [`edge_cosine`](Self::edge_cosine).
     pub at_edges: f64,
-    /// Of a smaller cosine the rounding of the directions leaves no more digits: next to a light that is brighter than anything
-    /// else would be, even such a cosine makes a value above a thousandth of the peak.
+    /// For a smaller cosine, the rounding of the directions leaves no more digits: next to a light that is brighter than
+    /// anything else would be, even such a cosine gives a value above a thousandth of the peak.
     pub edge_cosine: f64,
 }
 
-/// Maps in double precision, against exact arithmetic on the scene in metres as it is stored.
+/// Maps in double precision, compared with exact arithmetic on the scene as stored, in metres.
 ///
-/// It holds while every light is at least a thousandth of a shape's size away from its surface (next to a light,
-/// E ∝ 1/r² loses the digits that r has lost, whatever the arithmetic), and the eye within 1e9 sizes of every shape.
+/// It holds if every light is at least a thousandth of a shape's size away from its surface (next to a light, E ∝ 1/r² loses
+/// the digits that r has lost, whatever the arithmetic), and the eye is within 1e9 sizes of every shape.
 pub const DOUBLE: Tolerance = Tolerance {
     of_peak: 1e-12,
     peak_cosine: 1e-2,
@@ -42,16 +42,16 @@ pub const DOUBLE: Tolerance = Tolerance {
     flank: f64::INFINITY,
     least_peak: 1e-290,
     at_edges: 1e-9,
-    // Near an edge everything is computed in 32 digits.
+    // Near an edge, everything is computed with 32 digits.
     edge_cosine: 0.0,
 };
 
-/// Brightness and its parts in single precision; geometry is double all the same. Its conditions are those of
+/// Brightness and its parts in single precision; geometry is still in double precision. The conditions are those of
 /// [`DOUBLE`].
 ///
 /// A number of 32 bits has a relative error of 6e-8. Some ten roundings go into the directions N, L and V; even if those
-/// were rounded only once from exact ones, the lobe would multiply that by n tanθ_h. Highlights with n above 32 are
-/// computed in double.
+/// were rounded only once from exact ones, the lobe would amplify that by n tanθ_h. Highlights with n above 32 are computed
+/// in double precision.
 pub const SINGLE: Tolerance = Tolerance {
     of_peak: 3e-6,
     peak_cosine: 1e-2,
@@ -61,27 +61,28 @@ pub const SINGLE: Tolerance = Tolerance {
     flank: 20.0,
     least_peak: 1e-30,
     at_edges: 1e-4,
-    // Five roundings of 6e-8 make 3e-7 of a cosine, which is 1e-4 of this one.
+    // Five roundings of 6e-8 give 3e-7 of a cosine, which is 1e-4 of this one.
     edge_cosine: 3e-3,
 };
 
-/// Values at a given point: nothing is lost in finding the point, so the cosines may be smaller.
+/// Values at a given point: no accuracy is lost in finding the point, so the cosines may be smaller.
 pub const PROBE: Tolerance = Tolerance { above_cosine: 1e-3, ..DOUBLE };
 
 impl Tolerance {
-    /// [`of_peak`](Self::of_peak) in a picture whose brightest pixel has this cosine.
+    /// [`of_peak`](Self::of_peak) for a picture whose brightest pixel has this cosine.
     #[must_use]
     pub fn at_peak(&self, least_cosine: f64) -> f64 {
         self.of_peak * self.growth(least_cosine)
     }
 
-    /// How much more is allowed in a picture whose brightest pixel has this cosine.
+    /// How much larger the tolerance is for a picture whose brightest pixel has this cosine.
     #[must_use]
     pub fn growth(&self, least_cosine: f64) -> f64 {
         (self.peak_cosine / least_cosine).max(1.0)
     }
 
-    /// [`at_edges`](Self::at_edges) for a value with this cosine, in a picture whose brightest pixel has that one.
+    /// [`at_edges`](Self::at_edges) for a value with this cosine, in a picture whose brightest pixel has
+    /// `least_cosine_of_peak`.
     #[must_use]
     pub fn at_edge(&self, cosine: f64, least_cosine_of_peak: f64) -> f64 {
         self.at_edges * self.growth(least_cosine_of_peak) * (self.edge_cosine / cosine).max(1.0)

@@ -43,7 +43,7 @@ impl Keyword for LengthUnit {
 }
 
 impl LengthUnit {
-    /// How many of this unit make a metre: 1000, 100 or 1. Exact in binary, where its inverse is not.
+    /// How many of this unit make a metre: 1000, 100 or 1. Exact in binary, unlike its inverse.
     #[must_use]
     pub fn per_metre(self) -> f64 {
         match self {
@@ -66,12 +66,12 @@ impl LengthUnit {
     }
 }
 
-/// The unit of places on the screen: inside the program metres or degrees.
+/// The unit of screen coordinates, which are metres or degrees internally.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ScreenUnit {
-    /// On a plane.
+    /// For a planar screen.
     Length(LengthUnit),
-    /// Of a camera whose screen is made of angles.
+    /// For a camera whose screen coordinates are angles.
     Degree,
 }
 
@@ -82,7 +82,7 @@ impl ScreenUnit {
         if in_degrees { Self::Degree } else { Self::Length(length) }
     }
 
-    /// As it stands in outputs: `m` or `°`.
+    /// Its name in outputs: `m` or `°`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -91,7 +91,7 @@ impl ScreenUnit {
         }
     }
 
-    /// Metres or degrees in this unit.
+    /// Converts metres or degrees to this unit.
     #[must_use]
     pub fn from_internal(self, coordinate: f64) -> f64 {
         match self {
@@ -100,7 +100,7 @@ impl ScreenUnit {
         }
     }
 
-    /// A coordinate in this unit in metres or degrees.
+    /// Converts a coordinate in this unit to metres or degrees.
     #[must_use]
     pub fn to_internal(self, coordinate: f64) -> f64 {
         match self {

@@ -64,7 +64,7 @@ impl<T: Real> Vector<T> {
 }
 
 impl<T: Copy> Vector<T> {
-    /// The same vector of another number type.
+    /// The same vector in another number type.
     #[must_use]
     #[inline(always)]
     pub fn map<U>(self, convert: impl Fn(T) -> U) -> Vector<U> {
@@ -80,7 +80,7 @@ impl<T: Scalar> Vector<T> {
         vector.map(T::from_f64)
     }
 
-    /// The vector of no length.
+    /// The zero vector.
     #[must_use]
     #[inline(always)]
     pub fn zero() -> Self {

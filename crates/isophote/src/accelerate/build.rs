@@ -1,4 +1,5 @@
-//! From boxes to the tree: obvhs finds binary trees over parts of the scene, whose nodes are then merged to wide ones.
+//! Builds the tree from boxes: obvhs builds binary trees over parts of the scene, whose nodes are then merged into wide
+//! ones.
 
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -12,17 +13,18 @@ use crate::shape::Bounds;
 use crate::threads::Threads;
 use crate::vector::Vector;
 
-/// So many primitives that are near each other make a part of the scene, with a binary tree of its own: what building it
-/// needs beside the result is small then, and parts are built at the same time.
+/// The number of neighbouring primitives that make up a part of the scene with a binary tree of its own: building it then
+/// needs little memory beside the result, and parts are built in parallel.
 const PART: usize = 1 << 14;
 
-/// A part goes into the tree over all parts as so many pieces: as one, it would overlap others more than it has to.
+/// The number of pieces of which a part consists in the tree over all parts: as a single box, it would overlap others more
+/// than necessary.
 const PIECES: usize = 64;
 
-/// So many parts are built before their nodes are put to the others.
+/// The number of parts built before their nodes are added to the tree.
 const AT_ONCE: usize = 8;
 
-/// The tree over boxes, each of which is asked for again rather than kept: a million of them are not small.
+/// Builds the tree over boxes. The boxes are computed again rather than stored: a million of them take a lot of memory.
 pub fn build(threads: &Threads, count: u32, bounds: impl Fn(u32) -> Option<Bounds> + Sync) -> Accelerator {
     let bounded = |number: u32| bounds(number).filter(is_bounded);
     let unit = Unit::around((0..count).filter_map(bounded).reduce(Bounds::union).unwrap_or_default());
@@ -54,7 +56,7 @@ fn is_bounded(bounds: &Bounds) -> bool {
     bounds.least.to_array().into_iter().chain(bounds.greatest.to_array()).all(f64::is_finite)
 }
 
-/// The numbers of all boxes, in the order of a curve that fills space (Morton's); above each its place on the curve.
+/// The numbers of all boxes, in Morton order; the high bits of each entry hold the position on the curve.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "ten bits of places from −1 to 1")]
 fn sorted(threads: &Threads, count: u32, middle: impl Fn(u32) -> Option<Vector>) -> Vec<u64> {
     let along_curve = |number: u32| {
@@ -77,10 +79,10 @@ fn number_of(entry: u64) -> u32 {
     entry as u32
 }
 
-/// A box in the unit frame, of single precision.
+/// A box in the unit frame, in single precision.
 #[expect(clippy::cast_possible_truncation, reason = "rounded outwards after that")]
 fn single_box(unit: &Unit, bounds: &Bounds) -> Aabb {
-    // Two steps: the place in the unit frame has been rounded too.
+    // Two steps, because the position in the unit frame has been rounded too.
     let least = |x: f64| (x as f32).next_down().next_down();
     let greatest = |x: f64| (x as f32).next_up().next_up();
     let place = |corner: Vector| unit.place(corner).to_array();
@@ -92,8 +94,8 @@ fn leaf(bounds: Aabb, child: Child) -> Bvh2Node {
     Bvh2Node::new(bounds, 1, child.to_bits())
 }
 
-/// A search for neighbours as short as can be, and no optimisation after it: trees of large clouds are built for a
-/// single image more often than not.
+/// The shortest neighbour search, without optimisation afterwards: the trees of large clouds are usually built for a single
+/// image.
 fn binary_tree(leaves: Vec<Bvh2Node>) -> Bvh2 {
     const SEARCH_DISTANCE: usize = 2;
     let whole = leaves.iter().fold(Aabb::empty(), |whole, leaf| whole.union(leaf.aabb()));
@@ -106,7 +108,7 @@ fn binary_tree(leaves: Vec<Bvh2Node>) -> Bvh2 {
 /// Wide nodes over a part of the scene.
 struct Subtree {
     nodes: Vec<Node>,
-    /// Leaves for the tree over all parts: boxes of nodes above, or of primitives.
+    /// Leaves for the tree over all parts: boxes of the nodes above, or of primitives.
     pieces: Vec<Bvh2Node>,
 }
 
@@ -134,7 +136,7 @@ impl Subtree {
         part
     }
 
-    /// Puts its nodes after others, and its pieces.
+    /// Appends its nodes and its pieces to the others.
     fn append_to(self, nodes: &mut Vec<Node>, pieces: &mut Vec<Bvh2Node>) {
         let by = nodes.len();
         nodes.extend(
@@ -145,17 +147,17 @@ impl Subtree {
     }
 }
 
-/// A whole tree, whose root goes to the first place.
+/// Converts a whole tree, whose root goes to index 0.
 fn widen_all(tree: &Bvh2, nodes: &mut Vec<Node>) {
     widen(tree, &leaf_counts(tree), 0, nodes, 0);
 }
 
-/// Merges the nodes of a binary tree from `root` on into wide ones, the first of which goes to `place`: each takes the
-/// children of its largest boxes for as long as there is room. But what fits into one node stays together, else the lowest
-/// ones, which are most of all, would be almost empty.
+/// Merges the nodes of a binary tree below `root` into wide ones, the first of which goes to `place`: each takes the
+/// children of its largest boxes as long as there is room. A subtree that fits into one node stays together; otherwise the
+/// lowest nodes, which are the most numerous, would be almost empty.
 fn widen(tree: &Bvh2, counts: &[u32], root: usize, nodes: &mut Vec<Node>, place: usize) {
     let fits = |node: usize| counts[node] as usize <= WIDTH;
-    // Places in `nodes` to be filled, with the binary node that goes there.
+    // Indices in `nodes` that are still to be filled, with the binary node that goes there.
     let mut to_fill = vec![(place, root)];
     let mut members = Vec::with_capacity(WIDTH);
     while let Some((place, root)) = to_fill.pop() {
@@ -180,7 +182,7 @@ fn widen(tree: &Bvh2, counts: &[u32], root: usize, nodes: &mut Vec<Node>, place:
     }
 }
 
-/// How many leaves are below each node, which comes before its children.
+/// The number of leaves below each node; nodes come before their children.
 fn leaf_counts(tree: &Bvh2) -> Vec<u32> {
     let mut counts = vec![1; tree.nodes.len()];
     for (index, node) in tree.nodes.iter().enumerate().rev().filter(|(_, node)| !node.is_leaf()) {
@@ -190,14 +192,14 @@ fn leaf_counts(tree: &Bvh2) -> Vec<u32> {
     counts
 }
 
-/// Which of some binary nodes has the largest box, of those that have children and may be opened.
+/// The binary node with the largest box among those that have children and may be opened.
 fn largest(tree: &Bvh2, members: &[usize], may_open: impl Fn(usize) -> bool) -> Option<usize> {
     let area = |place: &usize| tree.nodes[members[*place]].aabb().half_area();
     let inner = (0..members.len()).filter(|place| !tree.nodes[members[*place]].is_leaf() && may_open(members[*place]));
     inner.max_by(|first, second| area(first).total_cmp(&area(second)))
 }
 
-/// Puts a node's children into its place.
+/// Replaces a node by its children.
 fn open(tree: &Bvh2, members: &mut Vec<usize>, place: usize) {
     let first = tree.nodes[members[place]].first_index as usize;
     members[place] = first;

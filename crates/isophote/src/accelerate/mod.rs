@@ -1,8 +1,9 @@
-//! Which primitives a ray, a beam of rays or a shadow may meet: a tree of boxes over all of them.
+//! The acceleration structure: a tree of bounding boxes over all primitives, which finds those that a ray, a beam of rays or
+//! a shadow may meet.
 //!
-//! The tree answers with a superset, from near to far, and never misses: boxes are of single precision and rounded
-//! outwards, and every test leaves room for its own rounding, for any start and direction, near the scene or far away.
-//! The primitives themselves are tested by whoever asks, in the precision that the answer needs.
+//! Queries return a superset, from near to far, and never miss a primitive: boxes are in single precision and rounded
+//! outwards, and every test allows for its own rounding errors, for any start and direction, near the scene or far away. The
+//! caller tests the primitives themselves, in the precision that the answer needs.
 
 mod build;
 mod node;
@@ -21,26 +22,26 @@ use crate::shape::Bounds;
 use crate::threads::Threads;
 use crate::vector::Vector;
 
-/// The tree. Primitives are numbers, from 0 in the order in which their boxes were given.
+/// The tree. Primitives are numbered from 0, in the order in which their boxes were given.
 #[derive(Clone, Debug)]
 pub struct Accelerator {
     unit: Unit,
-    /// The first one is the root.
+    /// The first node is the root.
     nodes: Vec<Node>,
-    /// Primitives without an end: they are in no box, and every query begins with them.
+    /// Unbounded primitives: they are in no box, and every query begins with them.
     unbounded: Vec<u32>,
     instructions: Instructions,
 }
 
 impl Accelerator {
-    /// The tree over so many primitives, built on these threads; what has no end has no box.
+    /// Builds the tree over `count` primitives on these threads; unbounded primitives have no box.
     #[must_use]
     pub fn new(threads: &Threads, count: u32, bounds: impl Fn(u32) -> Option<Bounds> + Sync) -> Self {
         build::build(threads, count, bounds)
     }
 
-    /// Goes through the primitives that a ray may meet, from near to far: `test` says up to which distance (in lengths of
-    /// the direction) the search goes on.
+    /// Visits the primitives that a ray may hit, from near to far: `test` returns the distance (in lengths of the direction)
+    /// up to which the search goes on.
     pub fn along_ray(&self, start: Vector, direction: Vector, limit: f64, mut test: impl FnMut(u32) -> f64) {
         let mut limit = limit;
         for primitive in &self.unbounded {
@@ -54,30 +55,30 @@ impl Accelerator {
         }
     }
 
-    /// Bytes of memory that it takes.
+    /// Its size in memory, in bytes.
     #[must_use]
     pub fn size_in_bytes(&self) -> usize {
         self.nodes.capacity() * size_of::<Node>() + self.unbounded.capacity() * size_of::<u32>()
     }
 
-    /// What a box, given by half its sides, meets on its way along a ray; nothing where it passes all boxes.
+    /// The volume that a box, given by half its sides, sweeps along a ray; `None` if it misses all boxes.
     pub(crate) fn tube(&self, start: Vector, direction: Vector, radius: Vector) -> Option<Tube> {
         Tube::new(&self.unit, start, direction, radius)
     }
 
-    /// A beam of rays from a point between four directions, given in turn.
+    /// A beam of rays from a point, bounded by four directions in cyclic order.
     pub(crate) fn beam(&self, eye: Vector, corners: [Vector; 4], forward: Vector) -> Beam {
         Beam::new(&self.unit, eye, corners, forward)
     }
 }
 
-/// The frame in which boxes are kept: around the middle of the scene, which reaches from −1 to 1.
+/// The frame in which boxes are stored: centred on the scene, which extends from −1 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Unit {
     center: Vector,
     /// Units per metre: a power of two.
     scale: f64,
-    /// By how much places in the frame may be off: far from the origin they were rounded before.
+    /// The possible error of positions in the frame: far from the origin, they were already rounded.
     slack: f64,
 }
 

@@ -1,17 +1,17 @@
-//! The nodes of the tree: sixteen boxes that are tested at once.
+//! The nodes of the tree, each with sixteen boxes that are tested at once.
 
-/// How many boxes a node has.
+/// The number of boxes in a node.
 pub const WIDTH: usize = 16;
 
 /// Sixteen boxes, by axis.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Node {
-    /// The least and the greatest coordinates.
+    /// The smallest and the largest coordinates.
     pub sides: [[[f32; WIDTH]; 3]; 2],
     /// What is in the boxes.
     pub children: [Child; WIDTH],
-    /// Bit i tells whether box i is there.
+    /// Bit i tells whether box i is in use.
     pub used: u32,
 }
 
@@ -25,7 +25,7 @@ impl Node {
     /// A node without boxes.
     pub const EMPTY: Self = Self { sides: [[[0.0; WIDTH]; 3]; 2], children: [Child(0); WIDTH], used: 0 };
 
-    /// Puts a box into the next place.
+    /// Adds a box.
     pub fn push(&mut self, least: [f32; 3], greatest: [f32; 3], child: Child) {
         let place = self.used.count_ones() as usize;
         for axis in 0..3 {
@@ -49,7 +49,7 @@ impl Child {
         Self(index | PRIMITIVE)
     }
 
-    /// As it is stored.
+    /// Its stored form.
     pub fn to_bits(self) -> u32 {
         self.0
     }
@@ -59,12 +59,12 @@ impl Child {
         Self(bits)
     }
 
-    /// The same where so many nodes were put before those that it counts.
+    /// The same child after `by` nodes were inserted in front of those that it counts.
     pub fn moved(self, by: usize) -> Self {
         self.get().map_or_else(|index| Self::node(index + by), Self::primitive)
     }
 
-    /// The primitive's number, or that of the node.
+    /// The primitive's number, or the node's index as the error.
     #[inline(always)]
     pub fn get(self) -> Result<u32, usize> {
         if self.0 & PRIMITIVE == 0 { Err(self.0 as usize) } else { Ok(self.0 & !PRIMITIVE) }

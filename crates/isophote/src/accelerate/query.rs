@@ -1,17 +1,17 @@
-//! What the tree can be asked for: the boxes in a tube along a ray, and those in a beam of rays from a point.
+//! The queries of the tree: the boxes in a tube along a ray, and those in a beam of rays from a point.
 
 use super::Unit;
 use super::node::{Node, WIDTH};
 use crate::lanes::{Instructions, Lane, LaneJob};
 use crate::vector::Vector;
 
-/// A question to the boxes of a node.
+/// A test of the boxes of a node.
 pub trait Query {
-    /// For each box of a vector of them, from a place on, a depth, which no point of the box that counts is before; and
-    /// which of them are met.
+    /// For a vector of boxes, starting at index `at`: a lower bound on the depth of each box's relevant points, and which of
+    /// the boxes are hit.
     fn intersect_some<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node, at: usize) -> (V, u32);
 
-    /// The same for all boxes.
+    /// Tests all boxes.
     #[inline(always)]
     fn intersect<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node) -> ([f32; WIDTH], u32) {
         let mut depths = [0.0; WIDTH];
@@ -24,7 +24,7 @@ pub trait Query {
         (depths, met & node.used)
     }
 
-    /// The same with these instructions.
+    /// Tests all boxes with this instruction set.
     fn intersect_with(&self, instructions: Instructions, node: &Node) -> ([f32; WIDTH], u32)
     where
         Self: Sized,
@@ -51,29 +51,29 @@ impl<Q: Query> LaneJob for Intersect<'_, Q> {
     }
 }
 
-/// What the rounding of single precision may come to in the tests below, where all places are within a few units of the
-/// middle: some ten roundings of 2⁻²⁴ of 8.
+/// The rounding error in single precision of the tests below, where all positions are within a few units of the middle: some
+/// ten roundings of 2⁻²⁴ of 8.
 pub(super) const SLACK: f64 = 4e-6;
 
-/// Farther from the middle than this, in units, a ray starts at a point nearer to it.
+/// If a ray starts farther from the middle than this, in units, its start is moved along it to a closer point.
 const FAR: f64 = 4.0;
 
-/// All that a box meets that is drawn along a ray. Depths are distances from its start.
+/// Everything that a box hits when it moves along a ray. Depths are distances from its start.
 #[derive(Clone, Copy, Debug)]
 pub struct Tube {
-    /// Where it starts, moved forwards or backwards along each axis: how boxes are widened.
+    /// Its start, shifted forwards and backwards along each axis: this is how boxes are enlarged.
     starts: [[f32; 3]; 2],
     inverse: [f32; 3],
     /// Which side of a box comes first, by axis.
     first: [usize; 3],
-    /// How much of the ray was skipped, in units.
+    /// The length of the ray that was skipped, in units.
     skipped: f64,
-    /// Units in a length of the direction.
+    /// Units per length of the direction.
     scale: f64,
 }
 
 impl Tube {
-    /// A tube in the unit frame; nothing where it passes all boxes.
+    /// A tube in the unit frame; `None` if it misses all boxes.
     #[expect(clippy::cast_possible_truncation, reason = "the slack covers the rounding")]
     pub(super) fn new(unit: &Unit, start: Vector, direction: Vector, radius: Vector) -> Option<Self> {
         let length = direction.length();
@@ -86,11 +86,11 @@ impl Tube {
         let middle = -start.dot(direction);
         let skipped = if distance > FAR { (middle - FAR).max(0.0) } else { 0.0 };
         let start = start + direction * skipped;
-        // What is still far away after that passes by, or leads away.
+        // Anything that is still far away after that misses the scene, or leads away from it.
         if start.length() - 2.0 * widest > 2.0 * FAR {
             return None;
         }
-        // Steeper than this, a ray does not leave its slack in the length of the scene.
+        // A ray whose direction has a smaller component than this stays within its slack over the length of the scene.
         let steepest = 1e-9;
         let (direction, start) = (direction.to_array(), start.to_array());
         let steep = direction.map(|d: f64| if d.abs() < steepest { steepest.copysign(d) } else { d });
@@ -105,7 +105,7 @@ impl Tube {
         })
     }
 
-    /// The depth of a distance, given in lengths of the direction; rounded up.
+    /// The depth for a distance, given in lengths of the direction; rounded up.
     #[must_use]
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
@@ -131,13 +131,14 @@ impl Query for Tube {
     }
 }
 
-/// All that rays from a point between four directions can meet. Depths are counted along `forward`, and never negative.
+/// Everything that rays from a point between four directions can hit. Depths are measured along `forward`, and are never
+/// negative.
 #[derive(Clone, Copy, Debug)]
 pub struct Beam {
-    /// Its walls: unit normals that point inwards, and the distance of the origin, made larger by what rounding may do.
+    /// Its walls: unit normals that point inwards, and the distances of the origin, enlarged by the possible rounding error.
     walls: [([f32; 3], f32); 4],
     forward: ([f32; 3], f32),
-    /// Units in a metre.
+    /// Units per metre.
     scale: f64,
 }
 
@@ -147,7 +148,7 @@ impl Beam {
     pub(super) fn new(unit: &Unit, eye: Vector, corners: [Vector; 4], forward: Vector) -> Self {
         let eye = unit.place(eye);
         let middle = corners.into_iter().fold(Vector::default(), |sum, corner| sum + corner.normalized());
-        // Rounded normals err by 2⁻²⁴ of a place; the eye may be far.
+        // Rounded normals introduce an error of 2⁻²⁴ of a position, and the eye may be far away.
         let slack = unit.slack + 4e-7 * eye.length();
         let plane = |normal: Vector| {
             let offset = slack - normal.dot(eye);
@@ -160,7 +161,7 @@ impl Beam {
         Self { walls: [0, 1, 2, 3].map(wall), forward: plane(-forward), scale: unit.scale }
     }
 
-    /// The depth of a distance along `forward`, in metres; rounded up.
+    /// The depth for a distance along `forward`, in metres; rounded up.
     #[must_use]
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
@@ -170,7 +171,7 @@ impl Beam {
     }
 }
 
-/// The greatest of n·x + offset over each box.
+/// The largest value of n·x + offset over each box.
 #[inline(always)]
 fn highest<V: Lane<Element = f32>>(token: V::Token, node: &Node, at: usize, (normal, offset): &([f32; 3], f32)) -> V {
     let mut sum = V::splat(token, *offset);
@@ -189,7 +190,7 @@ impl Query for Beam {
         for wall in &self.walls[1..] {
             inside = inside.min(highest(token, node, at, wall));
         }
-        // −n·x is greatest where the depth is least.
+        // −n·x is largest where the depth is smallest.
         let depth = (-highest::<V>(token, node, at, &self.forward)).max(zero);
         (depth, V::bits_not(inside.is_less(zero)))
     }

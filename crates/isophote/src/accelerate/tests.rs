@@ -7,7 +7,7 @@ fn vector(range: f64) -> impl Strategy<Value = Vector> {
     [-range..range, -range..range, -range..range].prop_map(Vector::from)
 }
 
-/// Boxes about a place, many of them without a volume.
+/// Boxes around a place, many of them without volume.
 fn boxes(least: usize) -> impl Strategy<Value = Vec<Option<Bounds>>> {
     let one = || {
         (vector(1.0), [0.0..0.3_f64, 0.0..0.3_f64, 0.0..0.3_f64], 0..6_u32).prop_map(|(least, size, flat)| {
@@ -37,7 +37,7 @@ fn moved(boxes: &[Option<Bounds>], size: f64, place: Vector) -> Vec<Option<Bound
     boxes.iter().map(|entry| entry.as_ref().map(bounds)).collect()
 }
 
-/// Where a ray is in a box, by the textbook's slabs in double precision, with nothing to spare.
+/// Where a ray is inside a box, by the textbook slab test in double precision, without any margin.
 fn enters(bounds: &Bounds, start: Vector, direction: Vector) -> Option<f64> {
     let (mut near, mut far) = (0.0_f64, f64::INFINITY);
     let corners = bounds.least.to_array().into_iter().zip(bounds.greatest.to_array());
@@ -66,7 +66,7 @@ fn found(tree: &Accelerator, start: Vector, direction: Vector, limit: f64) -> Ve
 }
 
 proptest! {
-    /// Scales from 1e-6 to 1e6, far from the origin, rays from near and far, along the axes too.
+    /// Scales from 1e-6 to 1e6, far from the origin, with rays from near and far, including rays along the axes.
     #[test]
     fn no_box_that_a_ray_meets_is_missed(
         boxes in boxes(0), target in vector(1.0), away in vector(1.0), far in -2.0..6.0_f64, flat in 0..8_u32,

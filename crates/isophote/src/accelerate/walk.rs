@@ -1,18 +1,18 @@
-//! A way through the tree, from near to far.
+//! The traversal of the tree, from near to far.
 
 use super::node::{Child, Node};
 use super::{Accelerator, Query};
 use crate::lanes::{Instructions, Lane};
 
-/// Where a query is; its memory serves for the next one.
+/// The state of a query; its memory is reused for the next one.
 #[derive(Clone, Debug, Default)]
 pub struct Walk {
-    /// What is still to be looked at, the nearest last.
+    /// The boxes still to be visited, the nearest last.
     open: Vec<(f32, Child)>,
 }
 
 impl Walk {
-    /// Begins at the root.
+    /// Starts at the root.
     pub fn start(&mut self, tree: &Accelerator) {
         self.open.clear();
         if tree.nodes[0].used != 0 {
@@ -20,7 +20,7 @@ impl Walk {
         }
     }
 
-    /// The next primitive that may be met, up to a depth. (A box may be nearer than one that came before.)
+    /// The next primitive that may be hit, up to a depth. (Its box may be closer than an earlier one.)
     #[inline(always)]
     pub fn next<V: Lane<Element = f32>>(
         &mut self,
@@ -37,7 +37,7 @@ impl Walk {
         )
     }
 
-    /// The same with these instructions.
+    /// The next primitive, with this instruction set.
     pub fn next_with(
         &mut self,
         instructions: Instructions,
@@ -51,7 +51,7 @@ impl Walk {
     #[inline(always)]
     fn next_by(&mut self, tree: &Accelerator, limit: f32, meet: impl Fn(&Node) -> ([f32; 16], u32)) -> Option<u32> {
         while let Some((near, child)) = self.open.pop() {
-            // Written so that a limit of NaN ends nothing.
+            // Written so that a NaN limit ends nothing.
             if near > limit {
                 continue;
             }
@@ -67,7 +67,7 @@ impl Walk {
         None
     }
 
-    /// Puts the boxes that are met in order, the nearest last.
+    /// Inserts the boxes that were hit in order, the nearest last.
     #[inline(always)]
     fn insert(&mut self, node: &Node, depths: &[f32; 16], mut met: u32, limit: f32) {
         let base = self.open.len();

@@ -1,4 +1,4 @@
-//! Maps whose cells are no pixels of a camera.
+//! Maps whose cells are not pixels of a camera.
 
 use crate::lanes::Precision;
 use crate::map::{Map, Pixel, Quantity, Region, Resolution, Run, Window};
@@ -11,23 +11,23 @@ use crate::shape::SurfacePoint;
 
 /// What is at the centre of a cell.
 pub(super) enum Cell {
-    /// A point of a shape, with its brightness for the eye.
+    /// A point of a shape, with its brightness as seen by the eye.
     OnShape(Hit),
-    /// A point that is no shape's: what is asked is the light that arrives.
+    /// A point on no shape: only the light that arrives is computed.
     Free(SurfacePoint),
 }
 
-/// Where a map of cells lies.
+/// The layout of a map of cells.
 pub(super) struct Layout {
     pub(super) size: Resolution,
     pub(super) window: Window,
-    /// What the map is of, and how it was computed.
+    /// What the map shows, and how it was computed.
     pub(super) renderer: String,
-    /// Index of the shape that all cells are of.
+    /// Index of the shape that all cells belong to.
     pub(super) shape: usize,
 }
 
-/// The map of such cells. Cells of which nothing is known are left out of the mask.
+/// Builds the map from the cells. Cells without a value are left out of the mask.
 ///
 /// # Errors
 /// A light that the scene does not have.

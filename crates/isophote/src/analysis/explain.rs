@@ -1,4 +1,4 @@
-//! Every step from the scene to a value, with its numbers and formula numbers.
+//! Explains every step from the scene to a value, with its numbers and formula numbers.
 
 use std::fmt::Write;
 
@@ -14,8 +14,8 @@ use crate::units::{Keyword, LengthUnit};
 use crate::vector::Vector;
 
 impl ProbeReading {
-    /// The calculation as a person does it with a pocket calculator: every vector, cosine and product of this
-    /// reading, with 12 significant digits.
+    /// The calculation as one would do it with a pocket calculator: every vector, cosine and product of this reading, with
+    /// 12 significant digits.
     #[must_use]
     pub fn explain(&self, scene: &PreparedScene, name: &str) -> String {
         let mut text = String::new();
@@ -308,7 +308,7 @@ fn explain_emission(text: &mut String, light: &PointLight, term: &LightTerm, uni
 }
 
 fn line(text: &mut String, content: std::fmt::Arguments<'_>) {
-    // Writing to a text cannot fail.
+    // Writing to a `String` cannot fail.
     let _ = text.write_fmt(content);
     text.push('\n');
 }
@@ -322,7 +322,7 @@ fn vector(vector: Vector) -> String {
     vector_in(vector, LengthUnit::Metre)
 }
 
-/// 12 significant digits, without the zeros behind them.
+/// 12 significant digits, without trailing zeros.
 fn digits(value: f64) -> String {
     significant(value, 12)
 }

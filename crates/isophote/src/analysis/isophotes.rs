@@ -13,20 +13,20 @@ use crate::map::{Map, Quantity, Scalars};
 pub struct Isophote {
     /// The value along the contour, in the channel's unit.
     pub level: f64,
-    /// Its pieces; none where the level is not met.
+    /// Its pieces; empty if the level is not reached.
     pub lines: Vec<Polyline>,
 }
 
-/// A connected piece of a contour. The side of higher values lies to the left of the way along the points.
+/// A connected piece of a contour. Higher values lie to the left when following the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
-    /// At least two points, no two successive ones equal.
+    /// At least two points; successive points are never equal.
     pub points: Vec<ScreenPoint>,
-    /// Whether the last point is joined to the first one (which is not repeated).
+    /// Whether the last point is connected to the first one (which is not repeated).
     pub closed: bool,
 }
 
-/// A place on the screen, in the unit of the map's window: x to the right, y up.
+/// A point on the screen, in the unit of the map's window: x to the right, y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenPoint {
     /// To the right.
@@ -41,7 +41,7 @@ pub enum IsophoteError {
     /// The map was rendered without this channel.
     #[error("the map holds no channel `{name}`; it holds {held}")]
     Missing {
-        /// The channel asked for.
+        /// The requested channel.
         name: String,
         /// The channels of the map, joined by commas.
         held: String,
@@ -49,13 +49,13 @@ pub enum IsophoteError {
     /// Vectors and indices have no contours.
     #[error("the channel `{name}` holds no single number a pixel, so it has no contours")]
     NotScalar {
-        /// The channel asked for.
+        /// The requested channel.
         name: String,
     },
     /// A level is infinite or not a number.
     #[error("level {index} is {level}: a contour needs a finite level")]
     LevelNotFinite {
-        /// Its place in the list, from 0.
+        /// Its index in the list, from 0.
         index: usize,
         /// Its value.
         level: f64,
@@ -64,11 +64,11 @@ pub enum IsophoteError {
 
 /// The contours of a scalar channel, one [`Isophote`] for each level and in the order of the levels.
 ///
-/// The channel is taken at pixel centres and interpolated linearly along the edges between neighbouring centres, so
-/// a contour is off by O(h²) for pixels of size h. A cell between four centres takes part only where all four show the
-/// same shape: no contour runs along a silhouette, and contours end up to one pixel short of it and half a pixel short
-/// of the window's edge. Where a cell has a saddle, the value at the saddle point of the bilinear interpolant decides
-/// (G. Nielson and B. Hamann, "The asymptotic decider", Visualization 1991). A value equal to the level counts as above.
+/// The channel is sampled at pixel centres and interpolated linearly along the edges between neighbouring centres, so a
+/// contour is off by O(h²) for pixels of size h. A cell between four centres takes part only if all four show the same
+/// shape: no contour runs along a silhouette, and contours end up to one pixel short of it and half a pixel short of the
+/// window's edge. In a cell with a saddle, the value at the saddle point of the bilinear interpolant decides (G. Nielson and
+/// B. Hamann, "The asymptotic decider", Visualization 1991). A value equal to the level counts as above.
 ///
 /// # Errors
 /// [`IsophoteError`]: the channel is missing or not scalar, or a level is not finite.
@@ -89,13 +89,13 @@ fn scalar<'map>(map: &'map Map, quantity: &Quantity) -> Result<Scalars<'map>, Is
     map.scalar(quantity).ok_or(IsophoteError::NotScalar { name })
 }
 
-/// Joins the segments of all cells. As each crossing has the higher values on its left, it starts at most one segment
-/// and ends at most one, and the way along the segments is never in doubt.
+/// Joins the segments of all cells. Since each segment has the higher values on its left, a crossing starts at most one
+/// segment and ends at most one, so the path along the segments is never ambiguous.
 fn lines(grid: &ContourGrid, level: f64) -> Vec<Polyline> {
     let segments = grid.segments(level);
     let mut next: HashMap<usize, usize> = segments.iter().map(|segment| (segment.start, segment.end)).collect();
     let ends: HashSet<usize> = segments.iter().map(|segment| segment.end).collect();
-    // Open lines first: a walk that began in the middle of one would cut it in two.
+    // Open lines first: starting in the middle of one would cut it in two.
     let open_starts = segments.iter().filter(|segment| !ends.contains(&segment.start));
     let mut lines = Vec::new();
     for first in open_starts.chain(&segments).map(|segment| segment.start) {
@@ -106,8 +106,8 @@ fn lines(grid: &ContourGrid, level: f64) -> Vec<Polyline> {
     lines
 }
 
-/// Follows the segments from one crossing until they end or come back to it; nothing where the line is one point
-/// (a peak that equals the level).
+/// Follows the segments from one crossing until they end or return to it; `None` if the line is a single point (a peak that
+/// equals the level).
 fn walk(
     grid: &ContourGrid,
     level: f64,
@@ -127,7 +127,7 @@ fn walk(
             None => break false,
         }
     };
-    // Crossings of neighbouring edges fall together where a pixel equals the level.
+    // Crossings of neighbouring edges coincide where a pixel equals the level.
     points.dedup();
     if closed && points.first() == points.last() {
         points.pop();

@@ -1,15 +1,15 @@
-//! Round numbers for contour levels and for the ticks of axes: multiples of 1, 2, 2.5 or 5 times a power of ten.
+//! Round numbers for contour levels and axis ticks: multiples of 1, 2, 2.5 or 5 times a power of ten.
 
-/// Contour levels: round numbers strictly between `minimum` and `maximum`, as near to `about` of them as the steps
-/// 1, 2, 2.5 and 5 times a power of ten allow.
+/// Contour levels: round numbers strictly between `minimum` and `maximum`, as close in number to `about` as the steps 1, 2,
+/// 2.5 and 5 times a power of ten allow.
 ///
-/// Empty where there is nothing to divide: `about` is 0, or the bounds are equal, reversed or not finite.
+/// Empty if there is nothing to divide: `about` is 0, or the bounds are equal, reversed or not finite.
 #[must_use]
 pub fn nice_levels(minimum: f64, maximum: f64, about: usize) -> Vec<f64> {
     multiples_near(minimum, maximum, about, Ends::Excluded)
 }
 
-/// Ticks of an axis: as [`nice_levels`], but a round number at either end counts too.
+/// Ticks of an axis: like [`nice_levels`], but including round numbers at either end.
 #[must_use]
 pub fn nice_ticks(minimum: f64, maximum: f64, about: usize) -> Vec<f64> {
     multiples_near(minimum, maximum, about, Ends::Included)
@@ -21,7 +21,7 @@ enum Ends {
     Excluded,
 }
 
-/// The step (mantissa · 10^exponent) of a row of round numbers.
+/// The step (mantissa · 10^exponent) between successive round numbers.
 #[derive(Clone, Copy)]
 struct Step {
     mantissa: f64,
@@ -37,7 +37,7 @@ impl Step {
 
     fn multiples(self, minimum: f64, maximum: f64, ends: Ends) -> Vec<f64> {
         let size = self.multiple(1.0);
-        // Bounds come out of arithmetic: one that misses a round number by rounding is taken for that number.
+        // Bounds result from arithmetic: one that differs from a round number only by rounding counts as that number.
         let slack = match ends {
             Ends::Included => 1e-9,
             Ends::Excluded => -1e-9,
@@ -45,14 +45,14 @@ impl Step {
         let first = (minimum / size - slack).ceil();
         let last = (maximum / size + slack).floor();
         let numbers = std::iter::successors(Some(first), |n| Some(n + 1.0)).take_while(|n| *n <= last);
-        // Adding zero turns −0 into 0, which would be written with a minus sign.
+        // Adding zero turns −0 into 0; −0 would be written with a minus sign.
         numbers.map(|n| self.multiple(n) + 0.0).collect()
     }
 }
 
 fn multiples_near(minimum: f64, maximum: f64, about: usize, ends: Ends) -> Vec<f64> {
     let span = maximum - minimum;
-    // A span that is rounding noise of the bounds themselves has no round numbers inside.
+    // A span that is only rounding noise of its bounds has no round numbers inside.
     let resolvable = span > 1e-12 * minimum.abs().max(maximum.abs()) && span.is_normal();
     if about == 0 || !resolvable {
         return Vec::new();
@@ -64,7 +64,7 @@ fn multiples_near(minimum: f64, maximum: f64, about: usize, ends: Ends) -> Vec<f
     let steps = [(0, 1.0), (0, 2.0), (0, 2.5), (0, 5.0), (1, 1.0), (1, 2.0)];
     let rows =
         steps.map(|(shift, mantissa)| Step { mantissa, exponent: exponent + shift }.multiples(minimum, maximum, ends));
-    // min_by_key takes the first of equals: the finer step.
+    // Of equal candidates, `min_by_key` returns the first: the finer step.
     rows.into_iter().min_by_key(|row| row.len().abs_diff(about)).unwrap_or_default()
 }
 

@@ -1,4 +1,4 @@
-//! Grids of points on a plane, as lighting work measures and calculates them.
+//! Grids of points on a plane, as used for measurements and calculations in lighting.
 
 use crate::analysis::cells::{self, Cell, Layout};
 use crate::map::{Coordinates, Map, Pixel, Quantity, Resolution, Window};
@@ -11,7 +11,7 @@ use crate::vector::Vector;
 /// Why there is no map of a grid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GridError {
-    /// Next to a point light the irradiance has no bound.
+    /// At the position of a point light the irradiance is unbounded.
     #[error(
         "the light \"{light}\" stands at the point in column {}, row {} of the grid \"{grid}\"; move one of them",
         cell.column, cell.row
@@ -30,17 +30,17 @@ pub enum GridError {
         /// The channel.
         name: String,
     },
-    /// A channel of a light that the scene does not have.
+    /// A channel for a light that the scene does not have.
     #[error("the scene has no light named \"{name}\"")]
     NoSuchLight {
-        /// What was asked for.
+        /// The requested name.
         name: String,
     },
 }
 
 impl PreparedScene {
-    /// What arrives (3.1), (3.9) at each point of a grid, with the scene's shadows. A point stands at the centre of its cell;
-    /// row 0 is the one that is farthest along v, column 0 the nearest along u.
+    /// The irradiance (3.1), (3.9) at each point of a grid, with the scene's shadows. A point is at the centre of its cell;
+    /// row 0 is the farthest along v, column 0 the nearest along u.
     ///
     /// # Errors
     /// A light at one of the points, or a channel that grids do not have.
@@ -74,7 +74,7 @@ impl PreparedScene {
 }
 
 impl Grid {
-    /// The unit normal on the side that is lit.
+    /// The unit normal on the lit side.
     #[must_use]
     pub fn normal(&self) -> Vector {
         self.u.cross(self.v).normalized() * self.side.sign()
@@ -86,7 +86,7 @@ impl Grid {
         self.corner + self.offset(cell)
     }
 
-    /// How far a point is along the edges, in metres.
+    /// The coordinates of a point along the edges, in metres.
     #[must_use]
     pub fn coordinates(&self, cell: Pixel) -> [f64; 2] {
         let [along_u, along_v] = self.parts(cell);
@@ -109,7 +109,7 @@ impl Grid {
         SurfacePoint { anchor: self.corner, offset: self.offset(cell), normal, view: normal, cos_theta_o: 1.0 }
     }
 
-    /// The point of the grid at a place, to a billionth of the grid's size.
+    /// The grid point at a position, within a billionth of the grid's size.
     fn point_at(&self, place: Vector) -> Option<Pixel> {
         let from_corner = place - self.corner;
         let Resolution { width, height } = self.points;

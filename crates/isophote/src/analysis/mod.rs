@@ -1,4 +1,4 @@
-//! What is asked of a map or of a prepared scene: statistics, isophotes, values at points and along lines.
+//! Analysis of maps and prepared scenes: statistics, isophotes, values at points and along lines.
 
 mod cells;
 mod explain;

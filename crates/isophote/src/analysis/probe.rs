@@ -9,17 +9,17 @@ use crate::shape::{Located, Miss, Primitive, surface_at};
 use crate::units::LengthUnit;
 use crate::vector::Vector;
 
-/// Where a value is asked for.
+/// Where to take a value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ProbePosition {
     /// A point in space, in metres.
     Point(Vector),
-    /// The point of the nearest surface to this one, in metres.
+    /// The point on the nearest surface, in metres.
     NearestTo(Vector),
-    /// What is seen at the centre of a pixel.
+    /// The surface point visible at the centre of a pixel.
     Pixel(Pixel),
-    /// A point of a sphere by its angles in the camera's axes, in radians: θ from the direction towards the viewer
-    /// (against the direction of view), φ from +x of the screen towards +y.
+    /// A point of a sphere given by angles relative to the camera's axes, in radians: θ from the direction towards the
+    /// viewer (opposite to the direction of view), φ from +x of the screen towards +y.
     Angles {
         /// Index of the shape.
         shape: usize,
@@ -32,16 +32,16 @@ pub enum ProbePosition {
 
 /// Values at a point of a surface, in double precision: within 1e-12 relative where cosθ_i and cosθ_o exceed 1e-3.
 ///
-/// Those of a scene with colours are luminances (3.10), and the components have readings of their own.
+/// For a scene with colours they are luminances (3.10), and the components have readings of their own.
 #[derive(Clone, Debug)]
 pub struct ProbeReading {
-    /// The point, what it is on, and its directions.
+    /// The point, its primitive, and its directions.
     pub hit: Hit,
     /// Irradiance and brightness.
     pub shading: Shading,
     /// Each light's term, in the order of the scene.
     pub terms: Vec<LightTerm>,
-    /// What stands between the point and each light.
+    /// The primitive that blocks each light from the point, if any.
     pub blockers: Vec<Option<Primitive>>,
     /// Whether the eye sees the point.
     pub seen: SeenFromEye,
@@ -49,16 +49,16 @@ pub struct ProbeReading {
     pub components: Option<Box<Rgb<Self>>>,
 }
 
-/// Whether the eye would see a point if it looked there, in the picture or not.
+/// Whether the eye would see a point if it looked there, whether that is in the picture or not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SeenFromEye {
-    /// It does.
+    /// It would.
     Seen,
     /// The surface faces away from the eye there: θ_o ≥ 90°.
     FacesAway,
     /// It lies behind the plane on which parallel rays start.
     Behind,
-    /// This stands before it.
+    /// This primitive is in front of it.
     HiddenBy(Primitive),
 }
 
@@ -69,7 +69,7 @@ impl ProbeReading {
         self.hit.point.position().to_array().map(|metres| length.from_metres(metres))
     }
 
-    /// The luminances of a scene with colours.
+    /// The luminances of the readings of a scene with colours.
     fn of_components(readings: Rgb<Self>, weights: Rgb) -> Self {
         let shading = Shading::luminance(&readings.map(|reading| reading.shading), weights);
         let term = |(index, term): (usize, &LightTerm)| {
@@ -87,7 +87,7 @@ impl ProbeReading {
         Self { hit, shading, terms, blockers: blockers.clone(), seen, components: Some(Box::new(readings)) }
     }
 
-    /// A light's share of the diffuse and of the specular part of B, by its index.
+    /// A light's share of the diffuse and of the specular part of B; the light is given by its index.
     #[must_use]
     pub fn light_shares(&self, scene: &PreparedScene, light: usize) -> [f64; 2] {
         if let (Some(components), Some(readings)) = (scene.components(), self.components.as_deref()) {
@@ -116,31 +116,31 @@ pub enum ProbeError {
     /// The scene has no shapes.
     #[error("the scene has no shapes")]
     NoShapes,
-    /// Only spheres have points by angles.
+    /// Only spheres have points given by angles.
     #[error("points are given by angles on a sphere only, not on a {kind}")]
     NoAngles {
-        /// What the shape is.
+        /// The kind of the shape.
         kind: &'static str,
     },
     /// The pixel is outside the image.
     #[error("there is no pixel at column {}, row {}", pixel.column, pixel.row)]
     NoSuchPixel {
-        /// What was asked for.
+        /// The requested pixel.
         pixel: Pixel,
     },
     /// The pixel sees no surface.
     #[error("no surface is seen at column {}, row {}", pixel.column, pixel.row)]
     NothingSeen {
-        /// What was asked for.
+        /// The requested pixel.
         pixel: Pixel,
     },
 }
 
 impl PreparedScene {
-    /// The values at a place (3.1) to (3.6).
+    /// The values at a position (3.1) to (3.6).
     ///
     /// # Errors
-    /// A place that is on no surface.
+    /// A position that is on no surface.
     pub fn probe(&self, place: &ProbePosition) -> Result<ProbeReading, ProbeError> {
         match self.components() {
             None => self.probe_numbers(place),
@@ -196,7 +196,7 @@ impl PreparedScene {
     }
 
     fn reading(&self, hit: Hit, seen_at: Option<ScreenPosition>, seen: SeenFromEye) -> ProbeReading {
-        // One for each light, whatever number of emitters it is.
+        // One term for each light, however many emitters it has.
         let mut terms: Vec<LightTerm> = Vec::with_capacity(self.scene().lights().len());
         let shading = self.shade(&hit, seen_at, |light, term| match terms.get_mut(light) {
             Some(known) => known.add(term),
@@ -231,7 +231,7 @@ mod tests {
     use crate::render::{ReferenceRenderer, RenderSettings, Renderer};
     use crate::scene::{Scene, Syntax};
 
-    /// What is told of a light is what all of its emitters send.
+    /// A light's values are the sums over all of its emitters.
     #[test]
     fn a_light_of_two_emitters_is_told_as_one_light() {
         let text = include_str!("../../../../scenes/shadows.toml");

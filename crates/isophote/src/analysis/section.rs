@@ -8,17 +8,17 @@ use crate::shade::Shading;
 /// A line on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SectionLine {
-    /// The centres of a row's pixels, from the left.
+    /// The centres of a row's pixels, from left to right.
     Row(u32),
-    /// The centres of a column's pixels, from the top.
+    /// The centres of a column's pixels, from top to bottom.
     Column(u32),
-    /// Evenly spaced points between two points of the screen, both included; in metres or degrees.
+    /// Evenly spaced points between two screen points, including both ends; in metres or degrees.
     Between {
         /// The first point: x, y.
         from: [f64; 2],
         /// The last point: x, y.
         to: [f64; 2],
-        /// How many points, at least 2.
+        /// The number of points, at least 2.
         samples: u32,
     },
 }
@@ -26,9 +26,9 @@ pub enum SectionLine {
 /// A point of a section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Where it is on the screen: x, y in metres or degrees.
+    /// Its screen position: x, y in metres or degrees.
     pub screen: [f64; 2],
-    /// What is seen there and what it sends; nothing where no surface is seen.
+    /// The hit and its shading; `None` where no surface is seen.
     pub seen: Option<(Hit, Shading)>,
 }
 
@@ -38,7 +38,7 @@ pub enum SectionError {
     /// The image has no such row.
     #[error("there is no row {row}: the image has rows 0 to {last}")]
     NoSuchRow {
-        /// What was asked for.
+        /// The requested row.
         row: u32,
         /// The last row.
         last: u32,
@@ -46,21 +46,21 @@ pub enum SectionError {
     /// The image has no such column.
     #[error("there is no column {column}: the image has columns 0 to {last}")]
     NoSuchColumn {
-        /// What was asked for.
+        /// The requested column.
         column: u32,
         /// The last column.
         last: u32,
     },
-    /// A line of one point or none.
+    /// A line with fewer than two points.
     #[error("a section needs at least 2 samples")]
     TooFewSamples,
 }
 
 impl PreparedScene {
-    /// The values along a line, each traced and summed in double precision, whatever a map's resolution.
+    /// The values along a line, each traced and summed in double precision, whatever the resolution of any map.
     ///
     /// # Errors
-    /// A line that the image does not have.
+    /// A line that is not in the image.
     pub fn section(&self, line: SectionLine) -> Result<Vec<Sample>, SectionError> {
         let positions = self.positions(line)?;
         let sample = |position| {
@@ -70,11 +70,11 @@ impl PreparedScene {
         Ok(positions.into_iter().map(sample).collect())
     }
 
-    /// The shading of a hit; of a scene with colours its luminance (3.10).
+    /// The shading of a hit; for a scene with colours, its luminance (3.10).
     fn shade_colored(&self, hit: &Hit, position: ScreenPosition) -> Shading {
         let shade = |scene: &Self, hit: &Hit| scene.shade(hit, Some(position), |_, _| {});
         let Some(components) = self.components() else { return shade(self, hit) };
-        // Each component traces for itself: how exactly depends on its highlights.
+        // Each component traces separately, because the accuracy needed depends on its highlights.
         let shading = |scene: &Self| scene.trace(position).map_or_else(|| shade(scene, hit), |hit| shade(scene, &hit));
         Shading::luminance(&components.scenes().map(shading), components.space.luminance_weights())
     }

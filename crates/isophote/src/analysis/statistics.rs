@@ -6,7 +6,7 @@ use crate::map::{Map, Mask, Quantity, Run, Scalars};
 /// Statistics of a scalar channel over the pixels that see a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
-    /// The largest value; the first one in reading order where several are equal.
+    /// The largest value; the first in reading order if several are equal.
     pub max: Extreme,
     /// The smallest value, likewise.
     pub min: Extreme,
@@ -14,18 +14,18 @@ pub struct Statistics {
     pub mean: f64,
 }
 
-/// How many pixels see what.
+/// Numbers of pixels by what they see.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
     /// Pixels of the map.
     pub pixels: usize,
     /// Pixels that see a surface.
     pub visible: usize,
-    /// Visible pixels to which any light comes; known when the map holds the irradiance.
+    /// Visible pixels that receive any light; known if the map holds the irradiance.
     pub lit: Option<usize>,
 }
 
-/// Statistics of a channel; nothing if no surface is visible, or if the map has no such scalar channel.
+/// Statistics of a channel; `None` if no surface is visible, or if the map has no such scalar channel.
 ///
 #[must_use]
 pub fn statistics(map: &Map, quantity: &Quantity) -> Option<Statistics> {
@@ -35,7 +35,7 @@ pub fn statistics(map: &Map, quantity: &Quantity) -> Option<Statistics> {
     Some(Statistics { max, min, mean: sum / count })
 }
 
-/// The largest value at pixels that see a surface; nothing if there is none.
+/// The largest value among pixels that see a surface; `None` if there are none.
 #[must_use]
 pub fn largest(mask: &Mask, values: Scalars<'_>) -> Option<f64> {
     let of_run = |run: &Run| match values {
@@ -77,7 +77,7 @@ mod tests {
     use crate::sample_map::{Seen, square_map};
     use crate::sum::Sum;
 
-    /// Runs of every length from 0 to 37, at both ends of rows; the extremes come twice.
+    /// Runs of every length from 0 to 37, at both ends of rows; each extreme occurs twice.
     fn sample() -> Map {
         let value = |x: f64, y: f64| 2.0 + (3.0 * x).sin() * (5.0 * y).cos();
         let mut map =

@@ -6,29 +6,29 @@ use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// All directions within half the field of view of the direction of view, in a circle that touches the shorter sides of the
-/// image. The direction at the angle θ from the axis stands at the distance ρ from the middle, in degrees:
+/// image. The direction at the angle θ from the axis is at the distance ρ from the middle, in degrees:
 ///
 /// ```text
 /// equidistant (2.8)   ρ = θ
 /// equal area (2.9)    ρ = 2 sin(θ/2) · 180°/π
 /// ```
 ///
-/// Both are true to scale in the middle. In the second an area of one square degree on the screen is a solid angle of one
+/// Both are true to scale in the middle. In the second, an area of one square degree on the screen is a solid angle of one
 /// square degree everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fisheye {
-    /// How angles become distances from the middle.
+    /// How angles map to distances from the middle.
     pub mapping: Mapping,
     /// The angle across the circle, in degrees: above 0, up to 360.
     pub field_of_view: f64,
 }
 
-/// How the angle from the axis becomes a distance from the middle of the circle.
+/// How the angle from the axis maps to a distance from the middle of the circle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mapping {
-    /// As it is (2.8).
+    /// The distance is the angle (2.8).
     Equidistant,
-    /// So that areas are solid angles (2.9).
+    /// Areas are solid angles (2.9).
     EqualArea,
 }
 
@@ -39,7 +39,7 @@ impl Fisheye {
         self.distance_of(0.5 * self.field_of_view.to_radians())
     }
 
-    /// ρ of an angle θ in radians.
+    /// ρ for an angle θ in radians.
     fn distance_of(&self, theta: f64) -> f64 {
         match self.mapping {
             Mapping::Equidistant => theta.to_degrees(),
@@ -47,7 +47,7 @@ impl Fisheye {
         }
     }
 
-    /// The unit vector (right, up, forward) that is seen at a place; nothing outside the circle.
+    /// The unit vector (right, up, forward) seen at a screen point; `None` outside the circle.
     pub(super) fn direction<T: Scalar>(&self, x: DoubleDouble, y: DoubleDouble) -> Option<Vector<T>> {
         if x.rounded().hypot(y.rounded()) > self.radius() {
             return None;
@@ -70,11 +70,11 @@ impl Fisheye {
         Some(Vector::new(right * sine, up * sine, cosine))
     }
 
-    /// Where a direction (right, up, forward) appears; nothing outside the circle.
+    /// Where a direction (right, up, forward) appears; `None` outside the circle.
     pub(super) fn project(&self, direction: Vector) -> Option<[f64; 2]> {
         let across = libm::hypot(direction.x, direction.y);
         let distance = self.distance_of(libm::atan2(across, direction.z));
-        // What is right behind is all around the circle of 360 degrees; it is shown on the right.
+        // What is exactly behind the camera appears all around the circle of 360 degrees; it is assigned to the right.
         let [right, up] = if across > 0.0 { [direction.x / across, direction.y / across] } else { [1.0, 0.0] };
         (distance <= self.radius() * (1.0 + 4.0 * f64::EPSILON)).then_some([right * distance, up * distance])
     }

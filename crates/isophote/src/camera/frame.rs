@@ -1,4 +1,4 @@
-//! The camera's axes, its rays, and the way back from a point in space to the screen.
+//! The camera's axes, its rays, and the projection of points in space onto the screen.
 
 use super::{Camera, Extent, Handedness, Projection, ScreenPosition, panorama};
 use crate::double_double::DoubleDouble;
@@ -20,21 +20,22 @@ pub struct CameraFrame<T = f64> {
     pub forward: Vector<T>,
     pub(crate) projection: Projection,
     pub(crate) resolution: Resolution,
-    /// Where the ray of a pixel goes through it: parts of its width and height, from its upper left corner.
+    /// Where a pixel's ray passes through it: fractions of its width and height, from its upper left corner.
     pub(crate) place: [f64; 2],
     extent: Extent,
-    /// `right` and `up` in 32 digits, for rays that start beside the eye.
+    /// `right` and `up` with 32 digits, for rays that start beside the eye.
     across: [Vector<DoubleDouble>; 2],
 }
 
-/// How a point is looked at.
+/// The line of sight to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sight {
     /// Where the ray to the point starts, in metres: the eye, or a point of the plane through it.
     pub start: Vector,
-    /// V, the unit vector from the point against the ray.
+    /// V, the unit vector from the point back along the ray.
     pub view: Vector,
-    /// From the start to the point, in metres; negative where parallel rays start beyond the point and do not see it.
+    /// The distance from the start to the point, in metres; negative if parallel rays start beyond the point and do not see
+    /// it.
     pub distance: f64,
 }
 
@@ -58,8 +59,8 @@ impl<T: Scalar> CameraFrame<T> {
         }
     }
 
-    /// The ray through a place on the screen (2.1), (2.7) to (2.10); none where the camera sees nothing: outside the circle of
-    /// a fisheye, beyond the poles of a panorama.
+    /// The ray through a screen position (2.1), (2.7) to (2.10); `None` where the camera sees nothing: outside the circle of
+    /// a fisheye, or beyond the poles of a panorama.
     #[inline]
     pub fn ray(&self, position: ScreenPosition) -> Option<Ray<T>> {
         let direction = match &self.projection {
@@ -81,8 +82,8 @@ impl<T: Scalar> CameraFrame<T> {
         Some(Ray { anchor: self.eye, offset, direction: direction.normalized() })
     }
 
-    /// Where it starts is found in 32 digits, of which the second half goes into the offset: a start far from the eye would
-    /// lose the digits of what it meets nearby.
+    /// The start is computed with 32 digits, and the lower half goes into the offset: otherwise a start far from the eye
+    /// would lose digits of what the ray hits nearby.
     fn parallel_ray(&self, position: ScreenPosition) -> Ray<T> {
         let (x, y) = self.screen_point::<DoubleDouble>(position);
         let [right, up] = self.across;
@@ -115,14 +116,14 @@ impl<T: Scalar> CameraFrame<T> {
 }
 
 impl CameraFrame {
-    /// x and y on the screen of a place on it, in metres or degrees.
+    /// x and y of a screen position, in metres or degrees.
     #[must_use]
     pub fn point_on_screen(&self, position: ScreenPosition) -> [f64; 2] {
         let (x, y) = self.screen_point(position);
         [x, y]
     }
 
-    /// Where a point in space appears on the screen, x and y in metres or degrees; nothing for a point that the camera cannot
+    /// Where a point in space appears on the screen, x and y in metres or degrees; `None` for a point that the camera cannot
     /// see: behind it, or outside the circle of a fisheye.
     #[must_use]
     pub fn project(&self, point: Vector) -> Option<[f64; 2]> {
@@ -139,7 +140,7 @@ impl CameraFrame {
         }
     }
 
-    /// How the point `anchor + offset` is looked at.
+    /// The line of sight to the point `anchor + offset`.
     #[must_use]
     pub fn sight(&self, anchor: Vector, offset: Vector) -> Sight {
         let to_eye = (self.eye - anchor) - offset;
@@ -176,9 +177,9 @@ impl<T: Scalar> Axes<T> {
     }
 }
 
-/// The middle of cell `index` (a cell, a place between the middles of two, or beside them) when the way from `first` to
-/// `last` is cut into `count` cells. The two ends are weighted, not their difference, so that a symmetric window has exactly
-/// symmetric pixels.
+/// The middle of cell `index` when the interval from `first` to `last` is divided into `count` cells; `index` may be
+/// fractional or outside the interval. The two ends are weighted, rather than their difference, so that a symmetric window
+/// has exactly symmetric pixels.
 pub(crate) fn between<T: Scalar>(first: f64, last: f64, index: f64, count: u32) -> T {
     let after = 2.0 * index + 1.0;
     let before = 2.0 * f64::from(count) - after;

@@ -1,4 +1,4 @@
-//! The observer: where the rays start and which places of the screen they belong to (2.1), (2.3), (2.7) to (2.10).
+//! The camera: where the rays start and which screen positions they belong to (2.1), (2.3), (2.7) to (2.10).
 
 mod fisheye;
 mod frame;
@@ -42,28 +42,28 @@ impl Keyword for Handedness {
 pub struct Camera {
     /// O.
     pub eye: Vector,
-    /// The direction of view; of any length but zero.
+    /// The direction of view; of any nonzero length.
     pub forward: Vector,
-    /// A direction that appears vertical; of any length but zero, not parallel to `forward`.
+    /// A direction that appears vertical; of any nonzero length, not parallel to `forward`.
     pub up: Vector,
     /// Which way x runs.
     pub handedness: Handedness,
-    /// Which ray belongs to which place on the screen.
+    /// Which ray belongs to which screen position.
     pub projection: Projection,
     /// Pixels of the full image.
     pub resolution: Resolution,
 }
 
-/// A place on the screen.
+/// A position on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ScreenPosition {
     /// The centre of a pixel of the full image.
     PixelCenter(Pixel),
-    /// A place in a pixel of the full image.
+    /// A position inside a pixel of the full image.
     InPixel {
         /// The pixel.
         pixel: Pixel,
-        /// Parts of its width and height, from its upper left corner.
+        /// Fractions of its width and height, from its upper left corner.
         place: [f64; 2],
     },
     /// A point of the screen, in metres or degrees.

@@ -1,17 +1,17 @@
-//! How directions become places on the screen.
+//! How directions map to screen positions.
 
 use super::Fisheye;
 use crate::map::Resolution;
 
-/// How the camera sees: which ray belongs to which place on the screen. A closed set: those with formulas of their own have
-/// files of their own.
+/// How the camera projects: which ray belongs to which screen position. A closed set: projections with formulas of their own
+/// have files of their own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// Straight lines through the eye and a window (2.1).
     Perspective(Screen),
-    /// Parallel rays that start on the plane through the eye (2.7): the window there, in metres.
+    /// Parallel rays that start on the plane through the eye (2.7), with the window there, in metres.
     Orthographic(Extent),
-    /// All of a cone around the direction of view, in a circle (2.8), (2.9).
+    /// A whole cone around the direction of view, in a circle (2.8), (2.9).
     Fisheye(Fisheye),
     /// Longitude and latitude (2.10), in degrees.
     Panorama(Extent),
@@ -48,7 +48,7 @@ impl Screen {
 }
 
 impl Projection {
-    /// Whether places on the screen are in degrees instead of metres.
+    /// Whether screen positions are in degrees instead of metres.
     #[must_use]
     pub fn is_angular(&self) -> bool {
         matches!(self, Self::Fisheye(_) | Self::Panorama(_))

@@ -1,4 +1,4 @@
-//! Rays and projections, against each other and against what is known of them.
+//! Rays and projections, tested against each other and against known results.
 
 use super::*;
 
@@ -80,7 +80,7 @@ fn all_projections() -> Vec<Projection> {
     ]
 }
 
-/// World → screen → world: what a pixel's ray meets appears at that pixel, at any distance.
+/// World → screen → world: whatever a pixel's ray hits appears at that pixel, at any distance.
 #[test]
 fn every_projection_undoes_its_rays() {
     for projection in all_projections() {
@@ -96,7 +96,7 @@ fn every_projection_undoes_its_rays() {
                 let point = (ray.anchor + ray.offset) + ray.direction * distance;
                 let found = frame.project(point).expect("it is seen");
                 let error = (found[0] - expected[0]).hypot(found[1] - expected[1]);
-                // Of degrees, and of a point that is rounded at the coordinates of the eye.
+                // In degrees, for a point that is rounded like the coordinates of the eye.
                 assert!(error < 1e-10 / distance.min(1.0), "{projection:?} {column} {row}: {found:?} {expected:?}");
                 let sight = frame.sight(point, Vector::default());
                 assert!((sight.view + ray.direction).length() < 1e-12 / distance.min(1.0));
@@ -109,7 +109,7 @@ fn every_projection_undoes_its_rays() {
     }
 }
 
-/// A ray of doubles is one of 32 digits but for its own rounding.
+/// A ray of doubles agrees with one of 32 digits, apart from its own rounding.
 #[test]
 fn rays_of_doubles_agree_with_rays_of_32_digits() {
     use crate::double_double::DoubleDouble;
@@ -142,7 +142,7 @@ fn a_fisheye_sees_its_field_of_view_and_nothing_else() {
         let camera = Camera { projection: Projection::Fisheye(fisheye), ..lab(Handedness::Left) };
         let frame = CameraFrame::<f64>::new(&camera);
         let ray = |x, y| frame.ray(ScreenPosition::Point { x, y });
-        // At the edge of the circle, at right angles to the direction of view.
+        // At the edge of the circle, perpendicular to the direction of view.
         let inside = fisheye.radius() * (1.0 - 1e-14);
         let edge = ray(0.6 * inside, 0.8 * inside).expect("within the circle").direction;
         assert!((edge - Vector::new(0.6, 0.8, 0.0)).length() < 1e-13, "{mapping:?}: {edge:?}");

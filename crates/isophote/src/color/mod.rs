@@ -1,7 +1,7 @@
-//! Colour: three numbers in place of one, and the space that says which lights they are amounts of.
+//! Colour: three numbers in place of one, and the colour space that says which primaries they are amounts of.
 //!
-//! A coloured scene is three scenes of single numbers that share one geometry. Each component B, E, … follows the
-//! formulas of single numbers; what is one number of a coloured scene is its luminance Y (3.10).
+//! A scene with colours is three scenes of single numbers that share one geometry. Each component of B, E, … follows the
+//! formulas for single numbers; where a scene with colours gives a single number, it is the luminance Y (3.10).
 
 mod space;
 
@@ -9,14 +9,14 @@ pub use space::{Chromaticity, ColorSpace, Matrix};
 
 use crate::units::Keyword;
 
-/// One thing for each component of a colour.
+/// One value for each component of a colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rgb<T = f64> {
-    /// That of the red primary.
+    /// The value of the red primary.
     pub red: T,
-    /// That of the green primary.
+    /// The value of the green primary.
     pub green: T,
-    /// That of the blue primary.
+    /// The value of the blue primary.
     pub blue: T,
 }
 
@@ -44,12 +44,12 @@ impl Keyword for Component {
 }
 
 impl<T> Rgb<T> {
-    /// What a function says of each component, in their order.
+    /// Calls a function for each component, in order.
     pub fn from_fn(mut of: impl FnMut(Component) -> T) -> Self {
         Self { red: of(Component::Red), green: of(Component::Green), blue: of(Component::Blue) }
     }
 
-    /// That of a component.
+    /// The value of a component.
     #[must_use]
     pub fn of(&self, component: Component) -> &T {
         match component {
@@ -59,7 +59,7 @@ impl<T> Rgb<T> {
         }
     }
 
-    /// The same of each component.
+    /// Applies a function to each component.
     pub fn map<'s, U>(&'s self, mut convert: impl FnMut(&'s T) -> U) -> Rgb<U> {
         Rgb::from_fn(|component| convert(self.of(component)))
     }

@@ -1,4 +1,4 @@
-//! Spaces of linear RGB.
+//! Linear RGB colour spaces.
 
 use serde::{Deserialize, Serialize};
 
@@ -72,16 +72,16 @@ impl ColorSpace {
         Rgb::from(self.to_xyz().0[1])
     }
 
-    /// The sum that makes the luminance: `0.2126 R + 0.7152 G + 0.0722 B`.
+    /// The luminance as a formula: `0.2126 R + 0.7152 G + 0.0722 B`.
     #[must_use]
     pub fn luminance_text(self) -> String {
         let [red, green, blue] = self.luminance_weights().into_array();
         format!("{red:.4} R + {green:.4} G + {blue:.4} B")
     }
 
-    /// From linear RGB of this space to linear RGB of sRGB's primaries, white to white (Bradford's adaptation where the
-    /// whites differ); none where the primaries are those already. The amounts may be negative: sRGB does not hold every
-    /// colour.
+    /// From linear RGB of this space to linear RGB with sRGB's primaries, mapping white to white (Bradford adaptation where
+    /// the whites differ); `None` if this space already has those primaries. The amounts may be negative: sRGB does not
+    /// contain every colour.
     #[must_use]
     pub fn to_srgb(self) -> Option<Matrix> {
         if self == Self::Rec709 {
@@ -106,8 +106,8 @@ impl Chromaticity {
     }
 }
 
-/// Bradford's: responses of sharpened cones are scaled so that one white becomes the other. (Lam, Bradford 1985; as in
-/// the ICC specification, annex E.)
+/// The Bradford adaptation: responses of sharpened cones are scaled so that one white becomes the other. (Lam, Bradford
+/// 1985; as in the ICC specification, annex E.)
 fn adaptation(from: Chromaticity, to: Chromaticity) -> Matrix {
     const CONES: Matrix = Matrix([[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]]);
     let [before, after] = [from, to].map(|white| CONES.apply(white.xyz()));
@@ -115,7 +115,7 @@ fn adaptation(from: Chromaticity, to: Chromaticity) -> Matrix {
     CONES.inverse().times(scaled)
 }
 
-/// A linear map between spaces: a matrix by its rows.
+/// A linear map between colour spaces, as a matrix given by its rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Matrix([[f64; 3]; 3]);
 
@@ -131,7 +131,7 @@ impl Matrix {
         Self([0, 1, 2].map(|row| columns.map(|column| column[row])))
     }
 
-    /// By cofactors.
+    /// The inverse, by cofactors.
     fn inverse(self) -> Self {
         let Self(m) = self;
         let minor = |row: usize, column: usize| {
@@ -176,7 +176,7 @@ mod tests {
         }
     }
 
-    /// The matrix of ITU-R BT.2087 from BT.2020 to BT.709, to the digits in which it is published.
+    /// The matrix of ITU-R BT.2087 from BT.2020 to BT.709, to its published digits.
     #[test]
     fn the_way_from_rec2020_to_srgb_is_the_published_one() {
         let Matrix(found) = ColorSpace::Rec2020.to_srgb().unwrap();

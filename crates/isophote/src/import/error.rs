@@ -7,18 +7,18 @@ use super::ReadFailure;
 /// Why a file could not be imported.
 #[derive(Debug, thiserror::Error)]
 pub enum ImportError {
-    /// Its contents cannot be had.
+    /// Its contents are not available.
     #[error("{}", failure.describe(file))]
     Unread {
-        /// The file asked for.
+        /// The requested file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         failure: ReadFailure,
     },
-    /// The suffix of its name is that of no format which could be read here.
+    /// The suffix of its name is not that of a supported format.
     #[error("‘{}’: its suffix names no format that can be read here; allowed are {allowed}", file.display())]
     Suffix {
-        /// The file asked for.
+        /// The requested file.
         file: PathBuf,
         /// The suffixes that are allowed.
         allowed: &'static str,
@@ -54,7 +54,7 @@ pub enum FilePosition {
     Line(u64),
     /// A vertex, a face, a triangle or a sphere of a binary file, counted from 0.
     Element {
-        /// What it is.
+        /// The kind of element.
         kind: &'static str,
         /// Its number.
         number: u64,
@@ -81,18 +81,18 @@ pub enum FileProblem {
     /// No contents at all.
     #[error("it is empty; {expected} is needed")]
     Empty {
-        /// The format that the name announces.
+        /// The format that the file's name implies.
         expected: &'static str,
     },
-    /// Contents of another format than the name says.
+    /// Contents of a different format than the file's name implies.
     #[error("it is no {expected} file: it looks like {looks_like}")]
     Foreign {
-        /// The format that the name announces.
+        /// The format that the file's name implies.
         expected: &'static str,
         /// What the contents look like.
         looks_like: &'static str,
     },
-    /// A number that is infinite or none.
+    /// A number that is infinite or NaN.
     #[error("{field} is {value}; it must be finite")]
     NotFinite {
         /// The coordinate, radius or component.
@@ -100,71 +100,71 @@ pub enum FileProblem {
         /// Its value.
         value: f64,
     },
-    /// A radius that no sphere has.
+    /// A radius that is not positive.
     #[error("radius is {value}; it must be greater than 0")]
     Radius {
         /// Its value.
         value: f64,
     },
-    /// Text where a number must stand.
+    /// Text where a number is expected.
     #[error("{field} is ‘{text}’; {allowed} is needed")]
     NotANumber {
         /// The field.
         field: String,
-        /// What stands there, at most its beginning.
+        /// The text found there, or its beginning.
         text: String,
         /// The kind of number.
         allowed: &'static str,
     },
-    /// An index beyond the elements that there are.
+    /// An index of an element that does not exist.
     #[error("{field} is {index}; {}", allowed_indices(*first, *count, *backwards))]
     Index {
-        /// What is counted.
+        /// The kind of element.
         field: &'static str,
         /// The index as written.
         index: i64,
         /// The index of the first element: 1 in OBJ, 0 elsewhere.
         first: u64,
-        /// How many elements there are.
+        /// The number of elements.
         count: u64,
-        /// To how many of them negative indices may refer.
+        /// The number of elements that negative indices can refer to.
         backwards: u64,
     },
     /// A normal of length zero.
     #[error("normal {number} of a triangle's corner is (0, 0, 0); a normal needs a direction")]
     NoDirection {
-        /// Its number, counted as the format counts.
+        /// Its number, as the format counts.
         number: u64,
     },
     /// A line, a row or a face has too few or too many parts.
     #[error("{what} has {found}; {allowed}")]
     Parts {
-        /// What has them.
+        /// The line, row or face.
         what: String,
-        /// How many there are.
+        /// The number of parts found.
         found: u64,
-        /// How many are allowed.
+        /// The allowed number of parts.
         allowed: String,
     },
-    /// The file ends before what it announces.
+    /// The file ends before the data that it announces.
     #[error("{what} need {needed} bytes, but {left} are left in the file")]
     Truncated {
         /// What was announced, with its number.
         what: String,
-        /// The bytes that it takes.
+        /// The number of bytes that it takes.
         needed: u128,
-        /// The bytes that are there.
+        /// The number of bytes that are left.
         left: u64,
     },
-    /// The file goes on after what it announces.
+    /// The file continues after the data that it announces.
     #[error("{left} bytes follow after {what}; nothing may follow")]
     Leftover {
         /// What was announced, with its number.
         what: String,
-        /// The bytes that nobody announced.
+        /// The number of extra bytes.
         left: u64,
     },
-    /// Something that the format demands, or that we need, is not there.
+    /// Something that the format or this reader requires is missing.
     #[error("{what} is missing; {needed}")]
     Missing {
         /// What is missing.
@@ -172,17 +172,17 @@ pub enum FileProblem {
         /// What is needed, and why.
         needed: &'static str,
     },
-    /// Something else stands where the format demands one of a few things.
+    /// A value that is not one of those that the format allows.
     #[error("{what} is ‘{found}’; allowed: {allowed}")]
     Unexpected {
-        /// What it is about.
+        /// The item concerned.
         what: String,
-        /// What stands there, at most its beginning.
+        /// The value found there, or its beginning.
         found: String,
-        /// What may stand there.
+        /// The allowed values.
         allowed: String,
     },
-    /// A part of the format that cannot be read here.
+    /// A feature of the format that is not supported.
     #[error("{what} cannot be read here; {instead}")]
     Unsupported {
         /// The feature.
@@ -190,18 +190,18 @@ pub enum FileProblem {
         /// What to do instead.
         instead: &'static str,
     },
-    /// More than can be counted.
+    /// More items than can be counted.
     #[error("there are more than {most} {what}")]
     TooMany {
-        /// What is counted.
+        /// The kind of item.
         what: &'static str,
-        /// How many are allowed.
+        /// The maximum number.
         most: u64,
     },
     /// No triangle with an area.
     #[error("it has no triangles with an area ({degenerate} without)")]
     NoTriangles {
-        /// How many triangles there are without area.
+        /// The number of triangles without area.
         degenerate: u64,
     },
     /// No sphere.
@@ -210,7 +210,7 @@ pub enum FileProblem {
 }
 
 impl FileProblem {
-    /// The problem of a certain place.
+    /// The fault with this problem at a place.
     pub(super) fn at(self, place: FilePosition) -> Fault {
         Fault { place, problem: self }
     }

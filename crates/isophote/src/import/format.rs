@@ -18,7 +18,7 @@ pub enum MeshFormat {
 }
 
 impl MeshFormat {
-    /// The format that a file's name announces.
+    /// The format that a file's name implies.
     ///
     /// # Errors
     /// [`ImportError::Suffix`].
@@ -47,14 +47,14 @@ impl MeshFormat {
 pub enum SpheresFormat {
     /// Comma-separated values with a line of column names.
     Csv,
-    /// One array of `NumPy`.
+    /// A single `NumPy` array.
     Npy,
     /// Polygon file format whose vertices have a radius.
     Ply,
 }
 
 impl SpheresFormat {
-    /// The format that a file's name announces.
+    /// The format that a file's name implies.
     ///
     /// # Errors
     /// [`ImportError::Suffix`].
@@ -76,7 +76,7 @@ impl SpheresFormat {
     }
 }
 
-/// Refuses nothing that is of this format; most of what is of another one is told by name.
+/// Accepts everything that is in this format; most files in other formats are recognised and named.
 pub(super) fn check(bytes: &[u8], expected: Format) -> Result<(), Fault> {
     if bytes.is_empty() {
         return Err(FileProblem::Empty { expected: expected.name() }.at(FilePosition::Whole));
@@ -85,7 +85,7 @@ pub(super) fn check(bytes: &[u8], expected: Format) -> Result<(), Fault> {
     let is_expected = match guess {
         Some(Guess::Format(format)) => format == expected,
         Some(Guess::Other(_)) => false,
-        // An STL that was cut off: its reader says how much is missing.
+        // A truncated STL file: its reader reports how much is missing.
         Some(Guess::Binary) => expected == Format::Stl,
         None => !expected.has_magic(),
     };
@@ -123,7 +123,7 @@ impl Format {
         }
     }
 
-    /// Whether every file of the format begins with its own bytes.
+    /// Whether every file of the format starts with a magic number.
     fn has_magic(self) -> bool {
         matches!(self, Self::Ply | Self::Glb | Self::Npy)
     }
@@ -163,7 +163,7 @@ fn guess(bytes: &[u8]) -> Option<Guess> {
     guess_text(start)
 }
 
-/// By size: many binary files begin with the word `solid`, too.
+/// Judged by size, because many binary files also start with the word `solid`.
 pub(super) fn is_binary_stl(bytes: &[u8]) -> bool {
     let Some(count) = bytes.get(80..84) else { return false };
     let count = u32::from_le_bytes(count.try_into().expect("four bytes"));

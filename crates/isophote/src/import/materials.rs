@@ -1,13 +1,13 @@
-//! Names of materials, given to triangles or spheres.
+//! Names of materials of triangles or spheres.
 
 use std::collections::HashMap;
 
 use super::FileProblem;
 
-/// Which material each triangle or sphere has. Only names: what they mean is not in the files that are read here.
+/// The material of each triangle or sphere. Only names: what they mean is not in the files that are read here.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MaterialSlots {
-    /// The names in the order of their first use; `None` is the slot of all elements for which the file names none.
+    /// The names in the order of their first use; `None` is the slot of all elements without a named material.
     pub names: Vec<Option<String>>,
     /// The slot of each element: an index into `names`.
     pub slots: Vec<u16>,
@@ -23,9 +23,9 @@ pub(super) struct SlotBook {
 }
 
 impl SlotBook {
-    /// The slot of this name, a new one where it is met for the first time.
+    /// The slot of this name; a new one on first use.
     pub fn slot(&mut self, name: Option<&str>) -> Result<u16, FileProblem> {
-        // Neighbours mostly have the same material: then nothing is hashed and nothing allocated.
+        // Neighbours usually have the same material: then nothing is hashed or allocated.
         if self.names.get(usize::from(self.last)).is_some_and(|last| last.as_deref() == name) {
             return Ok(self.last);
         }
@@ -43,12 +43,12 @@ impl SlotBook {
         Ok(slot)
     }
 
-    /// The next element has this slot.
+    /// Assigns this slot to the next element.
     pub fn push(&mut self, slot: u16) {
         self.slots.push(slot);
     }
 
-    /// Nothing if no element has a named material. Names that no element has are dropped: nobody needs to know them.
+    /// `None` if no element has a named material. Names without elements are dropped, since they are not needed.
     pub fn finish(self) -> Option<MaterialSlots> {
         let Self { names, mut slots, .. } = self;
         let mut is_used = vec![false; names.len()];

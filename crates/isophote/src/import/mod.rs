@@ -1,8 +1,8 @@
-//! Files of triangle meshes (OBJ, PLY, STL, glTF binary) and of many spheres (CSV, NPY, PLY), read into plain data.
-//! Nothing here knows of scenes: lengths are in the file's unit, materials are names.
+//! Files of triangle meshes (OBJ, PLY, STL, glTF binary) and of many spheres (CSV, NPY, PLY), read into plain data. This
+//! module knows nothing about scenes: lengths are in the file's unit, materials are names.
 //!
-//! A file is read strictly: what is wrong in it is an error that names the place, the value and what is allowed, never
-//! a guess. Memory is taken for what a file really holds, not for what its header claims.
+//! Files are read strictly: anything wrong is an error that names the place, the value and what is allowed, never a guess.
+//! Memory is allocated for what a file really holds, not for what its header claims.
 
 mod error;
 mod format;
@@ -27,7 +27,7 @@ pub use spheres::SphereList;
 /// The triangles of a file whose suffix is `.obj`, `.ply`, `.stl` or `.glb`.
 ///
 /// # Errors
-/// [`ImportError`]: another suffix; a file that cannot be read; all that [`mesh_from_bytes`] refuses.
+/// [`ImportError`]: another suffix; a file that cannot be read; everything that [`mesh_from_bytes`] rejects.
 pub fn read_mesh(files: &dyn Resolver, name: &str) -> Result<TriangleMesh, ImportError> {
     read(files, name, MeshFormat::from_suffix, mesh_from_bytes)
 }
@@ -35,7 +35,7 @@ pub fn read_mesh(files: &dyn Resolver, name: &str) -> Result<TriangleMesh, Impor
 /// The spheres of a file whose suffix is `.csv`, `.npy` or `.ply`.
 ///
 /// # Errors
-/// [`ImportError`]: another suffix; a file that cannot be read; all that [`spheres_from_bytes`] refuses.
+/// [`ImportError`]: another suffix; a file that cannot be read; everything that [`spheres_from_bytes`] rejects.
 pub fn read_spheres(files: &dyn Resolver, name: &str) -> Result<SphereList, ImportError> {
     read(files, name, SpheresFormat::from_suffix, spheres_from_bytes)
 }
@@ -54,11 +54,11 @@ fn read<F, T>(
     }
 }
 
-/// The triangles of a file's contents.
+/// The triangles in the contents of a file.
 ///
 /// # Errors
-/// [`Fault`]: contents of another format; damage; numbers that are not finite; indices out of range; no triangle that
-/// has an area; features of the format that are not supported (named one by one).
+/// [`Fault`]: contents of another format; damage; numbers that are not finite; indices out of range; no triangle with an
+/// area; features of the format that are not supported (each named).
 pub fn mesh_from_bytes(bytes: &[u8], format: MeshFormat) -> Result<TriangleMesh, Fault> {
     format::check(bytes, format.format())?;
     match format {
@@ -69,11 +69,11 @@ pub fn mesh_from_bytes(bytes: &[u8], format: MeshFormat) -> Result<TriangleMesh,
     }
 }
 
-/// The spheres of a file's contents.
+/// The spheres in the contents of a file.
 ///
 /// # Errors
 /// [`Fault`]: contents of another format; damage; numbers that are not finite; radii that are not positive; no sphere;
-/// columns that are missing or unknown.
+/// missing or unknown columns.
 pub fn spheres_from_bytes(bytes: &[u8], format: SpheresFormat) -> Result<SphereList, Fault> {
     format::check(bytes, format.format())?;
     match format {

@@ -1,4 +1,4 @@
-//! Where the files that a scene names come from: the caller says, so that nothing else here knows a file system.
+//! Where the files named in a scene come from: the caller decides, so that nothing else here depends on a file system.
 
 mod memory;
 mod origin;
@@ -10,40 +10,40 @@ use std::path::PathBuf;
 pub use memory::MemoryFiles;
 pub use origin::Origin;
 
-/// Gives the contents of files by the names that a scene has for them.
+/// Provides the contents of files by the names used in a scene.
 pub trait Resolver {
     /// The contents of a file.
     ///
     /// # Errors
-    /// Why there are none.
+    /// The reason why there are none.
     fn read(&self, name: &str) -> Result<Cow<'_, [u8]>, ReadFailure>;
 
-    /// Where names start. What was read of one origin is not read again of an equal one.
+    /// The base of relative names. Files read from one origin are not read again from an equal one.
     fn origin(&self) -> Origin;
 
-    /// The file as messages call it.
+    /// The file's name in messages.
     fn full_name(&self, name: &str) -> PathBuf {
         name.into()
     }
 }
 
-/// Why the contents of a file cannot be had.
+/// Why the contents of a file are not available.
 #[derive(Debug)]
 pub enum ReadFailure {
-    /// It cannot be opened or read; the system's reason.
+    /// It cannot be opened or read; contains the system's reason.
     Unreadable(io::Error),
     /// Its path is that of a directory.
     Directory,
     /// Its path is that of a pipe, which may never end, or of a device, which has no end.
     NoFile,
-    /// It is not among the files at hand, which have these names.
+    /// It is not among the available files, whose names are listed.
     Unknown(Vec<String>),
-    /// No file at all can be read here.
+    /// No files can be read at all.
     NoFiles,
 }
 
 impl ReadFailure {
-    /// What is wrong with a file, as people read it.
+    /// Describes what is wrong with a file, for people.
     #[must_use]
     pub fn describe(&self, file: &std::path::Path) -> String {
         let file = file.display();
@@ -68,7 +68,7 @@ impl ReadFailure {
     }
 }
 
-/// No files at all, as in a browser: a scene that names one is refused.
+/// No files at all, as in a browser: a scene that names a file is rejected.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoFiles;
 

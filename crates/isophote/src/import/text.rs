@@ -1,8 +1,9 @@
-//! Lines, words and numbers of text files, taken from bytes: comments may be in any encoding.
+//! Lines, words and numbers of text files, read as bytes: comments may be in any encoding.
 
 use super::FileProblem;
 
-/// The lines with their numbers from 1, without the line's end (LF or CR LF). Nothing follows after a last line's end.
+/// The lines with their numbers from 1, without the line endings (LF or CR LF). A final line ending does not start another
+/// line.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (u64, &[u8])> {
     let mut rest = Some(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let lines = std::iter::from_fn(move || {
@@ -22,7 +23,7 @@ pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-/// A decimal number; `nan`, `inf` and what is too large for a double are for the caller to refuse with the value.
+/// A decimal number; `nan`, `inf` and numbers too large for a double are left for the caller to reject, with the value.
 pub(super) fn number(word: &[u8], field: &str) -> Result<f64, FileProblem> {
     let number = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
     number.ok_or_else(|| not_a_number(word, field, "a number"))
@@ -39,7 +40,7 @@ pub(super) fn finite(value: f64, field: &'static str) -> Result<f64, FileProblem
     if value.is_finite() { Ok(value) } else { Err(FileProblem::NotFinite { field, value }) }
 }
 
-/// A whole number.
+/// An integer.
 pub(super) fn integer(word: &[u8], field: &str) -> Result<i64, FileProblem> {
     let number = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
     number.ok_or_else(|| not_a_number(word, field, "a whole number"))
@@ -49,7 +50,7 @@ fn not_a_number(word: &[u8], field: &str, allowed: &'static str) -> FileProblem 
     FileProblem::NotANumber { field: field.into(), text: shown(word), allowed }
 }
 
-/// A word as messages show it: long ones are cut, and what is no text is replaced.
+/// A word for messages: long ones are truncated, and invalid text is replaced.
 pub(super) fn shown(word: &[u8]) -> String {
     let text = String::from_utf8_lossy(&word[..word.len().min(160)]);
     let mut shown: String = text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).take(40).collect();

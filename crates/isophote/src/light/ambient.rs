@@ -7,15 +7,15 @@ use std::f64::consts::PI;
 pub struct Ambient {
     /// L_a, in W/(m²·sr) or cd/m².
     pub radiance: f64,
-    /// In how many directions each point looks for shapes that are in the way; nothing where they do not count.
+    /// The number of directions in which each point looks for shapes in the way; `None` if obstruction is ignored.
     pub obstruction: Option<u32>,
 }
 
 impl Ambient {
-    /// In how many directions each point looks by default.
+    /// The default number of directions per point.
     pub const SAMPLES: u32 = 64;
 
-    /// E_a = π L_a: the irradiance of a surface that has the whole hemisphere of the environment before it.
+    /// E_a = π L_a: the irradiance of a surface that sees the whole hemisphere of the environment.
     #[must_use]
     pub fn unobstructed_irradiance(&self) -> f64 {
         PI * self.radiance

@@ -1,4 +1,4 @@
-//! How the intensity of a point light depends on the direction, as its author says it.
+//! How the intensity of a point light depends on the direction, as written in the scene.
 
 use super::{Pattern, Spot};
 use crate::vector::Vector;
@@ -28,7 +28,7 @@ impl Emission {
         }
     }
 
-    /// The same as the formula evaluates it.
+    /// The same pattern in the form that the formula evaluates.
     #[must_use]
     pub fn pattern(self) -> Pattern {
         match self {

@@ -1,4 +1,4 @@
-//! Lights as the sums over them take them.
+//! Lights in the form that the sums over them use.
 
 use std::ops::Range;
 
@@ -7,48 +7,48 @@ use crate::real::Real;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
-/// A term of the sum (3.1). A point light and a parallel light are one emitter each; a lamp with a size is several.
+/// One term of the sum (3.1). A point light or a parallel light is one emitter; a lamp with a size is several.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emitter {
     /// Index of its light among those of the scene.
     pub light: usize,
-    /// Where it stands, in metres; L, a unit vector, if its light is parallel.
+    /// Its position, in metres; L, a unit vector, for a parallel light.
     pub position: Vector,
-    /// I₀, in W/sr or cd; E₀, in W/m² or lx, if its light is parallel.
+    /// I₀, in W/sr or cd; E₀, in W/m² or lx, for a parallel light.
     pub intensity: f64,
     /// How the intensity depends on the direction.
     pub pattern: Pattern,
 }
 
-/// An emitter as it is seen from a place near the points that it lights.
+/// An emitter as seen from a place near the points that it lights.
 ///
-/// A parallel one is at distance 1 from each of them: E₀ cosθ_i/1² is then its irradiance.
+/// A parallel emitter is at distance 1 from each point, so that its irradiance is E₀ cosθ_i/1².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedEmitter<T = f64> {
-    /// From that place to the emitter; L of a parallel one.
+    /// From that place to the emitter; L for a parallel one.
     pub position: Vector<T>,
-    /// I₀; E₀ of a parallel one.
+    /// I₀; E₀ for a parallel one.
     pub intensity: T,
     /// How the intensity depends on the direction.
     pub pattern: Pattern<T>,
 }
 
-/// The emitters of a scene, in the order of its lights: the order of every sum.
+/// The emitters of a scene, in the order of its lights, which is the order of every sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Emitters {
     all: Vec<Emitter>,
-    /// Where those of each light begin, and last how many there are.
+    /// The index of each light's first emitter, followed by the number of emitters.
     first: Vec<usize>,
 }
 
 impl Emitters {
-    /// The emitters of some lights.
+    /// The emitters of these lights.
     #[must_use]
     pub fn of(lights: &[Light]) -> Self {
         Self::new(lights.iter().map(|light| vec![light.emitter()]))
     }
 
-    /// Those of each light.
+    /// From the emitters of each light.
     fn new(of_lights: impl Iterator<Item = Vec<Emitter>>) -> Self {
         let (mut all, mut first) = (Vec::new(), vec![0]);
         for (light, emitters) in of_lights.enumerate() {
@@ -58,20 +58,20 @@ impl Emitters {
         Self { all, first }
     }
 
-    /// All of them.
+    /// All emitters.
     #[must_use]
     #[inline(always)]
     pub fn all(&self) -> &[Emitter] {
         &self.all
     }
 
-    /// The indices of those of a light.
+    /// The indices of a light's emitters.
     #[must_use]
     pub fn of_light(&self, light: usize) -> Range<usize> {
         self.first[light]..self.first[light + 1]
     }
 
-    /// The same lights, each cut into two emitters of half its strength.
+    /// The same lights, with each emitter replaced by two of half its strength.
     #[cfg(test)]
     pub(crate) fn halved(&self) -> Self {
         let halves = |light| {
@@ -93,20 +93,20 @@ impl Light {
 }
 
 impl Emitter {
-    /// Where it stands, in metres; a parallel one stands nowhere, and outside everything.
+    /// Its position, in metres; `None` for a parallel emitter, which is outside everything.
     #[must_use]
     pub fn place(&self) -> Option<Vector> {
         (!self.pattern.is_parallel()).then_some(self.position)
     }
 
-    /// The way from a place to the emitter, in metres; of a parallel one L, a unit vector.
+    /// The vector from a place to the emitter, in metres; L, a unit vector, for a parallel one.
     #[must_use]
     #[inline(always)]
     pub fn from_place<T: Scalar>(&self, anchor: Vector, offset: Vector<T>) -> Vector<T> {
         self.seen_from(anchor).from_point(offset)
     }
 
-    /// The emitter as it is seen from a place.
+    /// The emitter as seen from a place.
     #[must_use]
     #[inline(always)]
     pub fn seen_from<T: Scalar>(&self, place: Vector) -> PlacedEmitter<T> {
@@ -120,7 +120,7 @@ impl Emitter {
 }
 
 impl PlacedEmitter {
-    /// The same with lengths in another unit, given in metres. Irradiances stay what they are.
+    /// The same emitter with lengths in another unit, given in metres. Irradiances do not change.
     #[must_use]
     #[inline(always)]
     pub fn in_unit(self, unit: f64) -> Self {
@@ -145,13 +145,13 @@ impl<T: Copy> PlacedEmitter<T> {
 }
 
 impl<T: Real> PlacedEmitter<T> {
-    /// From a point, given from the same place as the emitter, to the emitter.
+    /// The vector from a point, given relative to the same place as the emitter, to the emitter.
     #[inline(always)]
     pub fn from_point(&self, offset: Vector<T>) -> Vector<T> {
         if self.pattern.is_parallel() { self.position } else { self.position - offset }
     }
 
-    /// I(ω) towards a point, in W/sr or cd. `to_light` leads from the point to the emitter; its length is
+    /// I(ω) towards a point, in W/sr or cd. `to_light` is the vector from the point to the emitter; its length is
     /// 1/`inverse_distance`.
     #[inline(always)]
     pub fn intensity_towards(&self, to_light: Vector<T>, inverse_distance: T) -> T {

@@ -18,18 +18,18 @@ pub use spot::Spot;
 
 use crate::vector::Vector;
 
-/// A light with its name.
+/// A named light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
     /// Its name, unique among the lights.
     pub name: String,
-    /// What it is.
+    /// Its kind, with the parameters of that kind.
     pub kind: LightKind,
-    /// Whether shapes keep its light from each other, if the scene has shadows.
+    /// Whether shapes block its light for one another, if the scene has shadows.
     pub casts_shadows: bool,
 }
 
-/// The kinds of lights. A closed set: each has a file of its own.
+/// The kinds of lights: a closed set, each in a file of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LightKind {
     /// All of it comes from one point.
@@ -39,7 +39,7 @@ pub enum LightKind {
 }
 
 impl Light {
-    /// Where it stands, in metres; a parallel light stands nowhere, and outside everything.
+    /// Its position, in metres; `None` for a parallel light, which is outside everything.
     #[must_use]
     pub fn position(&self) -> Option<Vector> {
         match &self.kind {
@@ -48,7 +48,7 @@ impl Light {
         }
     }
 
-    /// The way from a place to the light, in metres; of a parallel light L, a unit vector.
+    /// The vector from a place to the light, in metres; L, a unit vector, for a parallel light.
     #[must_use]
     pub fn seen_from(&self, place: Vector) -> Vector {
         match &self.kind {
@@ -57,7 +57,8 @@ impl Light {
         }
     }
 
-    /// The largest part of its strength by which it grows per radian at an edge of its own: 0 where it has none.
+    /// The steepest growth of its intensity per radian at an edge of its own, as a fraction of its full strength; 0 if it
+    /// has no edge.
     #[must_use]
     pub fn steepest_edge(&self) -> f64 {
         match &self.kind {

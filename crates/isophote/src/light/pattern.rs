@@ -1,23 +1,23 @@
-//! Emission patterns as the formula evaluates them.
+//! Emission patterns in the form that the formula evaluates.
 
 use crate::real::Real;
 use crate::vector::Vector;
 
-/// How what arrives of an emitter depends on the direction.
+/// How the light received from an emitter depends on the direction.
 ///
-/// Each emitter has one for all points, so that a vector of points never branches lane by lane.
+/// An emitter has the same pattern for all points, so a vector of points never branches per lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pattern<T = f64> {
     /// The same in every direction.
     Isotropic,
-    /// As the cosine of the angle from the axis.
+    /// Proportional to the cosine of the angle from the axis.
     Lambertian {
         /// Unit vector of the axis.
         axis: Vector<T>,
     },
     /// A cone with a smooth edge.
     Cone(Cone<T>),
-    /// All from one direction, without loss on the way (3.8).
+    /// All from one direction, without loss over distance (3.8).
     Parallel,
 }
 
@@ -58,8 +58,8 @@ impl<T: Copy> Pattern<T> {
 }
 
 impl<T: Real> Pattern<T> {
-    /// What of I₀, a number of this type, goes towards a point. `to_light` leads from the point to the light; its length
-    /// is 1/`inverse_distance`.
+    /// The part of I₀, a number of this type, that goes towards a point. `to_light` is the vector from the point to the
+    /// light; its length is 1/`inverse_distance`.
     #[inline(always)]
     pub(super) fn towards(&self, intensity: T, to_light: Vector<T>, inverse_distance: T) -> T {
         match self {
@@ -71,8 +71,8 @@ impl<T: Real> Pattern<T> {
 }
 
 impl Cone {
-    /// A bound of the growth of I/I₀ with γ, per radian: the step is steepest in its middle, by 3/2 of its height over
-    /// cosα − cosβ, and sinγ is largest at the outer edge.
+    /// An upper bound on how fast I/I₀ changes with γ, per radian: the step is steepest in its middle, with 3/2 of its
+    /// height over cosα − cosβ, and sinγ is largest at the outer edge.
     #[must_use]
     pub fn steepest(&self) -> f64 {
         3.0 * self.steepness * libm::sin(self.outer_angle())
@@ -86,14 +86,14 @@ impl Cone {
 }
 
 impl<T: Real> Cone<T> {
-    /// I/I₀ towards a point. `to_light` leads from the point to the light; its length is 1/`inverse_distance`.
+    /// I/I₀ towards a point. `to_light` is the vector from the point to the light; its length is 1/`inverse_distance`.
     #[inline(always)]
     pub fn share(&self, to_light: Vector<T>, inverse_distance: T) -> T {
         let x = self.place_in_step(to_light, inverse_distance);
         x * x * (x + x).mul_add(x.splat_like(-1.0), x.splat_like(3.0))
     }
 
-    /// x, by 2(1 − cosγ) = ‖A + L‖²: near the axis a cosine would have lost the angle's digits.
+    /// x, computed from 2(1 − cosγ) = ‖A + L‖²: near the axis a cosine would lose the digits of the angle.
     #[inline(always)]
     pub(super) fn place_in_step(&self, to_light: Vector<T>, inverse_distance: T) -> T {
         let from_axis = to_light.mul_add(inverse_distance, self.axis);

@@ -1,4 +1,4 @@
-//! Lights that stand at a point.
+//! Point lights.
 
 use super::Emission;
 use crate::vector::Vector;
@@ -6,7 +6,7 @@ use crate::vector::Vector;
 /// A light whose irradiance falls with the square of the distance (3.1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointLight {
-    /// S, where it stands, in metres.
+    /// S, its position, in metres.
     pub position: Vector,
     /// I₀: radiant intensity (W/sr) on the axis, or luminous intensity (cd).
     pub intensity: f64,
@@ -15,7 +15,7 @@ pub struct PointLight {
 }
 
 impl PointLight {
-    /// The power that the light sends out in all directions, in W or lm.
+    /// The total power that the light emits, in W or lm.
     #[must_use]
     pub fn power(&self) -> f64 {
         self.intensity * self.emission.solid_angle()

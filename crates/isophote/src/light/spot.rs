@@ -3,7 +3,8 @@
 use super::Cone;
 use crate::vector::Vector;
 
-/// The emission pattern of a spot light (3.7): I₀ within the inner cone, 0 outside the outer one, a smooth step between.
+/// The emission pattern of a spot light (3.7): I₀ within the inner cone, 0 outside the outer one, and a smooth step in
+/// between.
 ///
 /// ```text
 /// I = I₀ x²(3 − 2x),   x = (cosγ − cosβ)/(cosα − cosβ), at least 0 and at most 1
@@ -12,16 +13,16 @@ use crate::vector::Vector;
 /// γ is the angle from the axis, α and β are the half angles of the cones. Power: π I₀ (2 − cosα − cosβ).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
-    /// The cone as the formula evaluates it.
+    /// The cone in the form that the formula evaluates.
     pub cone: Cone,
 }
 
 impl Spot {
-    /// The least difference of the half angles, in radians: half a degree. A sharper edge would multiply the rounding of
-    /// directions beyond what [`DOUBLE`](crate::tolerance::DOUBLE) allows.
+    /// The smallest allowed difference of the half angles, in radians: half a degree. A sharper edge would amplify the
+    /// rounding errors of directions beyond what [`DOUBLE`](crate::tolerance::DOUBLE) allows.
     pub const SHARPEST: f64 = std::f64::consts::PI / 360.0;
 
-    /// A cone around a unit vector by its two half angles in radians, 0 ≤ inner < outer ≤ π/2.
+    /// A cone around a unit vector, by its two half angles in radians, 0 ≤ inner < outer ≤ π/2.
     #[must_use]
     pub fn new(axis: Vector, inner: f64, outer: f64) -> Self {
         let [inner, outer] = [inner, outer].map(|angle| 4.0 * libm::pow(libm::sin(0.5 * angle), 2.0));
@@ -52,8 +53,8 @@ impl Spot {
         self.cone.steepest()
     }
 
-    /// By what part of itself I grows with γ, per radian, towards a point that the light sees in a direction (a unit
-    /// vector); infinite where there is no light.
+    /// The relative growth of I with γ, per radian, in a direction (a unit vector) from the light; infinite where there is
+    /// no light.
     #[must_use]
     pub fn relative_growth(&self, direction: Vector) -> f64 {
         let x = self.cone.place_in_step(-direction, 1.0);
@@ -84,7 +85,7 @@ mod tests {
         assert!((share(quarter) - 0.156_25).abs() < 1e-14, "x²(3 − 2x) at x = 1/4");
     }
 
-    /// The growth by its definition, a difference quotient.
+    /// The growth from its definition, as a difference quotient.
     #[test]
     fn the_growth_of_a_spots_intensity_is_its_derivative() {
         let spot = Spot::new(Vector::new(0.0, 1.0, 0.0), 0.2, 0.5);
@@ -98,7 +99,7 @@ mod tests {
             let relative = growth / share(angle);
             assert!((spot.relative_growth(towards(angle)) / relative - 1.0).abs() < 1e-6, "{angle}");
         }
-        // It is a bound: the slope is steepest in the middle, and sinγ largest at the outer edge.
+        // It is a bound: the slope is steepest in the middle, while sinγ is largest at the outer edge.
         assert!((0.7..=1.0).contains(&(steepest / spot.steepest())), "{steepest}");
         assert_eq!(spot.relative_growth(towards(0.1)), 0.0);
     }

@@ -1,4 +1,4 @@
-//! Maps of numbers that were not rendered as one.
+//! Maps built from given numbers, instead of rendered.
 
 use super::{Channel, Map, Mask, Provenance, Quantity, Region, Resolution, Values, Window};
 
@@ -13,14 +13,14 @@ pub struct MapBuilder {
     channels: Vec<Channel>,
 }
 
-/// Why there is no map of these channels.
+/// Why these channels do not make a map.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum MapError {
-    /// The part is not one of the image.
+    /// The region does not lie in the image.
     #[error("the region of {width} × {height} pixels from column {column}, row {row} does not lie in the image",
         width = region.size.width, height = region.size.height, column = region.corner.column, row = region.corner.row)]
     Region {
-        /// The region asked for.
+        /// The requested region.
         region: Region,
     },
     /// A channel with too few or too many values.
@@ -33,7 +33,7 @@ pub enum MapError {
         /// How many it should have.
         pixels: usize,
     },
-    /// A value where no surface is.
+    /// A value where there is no surface.
     #[error("the channel ‘{name}’ is not 0 at pixel {index}, where no surface is seen")]
     Background {
         /// The channel.
@@ -41,10 +41,10 @@ pub enum MapError {
         /// The first such pixel: row × width + column.
         index: usize,
     },
-    /// Nothing says what is seen where.
+    /// Nothing tells which shapes are seen where.
     #[error("there is no channel ‘shape’ with an index for each pixel")]
     NoShape,
-    /// Two answers to what is seen.
+    /// Contradictory data about the shapes that are seen.
     #[error("the channel ‘shape’ is not what is seen at pixel {index}")]
     OtherShape {
         /// The first such pixel: row × width + column.
@@ -53,8 +53,7 @@ pub enum MapError {
 }
 
 impl Map {
-    /// Begins a map of an image of this size: of all of it, unless another region is told. The window is that of the
-    /// region.
+    /// Starts a map of an image of this size: of the whole image, unless a region is set. The window is that of the region.
     #[must_use]
     pub fn builder(full: Resolution, window: Window, provenance: Provenance) -> MapBuilder {
         MapBuilder { full, region: Region::all(full), window, provenance, shapes: None, channels: vec![] }
@@ -69,25 +68,25 @@ impl MapBuilder {
         self
     }
 
-    /// The index of the shape that each pixel sees, −1 where none is: for maps without the channel that holds it.
+    /// The index of the shape that each pixel sees, −1 where there is none: for maps without a shape channel.
     #[must_use]
     pub fn shapes(mut self, shapes: Vec<i32>) -> Self {
         self.shapes = Some(shapes);
         self
     }
 
-    /// Adds a channel, after those that are there: row by row from the top, 0 (−1 for indices) where no surface is seen.
+    /// Adds a channel after the existing ones: row by row from the top, 0 (−1 for indices) where no surface is seen.
     #[must_use]
     pub fn channel(mut self, quantity: Quantity, unit: &str, values: Values) -> Self {
         self.channels.push(Channel { quantity, unit: unit.into(), values });
         self
     }
 
-    /// The map.
+    /// Builds the map.
     ///
     /// # Errors
-    /// A region that is not in the image; channels whose lengths are not its number of pixels; nothing that says which
-    /// shapes are seen, or two things that say it differently; a value where no surface is.
+    /// A region that is not in the image; channels whose lengths differ from its number of pixels; missing or contradictory
+    /// data about the shapes that are seen; a value where there is no surface.
     pub fn build(mut self) -> Result<Map, MapError> {
         self.check_region()?;
         self.check_lengths()?;

@@ -1,35 +1,35 @@
-//! What the columns and rows of a map run along.
+//! What the axes of a map stand for.
 
 use serde::{Deserialize, Serialize};
 
 use crate::units::{Keyword, LengthUnit};
 
-/// What x and y of a [`Window`](super::Window) are: places on the screen, or on a surface.
+/// What x and y of a [`Window`](super::Window) are: coordinates on the screen, or on a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Coordinates {
     /// x and y on the camera's screen plane.
     #[default]
     Screen,
-    /// The same in degrees, as the screens of a fisheye and of a panorama have them.
+    /// x and y in degrees, as on the screens of a fisheye or a panorama.
     ScreenAngles,
     /// Longitude and latitude on a sphere.
     LongitudeLatitude,
-    /// Longitude and the sine of the latitude on a sphere: equal areas are equal (Lambert's cylindrical projection).
+    /// Longitude and the sine of the latitude on a sphere: equal areas have equal sizes (Lambert's cylindrical projection).
     LongitudeSine,
     /// The angle about a cylinder's axis, and the height along it.
     AngleHeight,
     /// The angle about a disk's normal, and the distance from its centre.
     AngleRadius,
-    /// The angle about a disk's normal, and the square of the distance from its centre, as a part of R².
+    /// The angle about a disk's normal, and the square of the distance from its centre, as a fraction of R².
     AngleSquare,
     /// Along the width and the height of a rectangle, from its centre.
     Sides,
-    /// Along the edges u and v of a grid's rectangle, from its corner. The grid is no shape.
+    /// Along the edges u and v of a grid's rectangle, from its corner. The grid is not a shape.
     Grid,
 }
 
-/// One of the two directions of a map.
+/// One of the two axes of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CoordinateAxis {
     /// Its name in tables.
@@ -41,7 +41,7 @@ pub struct CoordinateAxis {
 }
 
 impl Coordinates {
-    /// What runs from left to right, and what runs from the lower to the upper edge.
+    /// The axis from left to right, and the axis from the lower to the upper edge.
     #[must_use]
     pub fn axes(self, length: LengthUnit) -> [CoordinateAxis; 2] {
         let axis = |name, title, unit| CoordinateAxis { name, title, unit };

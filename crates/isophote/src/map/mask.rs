@@ -1,13 +1,13 @@
-//! Which pixels see a surface, and which one.
+//! Which pixels see a surface, and which surface.
 
 use super::Resolution;
 
-/// Neighbouring pixels of a row that see the same shape.
+/// Consecutive pixels of a row that see the same shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run {
     /// Index in the map (row × width + column) of the first pixel.
     pub start: usize,
-    /// Index after the last pixel; both are in the same row.
+    /// Index after the last pixel, which is in the same row as the first.
     pub end: usize,
     /// Index of the shape.
     pub shape: u32,
@@ -15,8 +15,8 @@ pub struct Run {
 
 /// The mask of a map: runs of pixels, in reading order. Pixels in no run see no surface.
 ///
-/// An image is mostly background and large surfaces: a run takes the place of thousands of indices, and whoever reads
-/// the map passes over the background without looking at it.
+/// An image is mostly background and large surfaces: a run replaces thousands of indices, and readers of the map skip the
+/// background without looking at it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mask {
     size: Resolution,
@@ -24,7 +24,7 @@ pub struct Mask {
 }
 
 impl Mask {
-    /// A mask of runs that are in reading order and do not overlap.
+    /// A mask of runs, which must be in reading order and must not overlap.
     pub(crate) fn new(size: Resolution, runs: Vec<Run>) -> Self {
         debug_assert!(runs.iter().all(|run| run.start < run.end));
         debug_assert!(runs.windows(2).all(|pair| pair[0].end <= pair[1].start));
@@ -32,7 +32,7 @@ impl Mask {
         Self { size, runs }
     }
 
-    /// The mask of these shapes, one index a pixel, negative where none is seen.
+    /// The mask of these shapes, one index per pixel, negative where there is none.
     pub(crate) fn of_shapes(size: Resolution, shapes: &[i32]) -> Self {
         let width = size.width as usize;
         let mut runs: Vec<Run> = Vec::new();
@@ -46,7 +46,7 @@ impl Mask {
         Self::new(size, runs)
     }
 
-    /// The same with more runs, in reading order too, where nothing was seen so far.
+    /// The mask with more runs, also in reading order, where nothing was seen so far.
     pub(crate) fn with(&self, more: &[Run]) -> Self {
         let width = self.size.width as usize;
         let mut runs: Vec<Run> = Vec::with_capacity(self.runs.len() + more.len());
@@ -73,7 +73,7 @@ impl Mask {
         &self.runs
     }
 
-    /// How many pixels see a surface.
+    /// The number of pixels that see a surface.
     #[must_use]
     pub fn visible(&self) -> usize {
         self.runs.iter().map(|run| run.end - run.start).sum()
@@ -91,7 +91,7 @@ impl Mask {
         self.runs.get(before).filter(|run| run.start <= index).map(|run| run.shape)
     }
 
-    /// One index a pixel, −1 where no surface is seen.
+    /// One index per pixel, −1 where no surface is seen.
     #[must_use]
     pub fn shapes(&self) -> Vec<i32> {
         let mut shapes = vec![-1; self.size.pixels()];

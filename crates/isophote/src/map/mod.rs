@@ -1,4 +1,4 @@
-//! The result of a render: named channels of linear values with units, and what made them.
+//! The result of a render: named channels of linear values with units, and their provenance.
 
 mod builder;
 mod coordinates;
@@ -27,22 +27,22 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// Number of pixels, of an image of any size.
+    /// The number of pixels of an image of any size.
     #[must_use]
     pub fn count(self) -> u64 {
         u64::from(self.width) * u64::from(self.height)
     }
 
-    /// Number of pixels of a map in memory. Of an image that no address space holds it is the largest number there is,
-    /// for which no memory can be had, and not what is left of a product that wrapped around.
+    /// The number of pixels of a map in memory. For an image that exceeds the address space it is the largest `usize`, which
+    /// cannot be allocated, rather than a product that wrapped around.
     #[must_use]
     pub fn pixels(self) -> usize {
         usize::try_from(self.count()).unwrap_or(usize::MAX)
     }
 
-    /// The longest side of a map in memory: what the formats of pictures and their readers take.
+    /// The longest side of a map in memory: the limit of image formats and their readers.
     pub const LONGEST_IN_MEMORY: u32 = 65_536;
-    /// Pixels of a map in memory: a channel of this many doubles takes 1 GiB.
+    /// The most pixels of a map in memory: a channel of this many doubles takes 1 GiB.
     pub const MOST_IN_MEMORY: u64 = 1 << 27;
 
     /// Whether a map of this size may be held in memory as a whole; larger images are rendered region by region.
@@ -77,7 +77,7 @@ pub struct Window {
     pub x: [f64; 2],
     /// Lower and upper edge.
     pub y: [f64; 2],
-    /// The scene's unit of length: that of both, unless the coordinates say otherwise.
+    /// The scene's unit of length: the unit of both, unless the coordinates imply another.
     pub length: LengthUnit,
     /// What x and y are.
     #[serde(default, skip_serializing_if = "Coordinates::is_default")]
@@ -99,28 +99,28 @@ pub enum Quantity {
     Brightness,
     /// Irradiance (illuminance in a photometric scene), summed over the lights and with the ambient light (3.1).
     Irradiance,
-    /// What of the irradiance is ambient light (3.9).
+    /// The ambient part of the irradiance (3.9).
     Ambient,
     /// The diffuse part of the brightness.
     Diffuse,
     /// The specular part of the brightness.
     Specular,
-    /// Distance to the surface along the viewing ray: from the eye, ‖P − O‖, or from the plane through it where rays are
-    /// parallel.
+    /// Distance to the surface along the viewing ray: from the eye, ‖P − O‖, or, for parallel rays, from the plane through
+    /// it.
     Depth,
     /// The point P on the surface.
     Position,
     /// The unit normal at P, on the viewer's side.
     Normal,
-    /// Index of the shape that is seen, −1 where none is.
+    /// Index of the visible shape, −1 where there is none.
     Shape,
-    /// Rays that went through the pixel, 0 where no surface is seen.
+    /// The number of rays through the pixel, 0 where no surface is seen.
     Samples,
-    /// The part of them that met a surface.
+    /// The fraction of these rays that hit a surface.
     Coverage,
-    /// The standard error of [`Ambient`](Self::Ambient) where what obstructs it is sampled.
+    /// The standard error of [`Ambient`](Self::Ambient), where its obstruction is sampled.
     AmbientError,
-    /// The brightness of each component of the light: R, G, B by the scene's colour space. In scenes with colours only,
+    /// The brightness of each component of the light: R, G, B in the scene's colour space. Only in scenes with colours,
     /// where every other quantity is a luminance (3.10).
     Color,
     /// Irradiance from the light with this name alone, one term of (3.1).
@@ -141,7 +141,7 @@ impl Quantity {
         Self::Shape,
     ];
 
-    /// What tells how the others were sampled.
+    /// The quantities that describe how the others were sampled.
     pub const OF_SAMPLING: [Self; 3] = [Self::Samples, Self::Coverage, Self::AmbientError];
 
     /// The unit of the quantity in a scene of this kind: `"1"` for pure numbers, `""` for indices.
@@ -156,13 +156,13 @@ impl Quantity {
         }
     }
 
-    /// Whether it is one number at a pixel, of which levels and statistics can be made.
+    /// Whether it is one number per pixel, so that it has levels and statistics.
     #[must_use]
     pub fn is_scalar(&self) -> bool {
         !matches!(self, Self::Position | Self::Normal | Self::Shape | Self::Color)
     }
 
-    /// Whether pictures can be made of it: of one number at a pixel, or of colours.
+    /// Whether it can be shown as a picture: one number per pixel, or colours.
     #[must_use]
     pub fn can_be_picture(&self) -> bool {
         self.is_scalar() || *self == Self::Color
@@ -200,7 +200,7 @@ impl Quantity {
     }
 }
 
-/// A named quantity over the image.
+/// The values of one quantity over the image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
     /// What it holds.
@@ -211,7 +211,7 @@ pub struct Channel {
     pub values: Values,
 }
 
-/// What an output file says about itself.
+/// What an output file records about its origin.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     /// `isophote` and its version.
@@ -224,7 +224,7 @@ pub struct Provenance {
     pub convention: String,
     /// The renderer and its precision.
     pub renderer: String,
-    /// The space of linear RGB that the scene's colours are amounts of; none where it has no colours.
+    /// The linear RGB space of the scene's colours; `None` for a scene without colours.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color_space: Option<String>,
 }
@@ -238,20 +238,20 @@ pub struct Map {
     pub region: Region,
     /// The region's outer edges on the screen.
     pub window: Window,
-    /// What made the map.
+    /// The provenance of the map.
     pub provenance: Provenance,
     pub(crate) mask: Mask,
     pub(crate) channels: Vec<Channel>,
 }
 
 impl Map {
-    /// All channels, in the order in which they were asked for.
+    /// All channels, in the requested order.
     #[must_use]
     pub fn channels(&self) -> &[Channel] {
         &self.channels
     }
 
-    /// Drops the channels that are not wanted.
+    /// Removes the channels that are not wanted.
     pub fn retain(&mut self, is_wanted: impl Fn(&Quantity) -> bool) {
         self.channels.retain(|channel| is_wanted(&channel.quantity));
     }
@@ -268,7 +268,7 @@ impl Map {
         Scalars::of(&self.channel(quantity)?.values)
     }
 
-    /// Which pixels see a surface, and which one. Every map has it, whatever channels were asked for.
+    /// Which pixels see a surface, and which surface. Every map has a mask, whatever channels were requested.
     #[must_use]
     pub fn mask(&self) -> &Mask {
         &self.mask
@@ -288,7 +288,7 @@ impl Map {
 mod tests {
     use super::*;
 
-    /// On 32 bits as on 64: 65536² there is 0 in the arithmetic of addresses.
+    /// On 32 bits as well as on 64: in 32-bit address arithmetic, 65536² is 0.
     #[test]
     fn images_larger_than_any_memory_have_their_number_of_pixels() {
         let square = |side| Resolution { width: side, height: side };

@@ -3,10 +3,10 @@
 use super::{Map, Pixel, Quantity, Scalars};
 use crate::sum::Sum;
 
-/// What the statistics of a part of an image are put together from.
+/// The extremes and the sum from which the statistics of a part of an image are computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Totals {
-    /// The largest value; the first one in reading order where several are equal.
+    /// The largest value; the first in reading order if several are equal.
     pub max: Extreme,
     /// The smallest value, likewise.
     pub min: Extreme,
@@ -23,10 +23,10 @@ pub struct Extreme {
     pub pixel: Pixel,
 }
 
-/// Extremes and sum of a channel; nothing if no surface is visible, or if the map has no such scalar channel.
+/// Extremes and sum of a channel; `None` if no surface is visible, or if the map has no such scalar channel.
 ///
-/// The sum is that of eight compensated ones: the i-th pixel of a run goes into sum i mod 8, and in the end they are
-/// added in order, with compensation too. It is the same on every machine.
+/// The sum is made of eight compensated sums: the i-th pixel of a run goes into sum i mod 8, and finally the eight are added
+/// in order, also with compensation. The result is the same on every machine.
 #[must_use]
 pub fn totals(map: &Map, quantity: &Quantity) -> Option<Totals> {
     match map.scalar(quantity)? {
@@ -55,7 +55,8 @@ fn totals_of<T: Copy + Into<f64>>(map: &Map, values: &[T]) -> Option<Totals> {
     Some(Totals { max: extreme(max), min: extreme(min), sum: sums.total() })
 }
 
-/// Values that are taken at once: the compiler makes vectors of these arrays, which it does not of a [`Sum`] each.
+/// The number of values processed at once: the compiler turns loops over arrays of this size into SIMD, but not loops over a
+/// [`Sum`] each.
 const LANES: usize = 8;
 
 /// Compensated sums, as [`Sum`] makes them: the i-th value goes into lane i mod [`LANES`].
@@ -66,7 +67,7 @@ struct EightSums {
 }
 
 impl EightSums {
-    /// Adds the values; gives the smallest and the largest of them.
+    /// Adds the values; returns the smallest and the largest of them.
     fn add<T: Copy + Into<f64>>(&mut self, values: &[T]) -> [f64; 2] {
         let (mut low, mut high) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
         let mut add = |lane: usize, value: f64| {

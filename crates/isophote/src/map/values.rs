@@ -1,21 +1,21 @@
-//! What channels hold.
+//! The values of channels.
 
 /// The values of a channel, row by row from the top, each row from the left. Zero (−1 for indices) where no
 /// surface is seen, never NaN: the map's [mask](super::Map::mask) tells the two kinds of zero apart.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
-    /// One number a pixel.
+    /// One number per pixel.
     Scalar(Vec<f64>),
-    /// One number a pixel, computed in single precision.
+    /// One number per pixel, computed in single precision.
     Single(Vec<f32>),
-    /// Three numbers a pixel: x, y, z, or red, green, blue.
+    /// Three numbers per pixel: x, y, z, or red, green, blue.
     Vector(Vec<[f64; 3]>),
-    /// One index a pixel.
+    /// One index per pixel.
     Index(Vec<i32>),
 }
 
 impl Values {
-    /// How many pixels there are.
+    /// The number of pixels.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -26,7 +26,7 @@ impl Values {
         }
     }
 
-    /// Whether there is no pixel.
+    /// Whether there are no pixels.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -43,7 +43,7 @@ pub enum Scalars<'m> {
 }
 
 impl<'m> Scalars<'m> {
-    /// The numbers of a channel that holds one a pixel.
+    /// The numbers of a channel with one number per pixel.
     #[must_use]
     pub fn of(values: &'m Values) -> Option<Self> {
         match values {
@@ -63,7 +63,7 @@ impl<'m> Scalars<'m> {
         }
     }
 
-    /// How many pixels there are.
+    /// The number of pixels.
     #[must_use]
     pub fn len(self) -> usize {
         match self {
@@ -72,7 +72,7 @@ impl<'m> Scalars<'m> {
         }
     }
 
-    /// Whether there is no pixel.
+    /// Whether there are no pixels.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.len() == 0

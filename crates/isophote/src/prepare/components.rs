@@ -1,4 +1,4 @@
-//! A scene with colours as three of single numbers.
+//! A scene with colours as three scenes of single numbers.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::scene::Scene;
 /// The components of a scene with colours, each a scene of single numbers. They share the geometry and its tree.
 #[derive(Clone, Debug)]
 pub struct Components {
-    /// Which primaries they are amounts of.
+    /// The colour space whose primaries they are amounts of.
     pub space: ColorSpace,
     scenes: Arc<Rgb<PreparedScene>>,
 }
@@ -29,22 +29,22 @@ impl Components {
         &self.scenes
     }
 
-    /// The same, each seen in another way.
+    /// The same components after a change of view.
     pub(super) fn map(&self, change: impl FnMut(&PreparedScene) -> PreparedScene) -> Self {
         Self { space: self.space, scenes: Arc::new(self.scenes.map(change)) }
     }
 }
 
 impl PreparedScene {
-    /// The components of a scene with colours. Only they may be shaded: the scene's own materials and lights are
-    /// luminances, and the luminance of a product is not the product of luminances.
+    /// The components of a scene with colours. Only they may be shaded: the scene's own materials and lights are luminances,
+    /// and the luminance of a product is not the product of the luminances.
     #[must_use]
     pub fn components(&self) -> Option<&Components> {
         self.components.as_ref()
     }
 
-    /// The scenes whose shadings make the brightness: the components of one with colours, else the scene itself. What is
-    /// seen is the same in all of them.
+    /// The scenes that are shaded to get the brightness: the components of a scene with colours, otherwise the scene itself.
+    /// The visible surfaces are the same in all of them.
     #[must_use]
     pub fn layers(&self) -> Vec<&Self> {
         match self.components() {
@@ -74,7 +74,7 @@ impl PreparedScene {
         }
     }
 
-    /// What would be wrong without a word: a scene with colours is shaded by its components.
+    /// Guards against a silent error: a scene with colours must be shaded by its components.
     #[inline(always)]
     pub(super) fn expect_single_numbers(&self) {
         debug_assert!(self.components.is_none(), "a scene with colours is shaded by its components");

@@ -1,4 +1,4 @@
-//! The scene's convention, applied to its materials.
+//! The scene's convention applied to its materials.
 
 use std::ops::Range;
 
@@ -11,13 +11,13 @@ use crate::shape::{Accuracy, Primitive, TracingError};
 #[derive(Clone, Debug)]
 pub(super) struct PreparedFormula {
     pub(super) formula: BrightnessFormula,
-    /// Of a ray whose hit is shaded so.
+    /// The accuracy of a ray whose hit is shaded with this formula.
     pub(super) accuracy: Accuracy,
-    /// For which clearances in its outline a shape has to be traced with 32 digits.
+    /// The clearances within its outline at which a shape has to be traced with 32 digits.
     pub(super) doubtful_in_outline: Range<f64>,
 }
 
-/// The convention applied to each material of a scene, and last to what has none.
+/// The convention applied to each material of a scene, and finally to a missing material.
 pub(super) fn formulas(scene: &Scene) -> Vec<PreparedFormula> {
     let without_material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };
     let materials = scene.materials.iter().map(|material| &material.reflectance);
@@ -38,14 +38,14 @@ impl PreparedScene {
         &self.formulas[shape.geometry.material_of(primitive.part).unwrap_or(shape.formula)]
     }
 
-    /// The convention applied to the material of a primitive.
+    /// The convention applied to a primitive's material.
     #[must_use]
     pub fn formula(&self, primitive: Primitive) -> &BrightnessFormula {
         self.expect_single_numbers();
         &self.prepared_formula(primitive).formula
     }
 
-    /// The convention where there is no material.
+    /// The convention applied where there is no material.
     pub(crate) fn formula_without_material(&self) -> &BrightnessFormula {
         self.expect_single_numbers();
         &self.formulas[self.scene.materials.len()].formula

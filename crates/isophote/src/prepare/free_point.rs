@@ -1,4 +1,4 @@
-//! Points of a plane that need not be a shape's, such as those of a grid.
+//! Points of a plane that need not lie on a shape, such as those of a grid.
 
 use std::cell::OnceCell;
 
@@ -10,24 +10,24 @@ use crate::scalar::Scalar;
 use crate::shape::{NearestPoint, Primitive, SurfacePoint};
 use crate::vector::Vector;
 
-/// The surfaces on which a free point happens to lie: a grid may lie on a floor. They do not stand in its light, but for
-/// closed ones, which hide what is behind their surface and not inside them.
+/// The surfaces that a free point happens to lie on: a grid may lie on a floor. They do not block its light, except for
+/// closed ones, which hide whatever is behind their surface but not inside them.
 struct Touched {
     own: Vec<Primitive>,
-    /// Closed ones that cast shadows, and the normal there.
+    /// The closed ones that cast shadows, with the normal there.
     walls: Vec<(Primitive, NearestPoint)>,
 }
 
-/// What is known of the light at a free point, whatever the strength of the lights.
+/// What is known about the light at a free point, independent of the strength of the lights.
 pub(crate) struct LightAtPoint {
     touched: Touched,
     precise: OnceCell<SurfacePoint<DoubleDouble>>,
-    /// What of the ambient light arrives.
+    /// The part of the ambient light that arrives.
     pub(crate) ambient: AmbientShare,
 }
 
 impl PreparedScene {
-    /// The surroundings of a point, and what of the ambient light arrives there.
+    /// The surroundings of a point, and the part of the ambient light that arrives there.
     pub(crate) fn light_at(&self, point: &SurfacePoint) -> LightAtPoint {
         let touched = self.touched(point.position());
         let ambient = self.free_point_ambient(&touched, point);
@@ -70,7 +70,8 @@ impl PreparedScene {
         sampled(hemisphere, point.normal, sees_the_environment)
     }
 
-    /// The closed shape behind whose surface something is in a direction: something at a place, or without end.
+    /// The closed shape that hides a target in a direction (at a place, or infinitely far away) because the target is behind
+    /// its surface.
     fn wall_before(&self, touched: &Touched, direction: Vector, place: Option<Vector>) -> Option<Primitive> {
         let hides = |(wall, nearest): &&(Primitive, NearestPoint)| {
             let geometry = &self.shapes[wall.shape].geometry;

@@ -1,18 +1,18 @@
-//! What a ray meets.
+//! What a ray hits.
 
 use crate::double_double::DoubleDouble;
 use crate::scalar::Scalar;
 use crate::shape::{Primitive, SurfacePoint};
 use crate::vector::Vector;
 
-/// What a ray from the eye meets first.
+/// The first thing that a ray from the eye hits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit<T = f64> {
-    /// What was hit.
+    /// The primitive that was hit.
     pub primitive: Primitive,
     /// t, the distance from the eye in metres (2.2).
     pub distance: T,
-    /// The point.
+    /// The surface point.
     pub point: SurfacePoint<T>,
     /// Whether a closed shape is seen from inside.
     pub from_inside: bool,

@@ -1,4 +1,4 @@
-//! A scene laid out for tracing and shading. It chooses no renderer.
+//! A scene prepared for tracing and shading. This module does not choose a renderer.
 
 mod components;
 mod formulas;
@@ -31,56 +31,56 @@ use crate::scene::Scene;
 use crate::shape::{Geometry, Primitive, Sphere};
 use crate::threads::Threads;
 
-/// A scene with everything computed that does not depend on the pixel.
+/// A scene with everything precomputed that does not depend on the pixel.
 #[derive(Clone, Debug)]
 pub struct PreparedScene {
     scene: Arc<Scene>,
     frame: CameraFrame<f64>,
     precise_frame: CameraFrame<DoubleDouble>,
     shapes: Vec<PreparedShape>,
-    /// What the sums over the lights go through.
+    /// The emitters that the sums over the lights visit.
     emitters: Emitters,
-    /// The convention applied to each material, and last to what has none.
+    /// The convention applied to each material, and finally to a missing material.
     formulas: Vec<PreparedFormula>,
-    /// The number of the first primitive of each shape, and last how many there are.
+    /// The number of the first primitive of each shape, followed by the number of primitives.
     first_primitives: Vec<u32>,
-    /// With so many primitives, or fewer, rays try each of them.
+    /// Up to this many primitives, rays try each of them.
     linear_search_max: u32,
-    /// Over all primitives; with so few that each is tried, built only when a renderer asks for it.
+    /// Over all primitives; where there are few enough to try each, it is built only when a renderer asks for it.
     accelerator: Arc<OnceLock<Accelerator>>,
-    /// Where surface points look for what obstructs the ambient light, if anything does.
+    /// The directions in which surface points look for shapes that obstruct the ambient light, if any can.
     hemisphere: Option<Arc<Hemisphere>>,
-    /// Written when the first map asks for it, once for all that is made of the scene.
+    /// Written when the first map asks for it, once for everything made from the scene.
     source_text: Arc<OnceLock<String>>,
-    /// What its tree is built by, and whatever else is computed of it in parallel.
+    /// The threads that build its tree and do its other parallel work.
     threads: Threads,
-    /// Of a scene with colours.
+    /// For a scene with colours.
     components: Option<Components>,
 }
 
 #[derive(Clone, Debug)]
 struct PreparedShape {
     geometry: Geometry,
-    /// Index of the formula of parts that have no material of their own.
+    /// Index of the formula for parts without a material of their own.
     formula: usize,
-    /// Where it appears on the screen; found when a renderer first asks, as probes never do.
+    /// Its outline on the screen; computed when a renderer first asks, since probes never do.
     outline: OnceLock<Outline>,
 }
 
 impl PreparedScene {
-    /// Lays a scene out.
+    /// Prepares a scene.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         Self::on_threads(scene, &Threads::default())
     }
 
-    /// Lays a scene out; these threads build its tree, and work on its grids and surfaces.
+    /// Prepares a scene; these threads build its tree, and compute its grids and surfaces.
     #[must_use]
     pub fn on_threads(scene: &Scene, threads: &Threads) -> Self {
         Self::with_accelerator(scene, Arc::default(), threads)
     }
 
-    /// Lays out a scene after an earlier one, whose tree is its own too if their shapes are the same.
+    /// Prepares a scene after an earlier one, and shares the earlier scene's tree if their shapes are the same.
     #[must_use]
     pub fn reusing(earlier: &Self, scene: &Scene) -> Self {
         let (before, now) = (&earlier.scene.shapes, &scene.shapes);
@@ -91,7 +91,7 @@ impl PreparedScene {
         Self::with_accelerator(scene, accelerator, &earlier.threads)
     }
 
-    /// Whether laying a scene out builds a tree, which may take a while.
+    /// Whether preparing a scene builds a tree, which may take a while.
     #[must_use]
     pub fn builds_tree(scene: &Scene) -> bool {
         scene.shapes.iter().map(|shape| shape.geometry.parts()).sum::<u32>() > HANDFUL
@@ -144,13 +144,13 @@ impl PreparedScene {
         self.source_text.get_or_init(|| self.scene.source.to_toml())
     }
 
-    /// What the sums over the lights go through.
+    /// The emitters that the sums over the lights visit.
     #[must_use]
     pub fn emitters(&self) -> &Emitters {
         &self.emitters
     }
 
-    /// What grids and surfaces are computed by.
+    /// The threads that compute grids and surfaces.
     pub(crate) fn threads(&self) -> &Threads {
         &self.threads
     }
@@ -161,7 +161,7 @@ impl PreparedScene {
         &self.frame
     }
 
-    /// The same with 32 digits.
+    /// The camera's axes with 32 digits.
     pub(crate) fn precise_frame(&self) -> &CameraFrame<DoubleDouble> {
         &self.precise_frame
     }
@@ -173,12 +173,12 @@ impl PreparedScene {
         shape.outline.get_or_init(|| Outline::of(&shape.geometry, &self.precise_frame))
     }
 
-    /// For which clearances in its outline a primitive has to be traced with 32 digits.
+    /// The clearances within its outline at which a primitive has to be traced with 32 digits.
     pub(crate) fn doubtful_in_outline(&self, primitive: Primitive) -> &Range<f64> {
         &self.prepared_formula(primitive).doubtful_in_outline
     }
 
-    /// Whether a shape may stand in another one's light.
+    /// Whether a shape may block another one's light.
     pub(crate) fn casts_shadows_between_shapes(&self) -> bool {
         let is_ambient_obstructed = self.scene.ambient.is_some_and(|ambient| ambient.obstruction.is_some());
         (self.scene.shadows || is_ambient_obstructed) && self.has_shapes_beside_one()
@@ -188,18 +188,18 @@ impl PreparedScene {
         self.primitive_count() > 1
     }
 
-    /// How many primitives there are.
+    /// The number of primitives.
     pub(crate) fn primitive_count(&self) -> u32 {
         self.first_primitives.last().copied().unwrap_or(0)
     }
 
-    /// The primitive of a number: they are counted through all shapes.
+    /// The primitive with this number, counted through all shapes.
     pub(crate) fn primitive(&self, number: u32) -> Primitive {
         let shape = self.first_primitives.partition_point(|first| *first <= number) - 1;
         Primitive { shape, part: number - self.first_primitives[shape] }
     }
 
-    /// The sphere that a primitive is, if it is one.
+    /// The primitive as a sphere, if it is one.
     pub(crate) fn sphere(&self, primitive: Primitive) -> Option<&Sphere> {
         match &self.shapes[primitive.shape].geometry {
             Geometry::Sphere(sphere) => Some(sphere),
@@ -208,7 +208,7 @@ impl PreparedScene {
         }
     }
 
-    /// The tree over all primitives, by their numbers.
+    /// The tree over all primitives, which it knows by their numbers.
     pub(crate) fn accelerator(&self) -> &Accelerator {
         self.accelerator.get_or_init(|| {
             Accelerator::new(&self.threads, self.primitive_count(), |number| {
@@ -219,5 +219,5 @@ impl PreparedScene {
     }
 }
 
-/// So many primitives are tried one by one.
+/// Up to this many primitives are tried one by one.
 const HANDFUL: u32 = 8;

@@ -1,4 +1,4 @@
-//! Ambient light, and what the scene takes of it (3.9).
+//! Ambient light, and how much of it the scene blocks (3.9).
 
 use super::{Hit, PreparedScene};
 use crate::hammersley::points;
@@ -6,7 +6,7 @@ use crate::light::Ambient;
 use crate::ray::Ray;
 use crate::vector::Vector;
 
-/// The irradiance of a surface point by the ambient light.
+/// The irradiance of a surface point due to the ambient light.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct AmbientIrradiance {
     /// E_a, in W/m² or lx.
@@ -25,7 +25,7 @@ pub(crate) struct AmbientShare {
 impl AmbientShare {
     pub(super) const ALL: Self = Self { share: 1.0, standard_error: 0.0 };
 
-    /// What it is of an environment, if there is any.
+    /// The irradiance due to this environment, if there is one.
     pub(crate) fn of(self, ambient: Option<&Ambient>) -> AmbientIrradiance {
         let whole = ambient.map_or(0.0, Ambient::unobstructed_irradiance);
         AmbientIrradiance { irradiance: whole * self.share, standard_error: whole * self.standard_error }
@@ -33,21 +33,21 @@ impl AmbientShare {
 }
 
 impl PreparedScene {
-    /// E_a of a hit: π L_a, or the part of it that comes past the shapes of the scene.
+    /// E_a of a hit: π L_a, or the part of it that the shapes of the scene let through.
     ///
     /// ```text
     /// E_a = L_a ∫ V(ω) cosθ dω ≈ π L_a m/n
     /// ```
     ///
-    /// m of n directions, spread over the hemisphere in proportion to cosθ and always the same about the normal, meet
-    /// nothing. The standard error is that of n independent directions, π L_a √(p(1 − p)/n) with p = m/n; spread
-    /// directions do better.
+    /// Of n directions, spread over the hemisphere with a density proportional to cosθ and always the same relative to the
+    /// normal, m hit nothing. The standard error is that of n independent directions, π L_a √(p(1 − p)/n) with p = m/n;
+    /// evenly spread directions do better.
     #[must_use]
     pub fn ambient_irradiance(&self, hit: &Hit) -> AmbientIrradiance {
         self.ambient_share(hit).of(self.scene.ambient())
     }
 
-    /// What of the ambient light arrives at a hit, whatever its radiance.
+    /// The part of the ambient light that arrives at a hit, whatever its radiance.
     pub(crate) fn ambient_share(&self, hit: &Hit) -> AmbientShare {
         let Some(ambient) = &self.scene.ambient else { return AmbientShare::ALL };
         let is_walled_in = hit.from_inside && ambient.obstruction.is_some();
@@ -62,16 +62,16 @@ impl PreparedScene {
     }
 }
 
-/// Directions of a hemisphere, spread in proportion to the cosine. They lie over points of a disc that are spread evenly:
-/// the density of their feet goes as the cosine.
+/// Directions of a hemisphere, with a density proportional to the cosine: they are lifted from evenly spread points of a
+/// disc, because the density of their projections onto the disc goes as the cosine.
 #[derive(Clone, Debug)]
 pub(super) struct Hemisphere {
-    /// cosφ and sinφ around the normal, the part across it and the part along it.
+    /// cosφ and sinφ around the normal, then the components across and along it.
     directions: Vec<[f64; 4]>,
 }
 
 impl Hemisphere {
-    /// With so many directions.
+    /// With this many directions.
     pub(super) fn new(count: u32) -> Self {
         let direction = |[across, around]: [f64; 2]| {
             let angle = std::f64::consts::TAU * around;
@@ -89,8 +89,8 @@ impl Hemisphere {
     }
 }
 
-/// What of the ambient light arrives on the side of a normal: all of it, or the part of the directions of a hemisphere that
-/// see the environment.
+/// The part of the ambient light that arrives on the side of a normal: all of it, or the fraction of a hemisphere's
+/// directions that see the environment.
 pub(super) fn sampled(
     hemisphere: Option<&Hemisphere>,
     normal: Vector,
@@ -104,7 +104,7 @@ pub(super) fn sampled(
     AmbientShare { share, standard_error: (share * (1.0 - share) / samples).sqrt() }
 }
 
-/// Two unit vectors at right angles to a unit vector and to each other. (Duff et al., "Building an orthonormal basis,
+/// Two unit vectors perpendicular to a unit vector and to each other. (Duff et al., "Building an orthonormal basis,
 /// revisited", Journal of Computer Graphics Techniques 6(1), 2017.)
 fn perpendiculars(normal: Vector) -> [Vector; 2] {
     let sign = 1.0_f64.copysign(normal.z);

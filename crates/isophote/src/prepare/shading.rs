@@ -1,4 +1,4 @@
-//! The brightness of what a ray meets.
+//! The brightness of what a ray hits.
 
 use std::cell::OnceCell;
 
@@ -9,15 +9,15 @@ use crate::shade::{LightTerm, Shading, shade};
 use crate::shape::{Located, Primitive, SurfacePoint};
 
 impl PreparedScene {
-    /// The brightness of a hit by the scene's convention, summed over the lights; `each` sees every light's own term.
-    /// `seen_at` is the place on the screen where the hit was found: at the edge of a shadow it is found again with 32
-    /// digits. A hit of a given point has none, and is taken as exact.
+    /// The brightness of a hit by the scene's convention, summed over the lights; `each` is called with every light's own
+    /// term. `seen_at` is the screen position at which the hit was found: at a shadow edge it is traced again with 32
+    /// digits. A hit made from a given point has none, and is taken as exact.
     pub fn shade(&self, hit: &Hit, seen_at: Option<ScreenPosition>, each: impl FnMut(usize, &LightTerm)) -> Shading {
         let (ambient, visibility) = (self.ambient_irradiance(hit).irradiance, self.visibility(hit, seen_at));
         shade(&hit.point, self.emitters.all(), self.formula(hit.primitive), ambient, visibility, each)
     }
 
-    /// v of each emitter at a hit, found when it is asked for.
+    /// v of each emitter at a hit, computed on demand.
     pub(crate) fn visibility<'h>(
         &'h self,
         hit: &'h Hit,
@@ -37,7 +37,7 @@ impl PreparedScene {
         }
     }
 
-    /// The same for a hit of 32 digits.
+    /// The same shading for a hit with 32 digits.
     pub fn shade_precisely(
         &self,
         hit: &Hit<DoubleDouble>,
@@ -47,13 +47,13 @@ impl PreparedScene {
             let is_blocked = self.blocking(hit, emitter).blocker.is_some();
             DoubleDouble::from_f64(if is_blocked { 0.0 } else { 1.0 })
         };
-        // The directions are sampled, which a double is good enough for.
+        // The directions are sampled, so a double is accurate enough.
         let ambient = DoubleDouble::from_f64(self.ambient_irradiance(&hit.rounded()).irradiance);
         shade(&hit.point, self.emitters.all(), self.formula(hit.primitive), ambient, visibility, each)
     }
 
-    /// A point of a surface as the eye sees it, also where the eye cannot: cosθ_o is then negative. Of a closed shape
-    /// the eye sees the outside, unless it is inside; of another one the side that is turned to it.
+    /// A point of a surface as the eye sees it, even where the eye cannot see it: cosθ_o is then negative. The eye sees a
+    /// closed shape's outside, unless it is inside; of any other shape it sees the side that faces it.
     #[must_use]
     pub fn surface_point(&self, located: &Located) -> Hit {
         let nearest = &located.nearest;

@@ -1,4 +1,4 @@
-//! What rays from the eye meet first.
+//! What rays from the eye hit first.
 
 use super::{Hit, PreparedScene, PreparedShape};
 use crate::camera::{ScreenPosition, Sight};
@@ -10,29 +10,29 @@ use crate::shape::{Primitive, ShapeHit};
 use crate::vector::Vector;
 
 impl PreparedScene {
-    /// What the ray through a place on the screen meets first (2.1), (2.2).
+    /// What the ray through a screen position hits first (2.1), (2.2).
     ///
-    /// cosθ_o of a double has an error that grows without bound towards the silhouette; rays that come near it are
-    /// traced again with 32 digits, so that the bound on the error holds at every visible pixel.
+    /// The error of cosθ_o in double precision grows without bound towards the silhouette; rays that pass near it are traced
+    /// again with 32 digits, so that the error bound holds at every visible pixel.
     #[must_use]
     pub fn trace(&self, position: ScreenPosition) -> Option<Hit> {
         let Traced { hit, is_doubtful } = self.nearest(&self.frame.ray(position)?);
         if is_doubtful { self.trace_precisely(position).map(Hit::rounded) } else { hit }
     }
 
-    /// What the ray through a place on the screen meets first, with 32 digits.
+    /// What the ray through a screen position hits first, with 32 digits.
     #[must_use]
     pub fn trace_precisely(&self, position: ScreenPosition) -> Option<Hit<DoubleDouble>> {
         self.nearest(&self.precise_frame.ray(position)?).hit
     }
 
-    /// What is seen at a pixel of the full image.
+    /// What a pixel of the full image sees.
     #[must_use]
     pub fn trace_pixel(&self, pixel: Pixel) -> Option<Hit> {
         self.trace(ScreenPosition::PixelCenter(pixel))
     }
 
-    /// What the eye meets first in the direction of a point, on the screen or not.
+    /// What the eye sees first in the direction of a point, whether that is on the screen or not.
     #[must_use]
     pub fn first_towards(&self, point: Vector) -> Option<Primitive> {
         let Sight { start, view, .. } = self.frame.sight(point, Vector::default());
@@ -40,8 +40,8 @@ impl PreparedScene {
         self.nearest(&ray).hit.map(|hit| hit.primitive)
     }
 
-    /// Goes through the primitives that a ray may meet, the nearer ones first more or less; `test` says up to which
-    /// distance to go on. With a handful of primitives that is all of them.
+    /// Visits the primitives that a ray may hit, roughly from near to far; `test` returns the distance up to which the
+    /// search goes on. With only a handful of primitives, all of them are visited.
     pub(super) fn along_ray<T: Scalar>(&self, ray: &Ray<T>, limit: f64, mut test: impl FnMut(Primitive) -> f64) {
         if self.primitive_count() <= self.linear_search_max {
             self.primitives().for_each(|primitive| {
@@ -54,7 +54,7 @@ impl PreparedScene {
         self.accelerator().along_ray(start, vector(ray.direction), limit, |number| test(self.primitive(number)));
     }
 
-    /// All that can be hit.
+    /// All primitives.
     fn primitives(&self) -> impl Iterator<Item = Primitive> {
         let parts = |(shape, prepared): (usize, &PreparedShape)| {
             (0..prepared.geometry.parts()).map(move |part| Primitive { shape, part })
@@ -69,7 +69,7 @@ impl PreparedScene {
     }
 }
 
-/// A search for the nearest primitive; in which order they are tested does not matter.
+/// A search for the nearest primitive; the order in which primitives are tested does not matter.
 struct Search<'s, T> {
     scene: &'s PreparedScene,
     ray: &'s Ray<T>,
@@ -89,12 +89,12 @@ impl<'s, T: Scalar> Search<'s, T> {
         self.doubtful_from = least(self.doubtful_from, intersection.doubtful_from);
         if let Some(hit) = intersection.hit {
             let ahead_by = self.nearest.map(|nearest| (nearest.distance - hit.distance, nearest.primitive));
-            // Where surfaces cross, the order of their distances is as uncertain as the distances.
+            // Where surfaces cross, the order of their distances is as uncertain as the distances themselves.
             let uncertain = T::from_f64(ERROR_OF_DISTANCE) * hit.distance;
             if ahead_by.is_some_and(|(by, _)| by.is_less(uncertain) && (-uncertain).is_less(by)) {
                 self.doubtful_from = least(self.doubtful_from, Some(hit.distance - uncertain));
             }
-            // Of surfaces in the same place the first in the scene is seen.
+            // Of coincident surfaces, the first one in the scene is seen.
             let is_nearer = |(by, other): (T, Primitive)| {
                 T::zero().is_less(by)
                     || !by.is_less(T::zero()) && (primitive.shape, primitive.part) < (other.shape, other.part)
@@ -113,16 +113,16 @@ impl<'s, T: Scalar> Search<'s, T> {
     }
 }
 
-/// What a search for the nearest shape found, and whether the number type was good enough for it.
+/// What a search for the nearest shape found, and whether the number type was accurate enough for it.
 struct Traced<T> {
     hit: Option<Hit<T>>,
     is_doubtful: bool,
 }
 
-/// Distances that differ by less, relatively, are told apart with 32 digits.
+/// Distances whose relative difference is smaller than this are compared with 32 digits.
 pub(crate) const ERROR_OF_DISTANCE: f64 = 1e-12;
 
-/// The smaller of two numbers that may be missing.
+/// The smaller of two optional numbers.
 pub(super) fn least<T: Scalar>(first: Option<T>, second: Option<T>) -> Option<T> {
     match (first, second) {
         (Some(first), Some(second)) => Some(T::select(second.is_less(first), second, first)),

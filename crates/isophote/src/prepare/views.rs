@@ -1,4 +1,4 @@
-//! The same scene seen or searched in another way.
+//! The same scene with another view or another search method.
 
 use std::sync::{Arc, OnceLock};
 
@@ -7,7 +7,7 @@ use crate::camera::CameraFrame;
 use crate::map::Resolution;
 
 impl PreparedScene {
-    /// The same scene without a tree: every ray tries every primitive. This is what the tree is held to.
+    /// The same scene without a tree: every ray tries every primitive. The tree is checked against this.
     #[must_use]
     pub fn by_brute_force(self) -> Self {
         let components = self.components.as_ref().map(|components| components.map(|one| one.clone().by_brute_force()));
@@ -23,7 +23,8 @@ impl PreparedScene {
         })
     }
 
-    /// The same with rays through another place of the pixels than their centres: parts of their width and height.
+    /// The same scene with rays through another place in the pixels than their centres, given as fractions of their width
+    /// and height.
     pub(crate) fn seen_through(&self, place: [f64; 2]) -> Self {
         self.with_view(&|other| {
             other.frame.place = place;
@@ -31,7 +32,7 @@ impl PreparedScene {
         })
     }
 
-    /// The same after a change of how it is seen, of its components too.
+    /// The same scene after a change of view, which applies to its components too.
     fn with_view(&self, change: &dyn Fn(&mut Self)) -> Self {
         let mut other = self.clone();
         change(&mut other);
@@ -42,7 +43,7 @@ impl PreparedScene {
         other
     }
 
-    /// The same with each light as two emitters of half its strength.
+    /// The same scene with each light as two emitters of half its strength.
     #[cfg(test)]
     pub(crate) fn with_emitters_halved(self) -> Self {
         Self { emitters: self.emitters.halved(), ..self }

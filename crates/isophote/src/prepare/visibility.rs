@@ -10,9 +10,9 @@ use crate::vector::Vector;
 /// What stands between a surface point and a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Blocking {
-    /// The primitive nearest to the point that does, if any.
+    /// The blocking primitive that is nearest to the point, if any.
     pub blocker: Option<Primitive>,
-    /// Whether more digits could tell otherwise: the light is seen close to an edge.
+    /// Whether more digits could change the answer: the light is seen close to an edge.
     pub is_doubtful: bool,
 }
 
@@ -21,11 +21,11 @@ impl Blocking {
 }
 
 impl PreparedScene {
-    /// What stands between a hit and an emitter: v of (3.1) is 0 where something does.
+    /// What stands between a hit and an emitter; if anything does, v of (3.1) is 0.
     ///
-    /// The primitive that was hit is never traced, so no distance has to be kept from it, at any scale: a convex one
-    /// does not hide what is above its horizon, and what is below gets no light anyway. From inside it hides every
-    /// light that it does not enclose, shadows or not.
+    /// The primitive that was hit is never traced, so no minimum distance from it is needed, at any scale: a convex
+    /// primitive does not hide what is above its horizon, and what is below gets no light anyway. From inside, it hides
+    /// every light that it does not enclose, with or without shadows.
     pub fn blocking<T: Scalar>(&self, hit: &Hit<T>, emitter: usize) -> Blocking {
         let source = &self.emitters.all()[emitter];
         let own = hit.primitive;
@@ -41,7 +41,7 @@ impl PreparedScene {
         self.blocking_from(&[own], &hit.point, hit.shadow_ray_offset, emitter)
     }
 
-    /// What stands between a point and an emitter but for its `own` primitives, on which it lies.
+    /// What stands between a point and an emitter, apart from the `own` primitives that the point lies on.
     pub(super) fn blocking_from<T: Scalar>(
         &self,
         own: &[Primitive],
@@ -61,10 +61,10 @@ impl PreparedScene {
         self.nearest_blocker(own, &ray, source.place().map(|_| distance))
     }
 
-    /// What stands between the start of a ray on its `own` primitives and a light at this distance, or at none: a
-    /// parallel light is beyond all.
+    /// What stands between the start of a ray, on its `own` primitives, and a light at this distance; without a distance (a
+    /// parallel light), the light is beyond everything.
     pub(super) fn nearest_blocker<T: Scalar>(&self, own: &[Primitive], ray: &Ray<T>, distance: Option<T>) -> Blocking {
-        // What is nearer to the light than this may as well be behind it.
+        // Anything closer to the light than this may as well be behind it.
         let bounds = |distance: T| {
             let uncertain = distance * T::from_f64(ERROR_OF_DISTANCE);
             [distance - uncertain, distance, distance + uncertain]
@@ -78,7 +78,7 @@ impl PreparedScene {
         };
         let farthest = distance.map_or(f64::INFINITY, T::rounded);
         self.along_ray(ray, farthest, |primitive| {
-            // Beyond a certain blocker nothing matters, and neither does what is behind the light.
+            // Nothing matters beyond a certain blocker, nor behind the light.
             let limit = |nearest: Option<(T, Primitive)>| nearest.map_or(farthest, |(at, _)| at.rounded());
             if own.contains(&primitive) || !self.scene.shapes[primitive.shape].casts_shadow {
                 return limit(nearest);

@@ -1,4 +1,4 @@
-//! A map that is being filled, band by band.
+//! A map that is filled band by band.
 
 use std::ops::ControlFlow;
 
@@ -9,20 +9,20 @@ use crate::prepare::PreparedScene;
 use crate::scene::Scene;
 use crate::units::{Keyword, LengthUnit};
 
-/// What a map is of.
+/// What a map shows, and how it is computed.
 pub struct Sheet {
     /// Size of the full image.
     pub full: Resolution,
-    /// The part of it that the map holds.
+    /// The part of the image that the map holds.
     pub region: Region,
-    /// The outer edges of that.
+    /// The outer edges of that part.
     pub window: Window,
-    /// What computes it, and how.
+    /// The renderer and its settings.
     pub renderer: String,
 }
 
 impl Sheet {
-    /// What the camera of a scene sees, of a region if the settings name one.
+    /// What a scene's camera sees, limited to a region if the settings name one.
     pub fn of_camera(
         scene: &PreparedScene,
         settings: &RenderSettings<'_>,
@@ -36,9 +36,8 @@ impl Sheet {
     }
 }
 
-/// The maps of all [layers](super::layers), of zeros (−1 for the shape), that see nothing, with every channel that is asked
-/// for. In single precision the geometry (depth, position, normal) is double all the same. `memory` is cleared memory to be
-/// used again.
+/// Empty maps of all [layers](super::layers), filled with zeros (−1 for the shape), with every requested channel. In single
+/// precision the geometry (depth, position, normal) is still double. `memory` holds cleared buffers for reuse.
 pub fn empty_layers(
     scene: &PreparedScene,
     sheet: &Sheet,
@@ -71,7 +70,7 @@ fn empty_map(
     Ok(Map { full, region, window, provenance: provenance(scene, sheet.renderer.clone()), mask, channels })
 }
 
-/// What a map of the scene says about itself.
+/// The provenance of a map of the scene.
 pub fn provenance(scene: &PreparedScene, renderer: String) -> Provenance {
     Provenance {
         program: concat!("isophote ", env!("CARGO_PKG_VERSION")).into(),
@@ -83,7 +82,7 @@ pub fn provenance(scene: &PreparedScene, renderer: String) -> Provenance {
     }
 }
 
-/// Whether a region is one of the image, and fits into memory.
+/// Checks that a region lies in the image and fits into memory.
 pub fn check(region: Region, full: Resolution) -> Result<(), RenderError> {
     let fits = |start: u32, size: u32, whole: u32| size > 0 && start < whole && size <= whole - start;
     if !fits(region.corner.column, region.size.width, full.width)
@@ -120,7 +119,7 @@ fn empty_channel(
     let values = match quantity {
         Quantity::Position | Quantity::Normal => reuse(|values| matches!(values, Values::Vector(_)))
             .unwrap_or_else(|| Values::Vector(vec![[0.0; 3]; pixels])),
-        // Written as a whole when the mask is known.
+        // Written all at once when the mask is known.
         Quantity::Shape => Values::Index(Vec::new()),
         _ if precision == Precision::Single && !is_always_double(quantity) => {
             reuse(|values| matches!(values, Values::Single(_))).unwrap_or_else(|| Values::Single(vec![0.0; pixels]))
@@ -131,26 +130,26 @@ fn empty_channel(
     Ok(Channel { quantity: quantity.clone(), unit, values })
 }
 
-/// What single precision does not make smaller.
+/// Whether a quantity stays in double precision even in maps of single precision.
 fn is_always_double(quantity: &Quantity) -> bool {
     matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage)
 }
 
-/// Rows of a map, to be filled.
+/// Rows of a map that are to be filled.
 pub struct Band<'m> {
-    /// The top left pixel, of the full image.
+    /// The top left pixel, in the full image.
     pub first: Pixel,
-    /// Index in the map of that pixel.
+    /// The index of that pixel in the map.
     pub start: usize,
-    /// Width and rows.
+    /// Width and number of rows.
     pub size: Resolution,
     /// The unit in which lengths are stored.
     pub length: LengthUnit,
-    /// What is to be filled in, layer by layer: one of a scene without colours, else one for each component.
+    /// The channels to fill, layer by layer: one layer for a scene without colours, otherwise one per component.
     pub layers: Vec<Vec<BandChannel<'m>>>,
 }
 
-/// What goes into a band, and where. The shape comes from the mask in the end.
+/// A channel of a band that is to be filled. The shape channel is written at the end, from the mask.
 pub enum BandChannel<'m> {
     /// Double precision.
     Double(ScalarChannel, &'m mut [f64]),
@@ -162,7 +161,7 @@ pub enum BandChannel<'m> {
     Normal(&'m mut [[f64; 3]]),
 }
 
-/// What a scalar channel holds; a light by its place among the channels of lights.
+/// What a scalar channel holds; a light is given by its index among the channels of lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScalarChannel {
     /// B.
@@ -183,7 +182,7 @@ pub enum ScalarChannel {
     Light(usize),
 }
 
-/// Cuts the maps of all layers into bands of so many rows, from the top.
+/// Cuts the maps of all layers into bands of this many rows, from the top.
 pub fn split(layers: &mut [Map], rows: u32) -> Vec<Band<'_>> {
     let Map { region: Region { corner, size }, window, .. } = layers[0];
     let count = layers.len();
@@ -209,7 +208,7 @@ pub fn split(layers: &mut [Map], rows: u32) -> Vec<Band<'_>> {
     bands
 }
 
-/// The parts of a channel, of so many pixels each; none of a channel that is not computed pixel by pixel.
+/// The parts of a channel, each with this many pixels; none for a channel that is not computed pixel by pixel.
 fn parts<'m>(
     quantity: &Quantity,
     values: &'m mut Values,
@@ -231,7 +230,7 @@ fn parts<'m>(
     }
 }
 
-/// The memory of maps, cleared: only where they saw something is it not zero.
+/// The buffers of maps, cleared for reuse: only the pixels that saw something are nonzero.
 pub fn recycle(maps: impl IntoIterator<Item = Map>) -> Vec<Values> {
     maps.into_iter().flat_map(cleared).collect()
 }
@@ -253,7 +252,7 @@ fn cleared(map: Map) -> impl Iterator<Item = Values> {
     channels.into_iter().map(move |channel| clear(channel.values))
 }
 
-/// Gives maps whose bands are filled their mask, and the channels that follow from it.
+/// Gives maps their mask once their bands are filled, and writes the channels that follow from it.
 pub fn finish(layers: &mut [Map], runs: Vec<Run>) {
     let mask = Mask::new(layers[0].region.size, runs);
     for map in layers {
@@ -266,7 +265,7 @@ fn finish_channels(map: &mut Map) {
     for channel in &mut map.channels {
         match (&channel.quantity, &mut channel.values) {
             (_, Values::Index(shapes)) => *shapes = map.mask.shapes(),
-            // One ray through the centre, which met it.
+            // A single ray through the centre, and it hit.
             (Quantity::Samples | Quantity::Coverage, Values::Scalar(values)) => {
                 for run in map.mask.runs() {
                     values[run.start..run.end].fill(1.0);
@@ -278,7 +277,7 @@ fn finish_channels(map: &mut Map) {
 }
 
 impl ScalarChannel {
-    /// The kind of a scalar channel that is computed pixel by pixel; `lights` counts those of lights.
+    /// The kind of a scalar channel that is computed pixel by pixel; `lights` yields the indices of the light channels.
     pub fn of(quantity: &Quantity, lights: &mut impl Iterator<Item = usize>) -> Option<Self> {
         match quantity {
             Quantity::Brightness => Some(Self::Brightness),
@@ -299,7 +298,7 @@ impl ScalarChannel {
     }
 }
 
-/// The lights whose irradiance is asked for by itself, in the order of their channels.
+/// The lights whose own irradiance is requested, in the order of their channels.
 pub fn asked_for(map: &Map, scene: &PreparedScene) -> Vec<usize> {
     let light = |channel: &Channel| match &channel.quantity {
         Quantity::Light(name) => scene.scene().light_named(name),
@@ -309,7 +308,7 @@ pub fn asked_for(map: &Map, scene: &PreparedScene) -> Vec<usize> {
 }
 
 impl Band<'_> {
-    /// Whether depth, position or normal are asked for.
+    /// Whether depth, position or normal are requested.
     pub fn has_geometry(&self) -> bool {
         let is_geometry = |channel: &BandChannel<'_>| {
             matches!(
@@ -320,20 +319,20 @@ impl Band<'_> {
         self.layers.iter().flatten().any(is_geometry)
     }
 
-    /// Index in the band of a pixel of the full image.
+    /// The index in the band of a pixel of the full image.
     pub fn index(&self, pixel: Pixel) -> usize {
         let row = (pixel.row - self.first.row) as usize;
         row * self.size.width as usize + (pixel.column - self.first.column) as usize
     }
 
-    /// The pixel of the full image with an index in the band.
+    /// The pixel of the full image at an index of the band.
     #[expect(clippy::cast_possible_truncation, reason = "an index of a map is below 2^27")]
     pub fn pixel(&self, index: usize) -> Pixel {
         let width = self.size.width as usize;
         Pixel { column: self.first.column + (index % width) as u32, row: self.first.row + (index / width) as u32 }
     }
 
-    /// Adds so many pixels of a row, from this one on, to what is seen; lengthens the last run if it goes on there.
+    /// Adds `count` pixels of a row, starting at `first`, to the visible runs; extends the last run if they continue it.
     pub fn see(&self, first: Pixel, count: u32, shape: usize, runs: &mut Vec<Run>) {
         let start = self.start + self.index(first);
         let end = start + count as usize;
@@ -347,7 +346,7 @@ impl Band<'_> {
     }
 }
 
-/// Tells the observer, and hears whether to go on.
+/// Reports progress to the observer, and returns an error if it asks to stop.
 pub fn advance(observer: Option<&dyn Observer>, pixels: u64) -> Result<(), RenderError> {
     match observer.map(|observer| observer.advance(pixels)) {
         Some(ControlFlow::Break(())) => Err(RenderError::Interrupted),

@@ -1,25 +1,25 @@
-//! From shaded points to the channels of a band.
+//! Copies shaded points to the channels of a band.
 
 use super::RenderError;
 use super::band::{Band, BandChannel, ScalarChannel};
 use super::shading::block::{ShadedBlock, SurfaceBlock};
 use crate::lanes::Element;
 
-/// Where the points of a block are, by indices in the band.
+/// Where the points of a block go, as indices in the band.
 #[derive(Clone, Copy)]
 pub enum Pixels<'p> {
-    /// In as many pixels of a row, from this one on.
+    /// To consecutive pixels of a row.
     InRow {
-        /// The first one.
+        /// The first pixel.
         start: usize,
-        /// How many there are.
+        /// The number of pixels.
         count: usize,
     },
-    /// Anywhere.
+    /// To any pixels.
     At(&'p [usize]),
 }
 
-/// What the kernel made of a block, in either precision.
+/// The kernel's output for a block, in either precision.
 #[derive(Clone, Copy)]
 pub enum Shaded<'s> {
     /// In single precision.
@@ -41,7 +41,7 @@ impl<'s> From<&'s ShadedBlock<f64>> for Shaded<'s> {
 }
 
 impl<E> ShadedBlock<E> {
-    /// What a channel shows of the points.
+    /// The values of the points for a channel.
     pub fn values(&self, channel: ScalarChannel) -> &[E] {
         match channel {
             ScalarChannel::Brightness => &self.brightness,
@@ -57,10 +57,10 @@ impl<E> ShadedBlock<E> {
 }
 
 impl Band<'_> {
-    /// Writes what a layer shows of the points.
+    /// Writes the points' values in a layer.
     ///
     /// # Errors
-    /// A number that a channel of single precision cannot hold.
+    /// A value that a channel of single precision cannot hold.
     pub fn put(&mut self, layer: usize, pixels: Pixels<'_>, shaded: Shaded<'_>) -> Result<(), RenderError> {
         let mut overflow = None;
         for channel in &mut self.layers[layer] {
@@ -79,7 +79,7 @@ impl Band<'_> {
         }
     }
 
-    /// Writes where the points are.
+    /// Writes the geometry of the points.
     pub fn put_geometry(&mut self, pixels: Pixels<'_>, block: &SurfaceBlock<f64>) {
         let length = self.length;
         for channel in self.layers.iter_mut().flatten() {
@@ -99,7 +99,7 @@ impl Band<'_> {
 }
 
 impl Pixels<'_> {
-    /// Goes through the points: their places in the block, and their indices.
+    /// Visits the points: their positions in the block, and their indices in the band.
     #[inline(always)]
     fn each(self, mut visit: impl FnMut(usize, usize)) {
         match self {
@@ -121,7 +121,7 @@ fn put_shaded<O: Element>(
     }
 }
 
-/// Writes numbers, and tells the first one that the channel cannot hold.
+/// Writes numbers, and returns the first one that the channel cannot hold.
 fn put<E: Element, O: Element>(values: &[E], pixels: Pixels<'_>, out: &mut [O]) -> Option<(usize, f64)> {
     if let (Some(out), Pixels::InRow { start, count }) = (O::cast::<E>(out), pixels) {
         out[start..start + count].copy_from_slice(&values[..count]);

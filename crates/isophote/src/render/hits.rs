@@ -1,4 +1,4 @@
-//! Points that rays have met, as blocks: shaded one by one, in double precision, by every layer of the scene.
+//! Blocks of points that rays have hit: shaded one by one, in double precision, in every layer of the scene.
 
 use super::RenderError;
 use super::band::Band;
@@ -16,16 +16,16 @@ pub struct HitBlock<'s> {
     scene: &'s PreparedScene,
     layers: Vec<&'s PreparedScene>,
     by_light: ByLight,
-    /// Their indices in the band, or whatever else tells them apart.
+    /// Their indices in the band, or whatever else identifies them.
     indices: Vec<usize>,
     points: Box<SurfaceBlock<f64>>,
     shaded: Vec<Box<ShadedBlock<f64>>>,
-    /// v of each emitter, where several layers share it.
+    /// v of each emitter, if several layers share it.
     visibility: Vec<f64>,
 }
 
 impl<'s> HitBlock<'s> {
-    /// No hits yet; with what is asked of single lights.
+    /// An empty block; `asked_for` lists the lights whose own irradiance is requested.
     pub fn new(scene: &'s PreparedScene, asked_for: &[usize]) -> Self {
         let layers = scene.layers();
         Self {
@@ -39,39 +39,39 @@ impl<'s> HitBlock<'s> {
         }
     }
 
-    /// Whether no more fit.
+    /// Whether the block is full.
     pub fn is_full(&self) -> bool {
         self.indices.len() == POINTS
     }
 
-    /// How many there are.
+    /// The number of hits.
     pub fn len(&self) -> usize {
         self.indices.len()
     }
 
-    /// Begins anew.
+    /// Empties the block.
     pub fn clear(&mut self) {
         self.indices.clear();
     }
 
-    /// What is seen at a place on the screen.
+    /// What is visible at a screen position.
     pub fn trace(&self, position: ScreenPosition) -> Option<Hit> {
         self.scene.trace(position)
     }
 
-    /// What a layer shows of them.
+    /// The shaded points in a layer.
     pub fn shaded(&self, layer: usize) -> &ShadedBlock<f64> {
         &self.shaded[layer]
     }
 
-    /// Shades a hit; of what is seen by a ray, the place on the screen through which that goes.
+    /// Shades a hit; `seen_at` is the screen position of the ray that found it, if there is one.
     pub fn push(&mut self, index: usize, hit: &Hit, seen_at: Option<ScreenPosition>) {
         let scene = self.scene;
         let visibility = scene.visibility(hit, seen_at);
         self.push_lit(index, hit, scene.ambient_share(hit), visibility, |layer| layer.formula(hit.primitive));
     }
 
-    /// Shades a point that is no shape's: what of it is light alone.
+    /// Shades a point that lies on no shape: only the light it receives.
     pub fn push_free(&mut self, index: usize, point: &SurfacePoint) {
         let scene = self.scene;
         let light = scene.light_at(point);
@@ -82,7 +82,7 @@ impl<'s> HitBlock<'s> {
         self.push_lit(index, &hit, light.ambient, visibility, PreparedScene::formula_without_material);
     }
 
-    /// Shades a point in every layer; what light reaches it is found once.
+    /// Shades a point in every layer; the light that reaches it is computed once.
     fn push_lit(
         &mut self,
         index: usize,
@@ -115,7 +115,7 @@ impl<'s> HitBlock<'s> {
         }
     }
 
-    /// Writes where a hit is, and tells its place in the block.
+    /// Stores the geometry of a hit, and returns its position in the block.
     fn begin(&mut self, index: usize, hit: &Hit) -> usize {
         let at = self.indices.len();
         self.indices.push(index);
@@ -128,10 +128,10 @@ impl<'s> HitBlock<'s> {
         at
     }
 
-    /// Writes them into a band, where indices are the band's, and begins anew.
+    /// Writes the hits into a band, whose pixels the indices refer to, and empties the block.
     ///
     /// # Errors
-    /// A number that a channel of single precision cannot hold.
+    /// A value that a channel of single precision cannot hold.
     pub fn put(&mut self, band: &mut Band<'_>) -> Result<(), RenderError> {
         let pixels = Pixels::At(&self.indices);
         for (layer, shaded) in self.shaded.iter().enumerate() {

@@ -1,13 +1,14 @@
-//! Maps of scenes with colours: what is seen is found once, and shaded once for each component of the light.
+//! Maps of scenes with colours: visibility is computed once, and shading once for each component of the light.
 //!
-//! A layer is the map of a component. A scene without colours has one layer, which is its map.
+//! A layer is the map of one component. A scene without colours has one layer, which is its map.
 
 use super::band;
 use crate::color::Rgb;
 use crate::map::{Channel, Map, Quantity, Scalars, Values};
 use crate::prepare::PreparedScene;
 
-/// What the map of a layer has to hold for these quantities: what does not depend on the light is in the first one.
+/// The quantities that a layer's map must hold for the requested ones: whatever does not depend on the light is in the first
+/// layer.
 pub fn quantities_of_layer(scene: &PreparedScene, quantities: &[Quantity], layer: usize) -> Vec<Quantity> {
     if scene.components().is_none() {
         return quantities.to_vec();
@@ -20,9 +21,9 @@ pub fn quantities_of_layer(scene: &PreparedScene, quantities: &[Quantity], layer
     quantities.iter().filter(is_wanted).map(in_layer).collect()
 }
 
-/// The map of a scene from those of its layers.
+/// Combines a scene's layers into its map.
 ///
-/// Each channel of one number is the luminance (3.10) of the layers' channels, `color` holds their brightness.
+/// Each scalar channel is the luminance (3.10) of the layers' channels; `color` holds their brightness.
 pub fn combined(scene: &PreparedScene, quantities: &[Quantity], mut layers: Vec<Map>) -> Map {
     let Some(components) = scene.components() else { return layers.swap_remove(0) };
     let Ok([red, green, blue]) = <[Map; 3]>::try_from(layers) else { unreachable!("colours have three components") };
@@ -74,7 +75,7 @@ fn luminances(layers: &Rgb<Map>, quantity: &Quantity, weights: Rgb) -> Values {
         Rgb { red: Scalars::Single(red), green: Scalars::Single(green), blue: Scalars::Single(blue) } => {
             let one = |((red, green), blue): ((&f32, &f32), &f32)| {
                 let sum = Rgb { red: *red, green: *green, blue: *blue }.map(|value| f64::from(*value));
-                // A mean of what single precision holds, which it holds too.
+                // A mean of values that fit single precision, so it fits too.
                 #[expect(clippy::cast_possible_truncation, reason = "rounded once, at the end")]
                 let rounded = sum.weighted_by(weights) as f32;
                 rounded

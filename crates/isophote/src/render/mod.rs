@@ -24,22 +24,22 @@ use crate::map::{Map, Pixel, Quantity, Region, Resolution};
 use crate::prepare::PreparedScene;
 use crate::threads::ThreadsError;
 
-/// Something that computes maps. Every renderer passes the one [conformance suite](crate::conformance).
+/// A renderer of maps. Every renderer passes the same [conformance suite](crate::conformance).
 pub trait Renderer {
-    /// Its name and precision, as outputs carry them.
+    /// Its name and precision, as written to outputs.
     fn name(&self) -> String;
 
-    /// Computes the channels that the settings ask for.
+    /// Computes the requested channels.
     ///
     /// # Errors
     /// Settings that do not fit the scene, or an interruption.
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError>;
 
-    /// The same, in the memory of an earlier map where that fits: who renders many maps of a size spares the clearing of
-    /// their background. After an error the earlier map is gone.
+    /// Like [`render`](Self::render), but reuses the memory of an earlier map if it fits: rendering many maps of the same
+    /// size then skips clearing the background. The earlier map is lost on error.
     ///
     /// # Errors
-    /// As [`render`](Self::render).
+    /// As for [`render`](Self::render).
     fn render_again(
         &self,
         scene: &PreparedScene,
@@ -54,17 +54,17 @@ pub trait Renderer {
 /// What to render.
 #[derive(Clone, Default)]
 pub struct RenderSettings<'o> {
-    /// The part of the image to compute; all of it by default.
+    /// The part of the image to compute; the whole image by default.
     pub region: Option<Region>,
-    /// The channels, in the order of the outputs. Duplicates count once.
+    /// The channels, in the order of the outputs. Duplicates are ignored.
     pub quantities: Vec<Quantity>,
-    /// Hears of the progress and may stop it.
+    /// Receives progress reports, and may stop the render.
     pub observer: Option<&'o dyn Observer>,
 }
 
-/// Hears how a render gets on. It may be called from several threads.
+/// Receives the progress of a render. It may be called from several threads.
 pub trait Observer: Sync {
-    /// So many more pixels are done. `Break` ends the render with [`RenderError::Interrupted`].
+    /// This many more pixels are done. `Break` ends the render with [`RenderError::Interrupted`].
     fn advance(&self, pixels: u64) -> ControlFlow<()>;
 }
 
@@ -75,31 +75,31 @@ pub enum RenderError {
     #[error("the region {}×{} at column {}, row {} is not within the image of {}×{} pixels",
         region.size.width, region.size.height, region.corner.column, region.corner.row, full.width, full.height)]
     Region {
-        /// What was asked for.
+        /// The requested region.
         region: Region,
-        /// The image.
+        /// The size of the image.
         full: Resolution,
     },
     /// The region is too large for one map; smaller regions of the same image can be rendered one after another.
     #[error("a map of {}×{} pixels is too large to be held in memory; allowed: sides up to {}, together at most {} pixels",
         size.width, size.height, Resolution::LONGEST_IN_MEMORY, Resolution::MOST_IN_MEMORY)]
     TooLarge {
-        /// What was asked for.
+        /// The requested size.
         size: Resolution,
     },
-    /// A channel of a light that the scene does not have.
+    /// A channel for a light that the scene does not have.
     #[error("the scene has no light named \"{name}\"")]
     NoSuchLight {
-        /// What was asked for.
+        /// The requested name.
         name: String,
     },
-    /// The channel `color` of a scene that has none.
+    /// The channel `color` of a scene without colours.
     #[error("{}", NO_COLOR)]
     NoColor,
     /// Single precision cannot hold a value.
     #[error("column {}, row {}: {value:e} is more than single precision holds (3.4e38); double does", pixel.column, pixel.row)]
     Overflow {
-        /// Where.
+        /// The pixel.
         pixel: Pixel,
         /// The value.
         value: f64,

@@ -1,4 +1,4 @@
-//! Brightness at many given points of spheres, several points at a time.
+//! Brightness at many given points on spheres, several points at a time.
 
 use super::shading::block::{POINTS, ShadedBlock, SurfaceBlock};
 use super::shading::emitters::{Chosen, Lighting, ShapeEmitters};
@@ -13,7 +13,7 @@ use crate::shape::{Geometry, Primitive, Sphere, SurfacePoint};
 use crate::units::LengthUnit;
 use crate::vector::Vector;
 
-/// Computes the brightness at given points of a scene of a few spheres.
+/// Computes the brightness at given points of a scene with a few spheres.
 ///
 /// Values agree with those of [`PreparedScene::probe`] to 1e-12 relative, where cosθ_i and cosθ_o exceed 1e-3.
 pub struct PointKernel<'s> {
@@ -22,23 +22,23 @@ pub struct PointKernel<'s> {
     instructions: Instructions,
 }
 
-/// What becomes of the points of a slice: its arrays are as long.
+/// The output for a slice of points: each array is as long as the slice.
 #[derive(Debug)]
 pub struct PointValues<'v> {
-    /// B, in the convention's unit; NaN on no surface.
+    /// B, in the convention's unit; NaN where there is no surface.
     pub brightness: &'v mut [f64],
-    /// E, in W/m² or lx; NaN on no surface.
+    /// E, in W/m² or lx; NaN where there is no surface.
     pub irradiance: &'v mut [f64],
-    /// Index of the shape; −1 on no surface.
+    /// Index of the shape; −1 where there is no surface.
     pub shape: &'v mut [i32],
 }
 
-/// A sphere, and the lights as its centre sees them, in its radii.
+/// A sphere, and the lights as seen from its centre, in units of its radius.
 struct PointSphere<'s> {
     sphere: Sphere,
     index: f64,
     eye: Vector,
-    /// 1, or −1 where the eye is inside and sees that side.
+    /// 1, or −1 if the eye is inside and sees the inner side.
     side: f64,
     tolerance: f64,
     formula: &'s BrightnessFormula,
@@ -47,15 +47,15 @@ struct PointSphere<'s> {
     ambient: f64,
 }
 
-/// Each point asks each sphere.
+/// Each point is tested against each sphere, so there must be few.
 const FEW: usize = 16;
 
-/// A sharper highlight multiplies rounding errors beyond what is promised.
+/// A sharper highlight would amplify rounding errors beyond the promised accuracy.
 const SHARPEST: f64 = 512.0;
 
 impl<'s> PointKernel<'s> {
-    /// Of a scene of a few spheres that stand in nobody's light, without colours and with blunt highlights, seen from a point;
-    /// nothing for others, whose points are probed one by one.
+    /// For a scene of a few spheres that do not shadow each other, without colours and with blunt highlights, seen from a
+    /// point; `None` for other scenes, whose points are probed one by one.
     #[must_use]
     pub fn new(scene: &'s PreparedScene) -> Option<Self> {
         let description = scene.scene();
@@ -96,11 +96,11 @@ impl<'s> PointKernel<'s> {
         Some(Self { spheres: spheres?, length: description.length(), instructions: Instructions::best() })
     }
 
-    /// Computes the values at points in the scene's unit; comes to the number of those that are on no surface, to
-    /// [`Geometry::surface_tolerance`]. With `snaps` there are none: each counts as the point of the nearest surface.
+    /// Computes the values at points given in the scene's unit; returns how many of them are on no surface, to
+    /// [`Geometry::surface_tolerance`]. With `snaps`, there are none: each is moved to the nearest surface.
     ///
     /// # Panics
-    /// With arrays that are not as long as the points.
+    /// If the arrays are not as long as the points.
     #[must_use]
     pub fn fill(&self, points: &[[f64; 3]], snaps: bool, values: &mut PointValues<'_>) -> usize {
         let PointValues { brightness, irradiance, shape } = values;
@@ -117,7 +117,7 @@ struct Fill<'f, 'v> {
     values: &'f mut PointValues<'v>,
 }
 
-/// Room for a block of points, and for the rest of the last vector.
+/// Room for a block of points, plus the rest of the last vector.
 const SIZE: usize = POINTS + 32;
 
 impl LaneJob for Fill<'_, '_> {
@@ -165,15 +165,15 @@ impl LaneJob for Fill<'_, '_> {
     }
 }
 
-/// A block of points while it is worked on.
+/// Scratch memory for a block of points.
 struct Work {
-    /// Of the points, in metres; gathered to those of one sphere.
+    /// Coordinates of the points, in metres; then gathered for those on one sphere.
     coordinates: [[f64; SIZE]; 3],
-    /// The index of the sphere of each, −1 where there is no surface.
+    /// The index of each point's sphere, −1 where there is no surface.
     shape: [f64; SIZE],
-    /// Of each from the centre of that sphere.
+    /// The distance of each point from the centre of its sphere.
     distance: [f64; SIZE],
-    /// Which of them are on one sphere.
+    /// The points that are on the current sphere.
     indices: Vec<usize>,
     points: Box<SurfaceBlock<f64>>,
     shaded: Box<ShadedBlock<f64>>,
@@ -190,7 +190,7 @@ impl Work {
         snaps: bool,
     ) {
         for lane in 0..points.len().next_multiple_of(V::COUNT) {
-            // What is left over of the last vector repeats its last point.
+            // The unused lanes of the last vector repeat its last point.
             let point = points[lane.min(points.len() - 1)];
             for axis in 0..3 {
                 self.coordinates[axis][lane] = kernel.length.to_metres(point[axis]);
@@ -205,7 +205,7 @@ impl Work {
         }
     }
 
-    /// Picks the points of a sphere.
+    /// Gathers the points of a sphere.
     fn gather(&mut self, sphere: &PointSphere<'_>, count: usize) {
         let is_here = |index: &usize| (self.shape[*index] - sphere.index).abs() < 0.5;
         self.indices.clear();
@@ -214,7 +214,7 @@ impl Work {
             (self.indices.len(), sphere.sphere.center, sphere.sphere.radius);
     }
 
-    /// Shades the points that were picked.
+    /// Shades the gathered points.
     #[inline(always)]
     fn shade<V: Lane<Element = f64>>(&mut self, token: V::Token, sphere: &PointSphere<'_>) {
         let Self { coordinates, distance, indices, points, shaded, .. } = self;
@@ -248,7 +248,7 @@ impl Work {
 }
 
 impl PointKernel<'_> {
-    /// The index of the sphere whose surface is nearest, −1 where it is not near enough; and the distance from its centre.
+    /// The index of the sphere whose surface is nearest, −1 if it is not near enough, and the distance from its centre.
     #[inline(always)]
     fn nearest<V: Lane<Element = f64>>(&self, token: V::Token, point: Vector<V>, snaps: bool) -> (V, V) {
         let mut nearest = V::splat(token, f64::INFINITY);
@@ -276,7 +276,7 @@ fn splat<V: Lane<Element = f64>>(token: V::Token, vector: Vector) -> Vector<V> {
     Vector::new(V::splat(token, vector.x), V::splat(token, vector.y), V::splat(token, vector.z))
 }
 
-/// The unit vector of a length; of none, that which [`Sphere::nearest`] takes.
+/// The unit vector along a vector of known length; for a zero vector, the direction that [`Sphere::nearest`] chooses.
 #[inline(always)]
 fn direction<V: Lane<Element = f64>>(token: V::Token, vector: Vector<V>, length: V) -> Vector<V> {
     let zero = V::splat(token, 0.0);
@@ -291,7 +291,7 @@ fn direction<V: Lane<Element = f64>>(token: V::Token, vector: Vector<V>, length:
 }
 
 impl PointSphere<'_> {
-    /// The point of the sphere towards a place, given with its distance from the centre.
+    /// The point of the sphere in the direction of a place, given with its distance from the centre.
     #[inline(always)]
     fn point<V: Lane<Element = f64>>(&self, token: V::Token, place: Vector<V>, distance: V) -> SurfacePoint<V> {
         let outward = direction(token, place - splat(token, self.sphere.center), distance);

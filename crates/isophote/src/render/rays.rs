@@ -1,4 +1,4 @@
-//! Visibility by rays: one through the centre of each pixel.
+//! Visibility by ray tracing: one ray through the centre of each pixel.
 
 use super::band::{self, Band};
 use super::hits::HitBlock;
@@ -7,7 +7,7 @@ use crate::camera::ScreenPosition;
 use crate::map::{Pixel, Run};
 use crate::prepare::{Hit, PreparedScene};
 
-/// Fills a band, and says what its pixels see.
+/// Fills a band, and returns what its pixels see.
 pub fn fill(
     band: &mut Band<'_>,
     scene: &PreparedScene,
@@ -34,8 +34,8 @@ pub fn fill(
     Ok(runs)
 }
 
-/// Traces pixels with 32 digits that are too close to call for a double; gives those that see something, with
-/// what they see.
+/// Traces again, with 32 digits, the pixels that are too close to call in double precision; returns those that see
+/// something, with what they see.
 pub fn retrace(
     scene: &PreparedScene,
     pixels: impl Iterator<Item = Pixel>,

@@ -1,4 +1,4 @@
-//! The reference: one pixel after the other, in double precision.
+//! The reference renderer: one pixel after another, in double precision.
 
 use super::band::{self, Sheet};
 use super::sampling::Renders;

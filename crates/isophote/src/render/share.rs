@@ -1,11 +1,11 @@
-//! One progress for several renders.
+//! One progress report for several renders.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Observer;
 
-/// Hears one of several renders of the same pixels.
+/// Observes one of several renders of the same pixels.
 pub struct Share<'o> {
     whole: &'o dyn Observer,
     renders: u64,
@@ -13,7 +13,7 @@ pub struct Share<'o> {
 }
 
 impl<'o> Share<'o> {
-    /// For so many renders.
+    /// For this many renders.
     pub fn new(whole: &'o dyn Observer, renders: u64) -> Self {
         Self { whole, renders, pixels: AtomicU64::new(0) }
     }

@@ -1,4 +1,5 @@
-//! The fast renderer: it picks how a scene is seen (by rows, tiles or rays), and cuts the work into bands for its threads.
+//! The fast renderer: it chooses how visibility is found (by rows, tiles or rays), and cuts the work into bands for its
+//! threads.
 
 use std::num::NonZeroUsize;
 
@@ -16,14 +17,14 @@ use crate::shape::Primitive;
 use crate::threads::Threads;
 use crate::units::Keyword;
 
-/// The fast renderer, on one thread or several. The bytes do not depend on how many.
+/// The fast renderer, on one thread or several. The output bytes do not depend on the number of threads.
 pub struct SimdRenderer {
     precision: Precision,
     threads: Threads,
     instructions: Instructions,
 }
 
-/// What all bands of a map have in common.
+/// The data that all bands of a map share.
 struct Work<'w> {
     scene: &'w PreparedScene,
     settings: &'w RenderSettings<'w>,
@@ -33,20 +34,20 @@ struct Work<'w> {
 }
 
 impl SimdRenderer {
-    /// A renderer of a precision on so many threads; as many as there are processors when unstated.
+    /// A renderer with this precision and number of threads; one thread per processor when `None`.
     #[must_use]
     pub fn new(precision: Precision, threads: Option<NonZeroUsize>) -> Self {
         Self { precision, threads: Threads::new(threads), instructions: Instructions::best() }
     }
 
-    /// The same renderer with these instructions instead of the machine's best.
+    /// The same renderer with this instruction set instead of the machine's best.
     #[must_use]
     pub fn with_instructions(self, instructions: Instructions) -> Self {
         Self { instructions, ..self }
     }
 
-    /// Whether a part of an image is done before other threads have woken up, so that nobody needs to wait for it on another
-    /// thread, or to be able to stop it.
+    /// Whether part of an image is done before other threads would have woken up, so that there is no need to wait for it on
+    /// another thread, or to be able to stop it.
     #[must_use]
     pub fn is_quick(&self, scene: &PreparedScene, region: Region) -> bool {
         let description = scene.scene();
@@ -90,7 +91,7 @@ impl SimdRenderer {
         let mut layers = band::empty_layers(scene, &sheet, &settings.quantities, self.precision, memory)?;
         let uses_tiles = tiles::supports(scene);
         if uses_tiles {
-            // Here, where all threads are free: those of the renderer would wait for each other.
+            // Built here, where all threads are free: the renderer's own threads would wait for each other.
             scene.accelerator();
         }
         let asked_for = band::asked_for(&layers[0], scene);
@@ -127,13 +128,13 @@ impl SimdRenderer {
     }
 }
 
-/// Work below this, in nanoseconds, is done before other threads have woken up.
+/// Work shorter than this, in nanoseconds, is done before other threads have woken up.
 const WORTH_THREADS: f64 = 200_000.0;
 
-/// Bands for each thread: enough that none waits long for the last, few enough that their start costs nothing.
+/// Bands per thread: enough that no thread waits long for the last one, few enough that starting them costs nothing.
 const BANDS_A_THREAD: u32 = 8;
 
-/// About the time that one thread takes, in nanoseconds.
+/// Roughly the time that one thread takes, in nanoseconds.
 fn estimated_time(scene: &PreparedScene, region: Region, uses_tiles: bool) -> f64 {
     let pixels = f64::from(region.size.width) * f64::from(region.size.height);
     if uses_tiles {
@@ -142,7 +143,7 @@ fn estimated_time(scene: &PreparedScene, region: Region, uses_tiles: bool) -> f6
     let covered = |shape| match scene.outline(shape) {
         Outline::Unseen => 0.0,
         Outline::Unknown => 20.0 * pixels,
-        // Traced again with 32 digits, all of it.
+        // All of it is traced again with 32 digits.
         Outline::Ellipse(ellipse) if scene.doubtful_in_outline(Primitive { shape, part: 0 }).end.is_infinite() => {
             500.0 * ellipse.area().min(pixels)
         }
@@ -156,7 +157,7 @@ fn estimated_time(scene: &PreparedScene, region: Region, uses_tiles: bool) -> f6
 
 impl Renderer for SimdRenderer {
     fn name(&self) -> String {
-        // What makes other bytes has another name.
+        // Renderers that produce different bytes have different names.
         let rounding = if self.instructions.fuse() { "" } else { " without fused multiply-add" };
         format!("{} precision, lanes{rounding}", self.precision.name())
     }

@@ -1,4 +1,4 @@
-//! Valid scenes made of valid scenes.
+//! Makes valid scenes from valid scenes.
 
 use super::problems::Problems;
 use super::source::{GridSource, SamplingSource};
@@ -7,7 +7,7 @@ use crate::import::NoFiles;
 use crate::map::Resolution;
 
 impl Scene {
-    /// The scene with another number of pixels.
+    /// The scene with another resolution.
     ///
     /// # Errors
     /// A resolution out of the [`limits`](super::limits).
@@ -18,7 +18,7 @@ impl Scene {
         })
     }
 
-    /// The scene with what is given here in place of its own sampling.
+    /// The scene with these values in place of its own sampling.
     ///
     /// # Errors
     /// Numbers out of the [`limits`](super::limits).
@@ -34,12 +34,12 @@ impl Scene {
     /// The scene with this grid in place of its own.
     ///
     /// # Errors
-    /// Whatever is wrong with the grid.
+    /// Anything that is wrong with the grid.
     pub fn with_grid(&self, grid: GridSource) -> Result<Self, SceneError> {
         self.changed(|source| source.grid = vec![grid])
     }
 
-    /// The scene with something else written in it that has nothing to do with its files: none is read again.
+    /// The scene after a change of its source that does not concern its files: none is read again.
     fn changed(&self, change: impl FnOnce(&mut SceneSource)) -> Result<Self, SceneError> {
         let mut source = self.source.clone();
         change(&mut source);

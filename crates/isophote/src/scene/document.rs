@@ -1,4 +1,4 @@
-//! A scene file as a tree that remembers where everything stands: TOML and JSON look the same from here on.
+//! A scene file as a tree that records where everything is in the text: TOML and JSON look the same from here on.
 
 use std::fmt;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use super::error::{Problem, ProblemKind};
 pub struct Document {
     /// The root table.
     pub root: Node,
-    /// What the syntax of the file violates; the tree holds what could be read in spite of it.
+    /// Violations of the file's syntax; the tree holds what could be read in spite of them.
     pub syntax_problems: Vec<Problem>,
 }
 
@@ -23,11 +23,11 @@ pub struct Document {
 pub struct Node {
     /// The value.
     pub value: Value,
-    /// Where it stands.
+    /// Its place in the text.
     pub span: Range<usize>,
 }
 
-/// A value of either language.
+/// A value in either language.
 #[derive(Debug)]
 pub enum Value {
     /// `true` or `false`.
@@ -42,12 +42,12 @@ pub enum Value {
     Array(Vec<Node>),
     /// A table, or an object.
     Table(Vec<Entry>),
-    /// A date, a time or null: nothing that a scene needs.
+    /// A date, a time or null: a scene needs none of these.
     Other(&'static str),
 }
 
 impl Value {
-    /// What it is, for error messages.
+    /// Its kind, for error messages.
     #[must_use]
     pub fn describe(&self) -> String {
         match self {
@@ -67,7 +67,7 @@ impl Value {
 pub struct Entry {
     /// The key.
     pub key: String,
-    /// Where the key stands.
+    /// The key's place in the text.
     pub key_span: Range<usize>,
     /// Its value.
     pub node: Node,
@@ -83,7 +83,7 @@ pub enum Syntax {
 }
 
 impl Document {
-    /// Reads as much of the text as its syntax allows.
+    /// Parses as much of the text as its syntax allows.
     #[must_use]
     pub fn parse(text: &str, syntax: Syntax) -> Self {
         match syntax {
@@ -92,11 +92,11 @@ impl Document {
         }
     }
 
-    /// Where the thing at a path stands, or else the nearest thing around it that the text has.
+    /// The place of the item at a path, or of the nearest enclosing item that is in the text.
     #[must_use]
     pub fn span_of(&self, path: &Path) -> Option<Range<usize>> {
         let mut node = &self.root;
-        // The root itself is shown by its first key.
+        // The root itself is represented by its first key.
         let mut span = match &node.value {
             Value::Table(entries) => entries.first().map(|entry| entry.key_span.clone()),
             _ => None,
@@ -105,7 +105,7 @@ impl Document {
             node = match (step, &node.value) {
                 (Step::Key(key), Value::Table(entries)) => match entries.iter().find(|entry| entry.key == *key) {
                     Some(entry) => {
-                        // A table's own span is often its whole body: its key says better where it is.
+                        // A table's own span is often its whole body; its key shows the place better.
                         span = Some(match entry.node.value {
                             Value::Table(_) => entry.key_span.clone(),
                             _ => entry.node.span.clone(),
@@ -128,7 +128,7 @@ impl Document {
     }
 }
 
-/// The way from the root of a scene file to a thing in it: `sphere[0].center[2]`.
+/// The path from the root of a scene file to an item in it: `sphere[0].center[2]`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Path(Vec<Step>);
 
@@ -214,7 +214,7 @@ fn toml_node(value: Spanned<DeValue<'_>>) -> Node {
     Node { value, span }
 }
 
-/// A decimal literal. One that no double can hold becomes infinite and is refused as such later.
+/// A decimal literal. One that exceeds the range of doubles becomes infinite and is rejected later.
 fn number(literal: &str) -> Value {
     literal.parse().map_or(Value::Other("a number that cannot be read"), Value::Float)
 }

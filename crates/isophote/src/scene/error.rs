@@ -10,29 +10,29 @@ use super::document::{Document, Path};
 #[derive(Debug, Clone, thiserror::Error)]
 #[error("{}", self.report(false))]
 pub struct SceneError {
-    /// The file's name as the user gave it, or a word for where the scene came from.
+    /// The file's name as the user gave it, or a word for the scene's origin.
     pub name: String,
     /// Everything that is wrong, in the order of the file.
     pub problems: Vec<Problem>,
 }
 
-/// One thing that is wrong with a scene, or, in [`Scene::warnings`](super::Scene::warnings), that deserves a word.
+/// One thing that is wrong with a scene or, in [`Scene::warnings`](super::Scene::warnings), worth mentioning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
-    /// What sort of mistake it is.
+    /// The kind of mistake.
     pub kind: ProblemKind,
-    /// The thing concerned, such as `sphere[0].radius`; empty for the file as a whole.
+    /// The item concerned, such as `sphere[0].radius`; empty for the file as a whole.
     pub path: String,
     /// What is wrong, with the value.
     pub message: String,
     /// What is allowed, or what to do.
     pub help: Option<String>,
-    /// Where it stands, when the scene came from a text that has it.
+    /// Its place in the text, if the scene came from a text that contains it.
     pub place: Option<TextPosition>,
     pub(super) target: Target,
 }
 
-/// How a problem finds its place in the text.
+/// How a problem is located in the text.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Target {
     Nothing,
@@ -42,16 +42,16 @@ pub(super) enum Target {
     Table(Path),
 }
 
-/// The sort of a [`Problem`].
+/// The kind of a [`Problem`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ProblemKind {
     /// The file cannot be read at all.
     Unreadable,
     /// The text is not TOML, or not JSON.
     Syntax,
-    /// A key that no scene has.
+    /// A key that does not exist in any scene.
     UnknownKey,
-    /// A key that must be there is not.
+    /// A required key is missing.
     MissingKey,
     /// A value of the wrong type.
     WrongType,
@@ -70,7 +70,7 @@ pub struct TextPosition {
     pub column: usize,
     /// The line's text.
     pub text: String,
-    /// The bytes of `text` that are meant.
+    /// The relevant bytes of `text`.
     pub highlight: Range<usize>,
 }
 
@@ -82,18 +82,18 @@ impl SceneError {
         Self { name: name.into(), problems: vec![problem] }
     }
 
-    /// The problems as a person reads them: message, file, line, the line's text with a caret, what is allowed.
-    /// `color` adds terminal colours.
+    /// The problems in readable form: message, file, line, the line's text with a caret, and what is allowed. `color` adds
+    /// terminal colours.
     #[must_use]
     pub fn report(&self, color: bool) -> String {
         report(&self.name, &self.problems, color)
     }
 }
 
-/// More problems than this are counted, not shown: nobody reads them, and the first ones cause the rest.
+/// Further problems are only counted: the first ones usually cause the rest.
 const SHOWN: usize = 30;
 
-/// Draws problems; see [`SceneError::report`].
+/// Formats problems; see [`SceneError::report`].
 #[must_use]
 pub fn report(name: &str, problems: &[Problem], color: bool) -> String {
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
@@ -122,7 +122,7 @@ impl Problem {
         self
     }
 
-    /// Finds the problem's place in the text it came from.
+    /// Finds the problem's place in the source text.
     pub(super) fn locate(&mut self, text: &Lines<'_>, document: &Document) {
         let span = match &self.target {
             Target::Nothing => None,
@@ -155,10 +155,10 @@ impl Problem {
     }
 }
 
-/// A text whose lines are counted once, however many problems it has.
+/// A text whose lines are indexed once, however many problems it has.
 pub(super) struct Lines<'t> {
     text: &'t str,
-    /// Where each line starts.
+    /// The start of each line.
     starts: Vec<usize>,
 }
 
@@ -174,7 +174,7 @@ impl<'t> Lines<'t> {
         let line = self.starts.partition_point(|&line_start| line_start <= start);
         let line_start = self.starts[line - 1];
         let line_end = self.starts.get(line).map_or(text.len(), |next| next - 1);
-        // A line of a generated file may be as long as the file: keep what is around the place.
+        // A line of a generated file may be as long as the file, so only the surroundings of the place are kept.
         let from = text.floor_char_boundary(line_start.max(start.saturating_sub(Self::AROUND)));
         let to = text.ceil_char_boundary(line_end.min(start + Self::AROUND)).max(from);
         let end = text.ceil_char_boundary(span.end.clamp(start, start.max(to)));
@@ -184,6 +184,6 @@ impl<'t> Lines<'t> {
         TextPosition { line, column, text: kept.to_owned(), highlight }
     }
 
-    /// Bytes of a line that are kept on either side of the place.
+    /// The number of bytes of a line that are kept on either side of the place.
     const AROUND: usize = 160;
 }

@@ -1,4 +1,4 @@
-//! Scenes and what they name on the file system: the only place here that opens files.
+//! Scenes and the files they name in the file system: the only module here that opens files.
 
 use std::borrow::Cow;
 use std::fs::File;
@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 use super::{Scene, SceneError, Syntax, limits};
 use crate::import::{Origin, ReadFailure, Resolver};
 
-/// The files of the file system; relative names start in a directory.
+/// Files in the file system; relative names start in a directory.
 #[derive(Clone, Debug, Default)]
 pub struct FileResolver {
     directory: PathBuf,
 }
 
 impl FileResolver {
-    /// Those whose relative names start in this directory, or in the working directory if it is empty.
+    /// Resolves relative names in this directory, or in the working directory if it is empty.
     #[must_use]
     pub fn new(directory: impl Into<PathBuf>) -> Self {
         Self { directory: directory.into() }
@@ -46,7 +46,7 @@ impl Resolver for FileResolver {
 }
 
 impl Scene {
-    /// Reads a scene file: JSON when the name ends in `.json`, TOML otherwise. Relative paths in it start in its directory.
+    /// Reads a scene file: JSON if the name ends in `.json`, TOML otherwise. Relative paths in it start in its directory.
     ///
     /// # Errors
     /// Every problem of the file and of the scene in it, with its place.
@@ -58,8 +58,7 @@ impl Scene {
         Self::from_text_in(path.parent().unwrap_or(Path::new("")), &name, &text, syntax)
     }
 
-    /// Reads a scene from a text; `name` stands for it in error messages. Relative paths in it start in the working
-    /// directory.
+    /// Reads a scene from text; `name` identifies it in error messages. Relative paths in it start in the working directory.
     ///
     /// # Errors
     /// Every problem of the text and of the scene in it, with its place.
@@ -67,7 +66,7 @@ impl Scene {
         Self::from_text_in(Path::new(""), name, text, syntax)
     }
 
-    /// The same, with the directory in which relative paths start.
+    /// Reads a scene from text, with the directory in which relative paths start.
     ///
     /// # Errors
     /// As [`from_text`](Self::from_text).
@@ -75,11 +74,11 @@ impl Scene {
         Self::from_text_with(&FileResolver::new(directory), None, name, text, syntax)
     }
 
-    /// Reads the text of a scene from anything that may turn out to be endless or binary; `name` stands for it in
-    /// error messages.
+    /// Reads the text of a scene from a source that may turn out to be endless or binary; `name` identifies it in error
+    /// messages.
     ///
     /// # Errors
-    /// More bytes than the [`limits`] allow, or bytes that are no text.
+    /// More bytes than the [`limits`] allow, or bytes that are not text.
     pub fn read_text(input: &mut impl Read, name: &str) -> Result<String, SceneError> {
         let mut bytes = Vec::new();
         Read::take(input, limits::FILE_BYTES + 1)
@@ -99,7 +98,7 @@ impl Scene {
     }
 }
 
-/// Opens a file that may be anything: missing, a directory, huge.
+/// Opens a file that may be missing, a directory, or huge.
 fn open(path: &Path, name: &str) -> Result<File, SceneError> {
     let unreadable = |error: Error| SceneError::unreadable(name, describe(&error), None);
     let file = File::open(path).map_err(unreadable)?;

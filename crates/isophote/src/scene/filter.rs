@@ -1,4 +1,4 @@
-//! What a pixel is a mean over.
+//! Pixel filters.
 
 use serde::{Deserialize, Serialize};
 
@@ -35,7 +35,7 @@ impl Keyword for Filter {
 }
 
 impl Filter {
-    /// How many pixels in each direction contribute to a pixel's value, besides its own.
+    /// The number of additional pixels in each direction that contribute to a pixel's value.
     #[must_use]
     pub fn reach(self) -> u32 {
         match self {
@@ -45,7 +45,7 @@ impl Filter {
         }
     }
 
-    /// The weight of light so many pixels across and down from the centre.
+    /// The weight of light at this distance across and down from the centre, in pixels.
     #[must_use]
     pub fn weight(self, across: f64, down: f64) -> f64 {
         self.along(across.abs()) * self.along(down.abs())
@@ -67,8 +67,8 @@ impl Filter {
 mod tests {
     use super::*;
 
-    /// What is spread over the pixels adds up to what was there: Σ over pixels of the weight is 1 for these three at any
-    /// place; for the box too, but at its border.
+    /// Spreading conserves the light: for these three filters, the weights of all pixels add up to 1 at any position; for
+    /// the box too, except at its border.
     #[test]
     fn triangle_and_mitchell_weights_of_all_pixels_add_up_to_one() {
         for filter in [Filter::Triangle, Filter::Mitchell] {

@@ -1,11 +1,11 @@
-//! The starter scenes that the program carries, the same files as in `scenes/`.
+//! The starter scenes built into the program, identical to the files in `scenes/`.
 
 use crate::units::Keyword;
 
 /// A scene to start from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Starter {
-    /// One sphere, one light: the lab's scene, rendered when no other is named.
+    /// One sphere, one light: the lab's scene, rendered if no other is named.
     Lab,
     /// Millimetres and Lambertian lights.
     Course,

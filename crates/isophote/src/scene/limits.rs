@@ -1,4 +1,4 @@
-//! What a scene may hold. The bounds on numbers keep every formula far from overflow.
+//! The limits of a scene. The bounds on numbers keep every formula far from overflow.
 
 use std::ops::RangeInclusive;
 
@@ -18,31 +18,31 @@ pub const PROBES: usize = 100_000;
 pub const GRIDS: usize = 1000;
 /// The largest coordinate, in metres: a tenth of a light year.
 pub const COORDINATE: f64 = 1e15;
-/// The smallest radius and screen, in metres.
+/// The smallest radius or screen, in metres.
 pub const SMALLEST: f64 = 1e-12;
-/// The largest intensity, power, irradiance and radiance.
+/// The largest intensity, power, irradiance or radiance.
 pub const INTENSITY: f64 = 1e30;
-/// How many sizes of a shape the eye may be away before a warning says that the promised digits are not kept.
+/// The distance of the eye, in sizes of a shape, beyond which a warning says that the promised accuracy is not kept.
 pub const RELATIVE_DISTANCE: f64 = 1e9;
-/// Rays for a pixel, and directions in which ambient light is looked for.
+/// Rays per pixel, and sampled directions of the ambient light.
 pub const SAMPLES: u32 = 4096;
-/// The allowed error of a pixel, as a part of the largest brightness.
+/// The allowed error of a pixel, as a fraction of the largest brightness.
 pub const TOLERANCE: RangeInclusive<f64> = 1e-4..=1.0;
 /// The largest coefficient of a material.
 pub const COEFFICIENT: f64 = 1.0;
 /// The largest shininess.
 pub const SHININESS: f64 = 1e5;
-/// The field of view of a perspective camera, in degrees: beyond, its screen is a point or has no end.
+/// The field of view of a perspective camera, in degrees: outside this range, its screen would be a point or unbounded.
 pub const PERSPECTIVE_FIELD: RangeInclusive<f64> = 1e-6..=179.9999;
-/// That of a fisheye.
+/// The field of view of a fisheye camera, in degrees.
 pub const FISHEYE_FIELD: RangeInclusive<f64> = 1e-6..=360.0;
 /// The farthest edges of a panorama in longitude, in degrees.
 pub const LONGITUDE: f64 = 360.0;
-/// The same in latitude.
+/// The farthest edges of a panorama in latitude, in degrees.
 pub const LATITUDE: f64 = 90.0;
 /// Half the opening of a spot's cones, in degrees.
 pub const CONE: f64 = 90.0;
-/// The least difference between a spot's cones, in degrees.
+/// The smallest difference between a spot's cones, in degrees.
 pub const CONE_STEP: f64 = Spot::SHARPEST.to_degrees();
-/// A mesh's factors of scale.
+/// The scale factors of a mesh.
 pub const SCALE: RangeInclusive<f64> = 1e-12..=1e12;

@@ -1,4 +1,4 @@
-//! From a text, or from its parts, to a scene.
+//! From text, or from its parts, to a scene.
 
 use super::document::Document;
 use super::error::Lines;
@@ -7,8 +7,8 @@ use super::{FileResolver, Problem, ProblemKind, Scene, SceneError, SceneSource, 
 use crate::import::{NoFiles, Origin, Resolver};
 
 impl Scene {
-    /// Reads a scene from a text; `name` stands for it in error messages. What it names is among `files`; those that an
-    /// earlier scene of the same [origin](Origin) names as well are not read again.
+    /// Reads a scene from text; `name` identifies it in error messages. The files it names are looked up in `files`; those
+    /// that an earlier scene of the same [origin](Origin) also names are not read again.
     ///
     /// # Errors
     /// Every problem of the text and of the scene in it, with its place.
@@ -50,7 +50,7 @@ impl Scene {
                 if is_unreadable {
                     problems.retain(|problem| problem.kind == ProblemKind::Syntax);
                 } else if is_broken {
-                    // What a broken text seems to lack may stand in the part that could not be read.
+                    // Keys that seem missing from a broken text may be in the part that could not be read.
                     problems.retain(|problem| problem.kind != ProblemKind::MissingKey);
                 }
                 let mut problems: Vec<Problem> = problems.into_iter().map(locate).collect();
@@ -60,7 +60,7 @@ impl Scene {
         }
     }
 
-    /// Checks a scene and converts it to metres. What it names is among `files`, wherever its own origin is.
+    /// Checks a scene and converts it to metres. The files it names are looked up in `files`, whatever its own origin.
     ///
     /// # Errors
     /// Every problem of the scene.
@@ -74,7 +74,7 @@ impl Scene {
 impl TryFrom<SceneSource> for Scene {
     type Error = SceneError;
 
-    /// Checks a scene and converts it to metres. Files are those of its own directory, if its origin is one.
+    /// Checks a scene and converts it to metres. Files are looked up in its own directory, if its origin is one.
     fn try_from(source: SceneSource) -> Result<Self, SceneError> {
         match &source.origin {
             Origin::Directory(directory) => Self::from_source_with(&FileResolver::new(directory), source),
@@ -83,5 +83,5 @@ impl TryFrom<SceneSource> for Scene {
     }
 }
 
-/// When a text has more syntax problems than this, one of them (a bracket that never closes) has caused the others.
+/// If a text has more syntax problems than this, one of them (such as a bracket that never closes) has caused the others.
 const FOLLOWED_SYNTAX_PROBLEMS: usize = 3;

@@ -36,7 +36,7 @@ use crate::units::{LengthUnit, ScreenUnit, UnitSystem};
 /// A scene that is valid by construction. Lengths in metres.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// A line that says what the scene is; may be empty.
+    /// A line that describes the scene; may be empty.
     pub(crate) title: String,
     pub(crate) length: LengthUnit,
     pub(crate) convention: Convention,
@@ -48,7 +48,7 @@ pub struct Scene {
     pub(crate) shapes: Vec<Shape>,
     pub(crate) lights: Vec<Light>,
     pub(crate) ambient: Option<Ambient>,
-    /// Of a scene with colours: its materials and lights above then hold luminances, which nothing may be shaded by.
+    /// For a scene with colours: the materials and lights above then hold luminances, which must not be used for shading.
     pub(crate) color: Option<Box<SceneColor>>,
     pub(crate) probes: Vec<Probe>,
     pub(crate) grids: Vec<Grid>,
@@ -57,19 +57,19 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A line that says what the scene is; may be empty.
+    /// A line that describes the scene; may be empty.
     #[must_use]
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// The unit of lengths in the scene's file and in everything that is made from it.
+    /// The unit of lengths in the scene file and in everything made from it.
     #[must_use]
     pub fn length(&self) -> LengthUnit {
         self.length
     }
 
-    /// The unit of places on the camera's screen.
+    /// The unit of coordinates on the camera's screen.
     #[must_use]
     pub fn screen_unit(&self) -> ScreenUnit {
         ScreenUnit::of(self.length, self.camera.projection.is_angular())
@@ -81,19 +81,19 @@ impl Scene {
         self.convention
     }
 
-    /// How many rays a pixel's value is made of.
+    /// How many rays are averaged for a pixel's value.
     #[must_use]
     pub fn sampling(&self) -> Sampling {
         self.sampling
     }
 
-    /// Whether shapes stand in each other's light.
+    /// Whether shapes block each other's light.
     #[must_use]
     pub fn shadows(&self) -> bool {
         self.shadows
     }
 
-    /// Whether other shapes may stand between a shape and a light.
+    /// Whether other shapes may block a light from a shape.
     #[must_use]
     pub fn casts_shadows(&self, shape: usize, light: usize) -> bool {
         self.shadows && self.shapes[shape].receives_shadow && self.lights[light].casts_shadows
@@ -106,7 +106,7 @@ impl Scene {
         if geometry.parts() > 1 { format!("{name}[{}]", primitive.part) } else { name.clone() }
     }
 
-    /// The index of a primitive's material; none only in the `irradiance` convention.
+    /// The index of a primitive's material; `None` only in the `irradiance` convention.
     #[must_use]
     pub fn material_of(&self, primitive: Primitive) -> Option<usize> {
         let shape = &self.shapes[primitive.shape];
@@ -119,20 +119,20 @@ impl Scene {
         self.unit_system
     }
 
-    /// The observer.
+    /// The camera.
     #[must_use]
     pub fn camera(&self) -> &Camera {
         &self.camera
     }
 
-    /// What the scene has three of, if it has colours. Its [materials](Self::materials), [lights](Self::lights) and
-    /// [ambient light](Self::ambient) are then luminances, for listings alone.
+    /// The parts that the scene has three of, if it has colours. Its [materials](Self::materials), [lights](Self::lights)
+    /// and [ambient light](Self::ambient) are then luminances, only for listings.
     #[must_use]
     pub fn color(&self) -> Option<&SceneColor> {
         self.color.as_deref()
     }
 
-    /// How one number is made of its colours, if it has any: `rec709, Y = 0.2126 R + 0.7152 G + 0.0722 B (3.10)`.
+    /// How its colours are combined to one number, if it has any: `rec709, Y = 0.2126 R + 0.7152 G + 0.0722 B (3.10)`.
     #[must_use]
     pub fn color_label(&self) -> Option<String> {
         let space = self.color()?.space;
@@ -151,7 +151,7 @@ impl Scene {
         &self.shapes
     }
 
-    /// The lights, in the order of the file: the order of every sum.
+    /// The lights, in the order of the file, which is the order of every sum.
     #[must_use]
     pub fn lights(&self) -> &[Light] {
         &self.lights
@@ -163,7 +163,7 @@ impl Scene {
         self.lights.iter().position(|light| light.name == name)
     }
 
-    /// The light from all around, if there is one.
+    /// The ambient light, if there is any.
     #[must_use]
     pub fn ambient(&self) -> Option<&Ambient> {
         self.ambient.as_ref()
@@ -181,7 +181,7 @@ impl Scene {
         &self.grids
     }
 
-    /// What is allowed but deserves a word.
+    /// Warnings: allowed, but worth mentioning.
     #[must_use]
     pub fn warnings(&self) -> &[Problem] {
         &self.warnings

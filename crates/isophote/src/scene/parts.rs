@@ -1,4 +1,4 @@
-//! What a scene is made of, besides its camera and its lights.
+//! The parts of a scene, besides its camera and its lights.
 
 use super::source::ShadowSource;
 use crate::map::Resolution;
@@ -6,7 +6,7 @@ use crate::reflectance::Reflectance;
 use crate::shape::{Geometry, Side};
 use crate::vector::Vector;
 
-/// A material with its name.
+/// A named material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Its name, unique among the materials.
@@ -15,18 +15,18 @@ pub struct Material {
     pub reflectance: Reflectance,
 }
 
-/// A thing that can be seen.
+/// An object that can be seen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     /// Its name, unique among the shapes.
     pub name: String,
-    /// Index of its material; none only in the `irradiance` convention.
+    /// Index of its material; `None` only in the `irradiance` convention.
     pub material: Option<usize>,
     /// Its form and place.
     pub geometry: Geometry,
-    /// Whether it stands in other shapes' light, if the scene has shadows.
+    /// Whether it blocks other shapes' light, if the scene has shadows.
     pub casts_shadow: bool,
-    /// Whether other shapes stand in its light.
+    /// Whether other shapes block its light.
     pub receives_shadow: bool,
 }
 
@@ -45,7 +45,7 @@ pub struct Probe {
     pub name: String,
     /// The point, in metres.
     pub at: Vector,
-    /// A value that somebody published for this point, in the unit of the brightness.
+    /// A published value for this point, in the unit of the brightness.
     pub published: Option<f64>,
 }
 
@@ -54,14 +54,14 @@ pub struct Probe {
 pub struct Grid {
     /// Its name, unique among the grids.
     pub name: String,
-    /// Where both edges begin.
+    /// The corner where both edges begin.
     pub corner: Vector,
     /// One edge.
     pub u: Vector,
-    /// The other one, at right angles to the first.
+    /// The other edge, perpendicular to the first.
     pub v: Vector,
-    /// Points along u and along v.
+    /// The number of points along u and along v.
     pub points: Resolution,
-    /// The side that is lit: u × v leads to the front.
+    /// The lit side: u × v points to the front.
     pub side: Side,
 }

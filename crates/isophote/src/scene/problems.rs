@@ -1,11 +1,11 @@
-//! Problems of a scene as they are found, and the words that their messages are made of.
+//! Collects the problems of a scene, and helps to word their messages.
 
 use std::collections::HashSet;
 
 use super::document::Path;
 use super::error::{Problem, ProblemKind, Target};
 
-/// Problems as they are found, each place at most once.
+/// Problems in the order found, at most one for each place.
 #[derive(Default)]
 pub struct Problems {
     pub(super) list: Vec<Problem>,
@@ -13,7 +13,7 @@ pub struct Problems {
 }
 
 impl Problems {
-    /// Notes a problem, unless something around its place is already known to be wrong.
+    /// Adds a problem, unless its place or something around it is already known to be wrong.
     pub fn push(&mut self, kind: ProblemKind, path: &Path, message: impl Into<String>, help: impl Into<String>) {
         if !self.reported.contains(path) {
             self.reported.insert(path.clone());
@@ -22,7 +22,7 @@ impl Problems {
         }
     }
 
-    /// Notes that a key is missing from a table, unless the key is there and already known to be wrong.
+    /// Adds a problem for a key that is missing from a table, unless the key is there and already known to be wrong.
     pub fn missing(&mut self, table: &Path, key: &str, help: impl Into<String>) {
         if self.reported.insert(table.key(key)) {
             let target = Target::Table(table.clone());
@@ -34,7 +34,7 @@ impl Problems {
         }
     }
 
-    /// Notes problems that were found before the scene was read.
+    /// Adds problems that were found before the scene was read.
     pub fn extend(&mut self, problems: impl IntoIterator<Item = Problem>) {
         self.list.extend(problems);
     }
@@ -44,7 +44,7 @@ impl Problems {
         self.list
     }
 
-    /// Whether the thing at a path is known to be wrong.
+    /// Whether the item at a path is known to be wrong.
     pub fn has(&self, path: &Path) -> bool {
         self.reported.contains(path)
     }
@@ -55,7 +55,7 @@ impl Problems {
     }
 }
 
-/// The known word that is closest to the written one, if any is close.
+/// The known word that is closest to the written one, if any is close enough.
 pub(super) fn closest<'w>(written: &str, known: &[&'w str]) -> Option<&'w str> {
     let written = written.to_lowercase();
     known
@@ -71,7 +71,7 @@ pub(super) fn suggestion(meant: Option<&str>) -> String {
     meant.map_or(String::new(), |word| format!("; did you mean `{word}`?"))
 }
 
-/// A text from the file, fit to stand in a message.
+/// A text from the file, shortened for a message.
 pub(super) fn short(text: &str) -> String {
     const LENGTH: usize = 40;
     let mut short: String = text.chars().take(LENGTH).flat_map(char::escape_debug).collect();

@@ -1,16 +1,16 @@
-//! How many rays a pixel's value is made of.
+//! How many rays are averaged for a pixel's value.
 
 use super::Filter;
 
-/// How many rays a pixel's value is made of.
+/// How many rays are averaged for a pixel's value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// Rays for each pixel; with a tolerance, the most that a pixel gets.
+    /// Rays per pixel; with a tolerance, the maximum per pixel.
     pub samples: u32,
-    /// The error of a pixel's brightness that is allowed, as a part of the largest brightness of the image: pixels
-    /// get as many samples as that takes.
+    /// The allowed error of a pixel's brightness, as a fraction of the largest brightness of the image: pixels get as many
+    /// samples as that requires.
     pub tolerance: Option<f64>,
-    /// What a pixel is a mean over.
+    /// The filter that pixels are averaged with.
     pub filter: Filter,
 }
 
@@ -22,7 +22,7 @@ impl Default for Sampling {
 }
 
 impl Sampling {
-    /// The most samples that a pixel gets when only a tolerance is given.
+    /// The maximum number of samples per pixel if only a tolerance is given.
     pub const MOST: u32 = 256;
 
     /// Whether a pixel is more than the value at its centre.
@@ -31,7 +31,7 @@ impl Sampling {
         self != Self::default()
     }
 
-    /// As outputs say it.
+    /// The description in outputs.
     #[must_use]
     pub fn describe(self) -> String {
         let filter = crate::units::Keyword::name(self.filter);

@@ -1,4 +1,4 @@
-//! A table of a scene file while it is read: types and keys. What they may hold is checked in `validate`.
+//! Reads a table of a scene file: types and keys. The allowed values are checked in `validate`.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::problems::{Problems, closest, short, suggestion};
 use super::source::Amount;
 use crate::units::Keyword;
 
-/// Reads the table that a document is.
+/// Reads the table at the root of a document.
 pub fn read_root<T: Default>(
     document: &Document,
     problems: &mut Problems,
@@ -21,7 +21,7 @@ pub fn read_root<T: Default>(
     value
 }
 
-/// A table while it is read.
+/// A table being read.
 pub struct Table<'t> {
     entries: &'t [Entry],
     path: Path,
@@ -35,7 +35,7 @@ impl<'t> Table<'t> {
         self.entries.iter().find(|entry| entry.key == key).map(|entry| &entry.node)
     }
 
-    /// The value of a key by `convert`; one that has none is reported as not being `expected`.
+    /// The value of a key, converted by `convert`; if that fails, it is reported as not being `expected`.
     fn value<T>(&mut self, key: &'static str, expected: &str, convert: impl FnOnce(&Value) -> Option<T>) -> Option<T> {
         let node = self.find(key)?;
         let value = convert(&node.value);
@@ -130,7 +130,7 @@ impl<'t> Table<'t> {
                 complete = false;
             }
         }
-        // The whole key is then known to be wrong, and not to be missing.
+        // The whole key is then known to be wrong, rather than missing.
         if !complete {
             self.problems.reported.insert(path);
         }
@@ -179,7 +179,7 @@ impl<'t> Table<'t> {
         };
         let read_item = |(index, item)| {
             let path = path.index(index);
-            // An item that is no table keeps its place, so that the others keep their numbers.
+            // An item that is not a table keeps its place, so that the others keep their numbers.
             self.read_table(item, path, &read).unwrap_or_default()
         };
         items.iter().enumerate().map(read_item).collect()
@@ -221,7 +221,7 @@ impl<'t> Table<'t> {
                 let place = if self.path == Path::root() { "a scene".into() } else { format!("`{}`", self.path) };
                 let message = format!("{place} has no key `{}`", short(&entry.key));
                 let meant = closest(&entry.key, &self.known);
-                // The key that was meant is then not missing as well.
+                // The intended key is then not reported as missing too.
                 self.problems.reported.extend(meant.map(|key| self.path.key(key)));
                 let help = format!("allowed: {}{}", self.known.join(", "), suggestion(meant));
                 let mut problem = Problem::at_span(ProblemKind::UnknownKey, Some(entry.key_span.clone()), message);

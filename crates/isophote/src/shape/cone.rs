@@ -1,4 +1,4 @@
-//! The cone, pointed or cut off, with its flat ends (2.4).
+//! The cone, pointed or truncated, with its flat ends (2.4).
 
 use super::placement::{LocalRay, Placement};
 use super::span::{Crossing, NEVER, Span, pass};
@@ -20,17 +20,17 @@ pub struct Cone {
     radii: [f64; 2],
 }
 
-/// The faces: the base, the end at the apex, and what is between.
+/// The faces: the base, the end at the apex, and the lateral side.
 const BASE: usize = 0;
 const END: usize = 1;
 const SIDE: usize = 2;
 
-/// The side along a ray: where F = x² + y² − R² is negative, which is between the roots of F = aτ² + 2bτ + c.
+/// The lateral side along a ray: the interval where F = x² + y² − R² is negative, between the roots of F = aτ² + 2bτ + c.
 struct Side<T> {
     span: Span<T>,
     /// √(b² − ac).
     root: T,
-    /// By how much b² − ac misses being 0 for a ray that touches, and how much of that is lost to rounding.
+    /// b² − ac, which is 0 for a ray that touches, and its rounding error.
     discriminant: f64,
     error: f64,
 }
@@ -41,27 +41,27 @@ struct Found<T> {
     /// Outward.
     normal: Vector<T>,
     cos_theta_o: T,
-    /// Whether it is found again with 32 digits.
+    /// Whether the hit is traced again with 32 digits.
     is_inexact: bool,
 }
 
-/// How much of what a ray may have lost across its direction shows in the normal of the side: that bound is a generous one,
-/// as hit and miss depend on it.
+/// The fraction of a ray's transverse error bound that is passed on to the normal of the side: the bound is generous,
+/// because hit and miss depend on it.
 const NORMAL_ERROR: f64 = 0.2;
 
 impl Cone {
-    /// A cone from the middle of its base to its apex, two points that differ, with the radii at both (in metres, not
-    /// negative, not both zero).
+    /// A cone from the middle of its base to its apex, two distinct points, with the radii at both (in metres, not negative,
+    /// not both zero).
     #[must_use]
     pub fn new(base: Vector, apex: Vector, radii: [f64; 2]) -> Self {
         let axis = Vector::<DoubleDouble>::from_f64(apex) - Vector::from_f64(base);
         Self { placement: Placement::along(base, axis), apex, height: axis.length(), radii }
     }
 
-    /// The part of the ray within the side, the part between the flat ends, and what is common to both (2.4).
+    /// The part of the ray within the side, the part between the flat ends, and the intersection of the two (2.4).
     ///
-    /// b² − ac is computed as ‖R D⊥ − k D_z P⊥‖² − (P⊥ × D⊥)², a difference of two squares that factors: with P near
-    /// the axis it keeps its digits at the silhouette. cosθ_o is its root over R √(1 + k²), exactly.
+    /// b² − ac is computed as ‖R D⊥ − k D_z P⊥‖² − (P⊥ × D⊥)², a difference of two squares, which factors: with P near the
+    /// axis, it stays accurate at the silhouette. cosθ_o is its root over R √(1 + k²), exactly.
     pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         let local = self.placement.local_ray(ray);
         let size = self.size();
@@ -103,7 +103,7 @@ impl Cone {
         Intersection { hit: Some(hit), doubtful_from }
     }
 
-    /// The part of a ray within the side; nothing if it passes for sure.
+    /// The part of a ray within the side; `None` if it certainly misses.
     fn side<T: Scalar>(&self, local: &LocalRay<T>, error: f64) -> Option<Side<T>> {
         let (place, direction) = (local.nearest, local.direction);
         let slope = self.slope::<T>();
@@ -141,7 +141,7 @@ impl Cone {
         Some(Side { span, root, discriminant: discriminant.rounded(), error: lost })
     }
 
-    /// A point of the side, brought onto it exactly; nothing at the apex, which has no normal of its own.
+    /// A point of the side, moved exactly onto it; `None` at the apex, which has no normal of its own.
     fn on_side<T: Scalar>(&self, at: Vector<T>, side: &Side<T>, error: f64, accuracy: Accuracy) -> Option<Found<T>> {
         let slope = self.slope::<T>();
         let radius = slope.mul_add(at.z, T::from_f64(self.radii[0]));
@@ -193,8 +193,8 @@ impl Cone {
         NearestPoint::new(self.placement.origin, turned(nearest), turned(normal))
     }
 
-    /// The nearest point of the outline of half a section through the axis, as (distance from the axis, z), and the
-    /// normal there.
+    /// The nearest point on the outline of half a section through the axis, as (distance from the axis, z), and the normal
+    /// there.
     fn nearest_in_section(&self, from_axis: f64, z: f64) -> ([f64; 2], [f64; 2]) {
         let [base, end] = self.radii;
         let height = self.height.rounded();
@@ -208,13 +208,13 @@ impl Cone {
         ];
         let distance = |[x, y]: [f64; 2]| (from_axis - x).hypot(z - y);
         let least = candidates.iter().map(|(at, _)| distance(*at)).fold(f64::INFINITY, f64::min);
-        // At a rim, which is the nearest of two faces, that one counts which has the point before it.
+        // At a rim, where two faces are equally near, choose the face that the point is in front of.
         let before = |(at, normal): &([f64; 2], [f64; 2])| (from_axis - at[0]) * normal[0] + (z - at[1]) * normal[1];
         let nearest = candidates.into_iter().filter(|(at, _)| distance(*at) <= least * (1.0 + 1e-12));
         nearest.max_by(|first, second| before(first).total_cmp(&before(second))).unwrap_or(candidates[0])
     }
 
-    /// The box around it with sides along the scene's axes.
+    /// Its bounding box, with sides along the scene's axes.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let axis = self.placement.axis(2);
@@ -222,7 +222,7 @@ impl Cone {
         Bounds::of_disk(base, axis, self.radii[0]).union(Bounds::of_disk(end, axis, self.radii[1]))
     }
 
-    /// The middles of the base and of the other end, in metres.
+    /// The centres of the base and of the other end, in metres.
     #[must_use]
     pub fn ends(&self) -> [Vector; 2] {
         [self.placement.origin, self.apex]
@@ -234,20 +234,20 @@ impl Cone {
         self.radii
     }
 
-    /// The radius of the ball about the middle of the base that holds it, in metres.
+    /// The radius of the ball around the centre of the base that contains it, in metres.
     #[must_use]
     pub fn size(&self) -> f64 {
         self.radii[0].max(self.height.rounded().hypot(self.radii[1]))
     }
 
-    /// How far away a point is, in the larger radius or in heights, whichever is less.
+    /// The distance of a point, in units of the larger radius or the height, whichever is smaller.
     #[must_use]
     pub fn relative_distance(&self, point: Vector) -> f64 {
         let widest = self.radii[0].max(self.radii[1]);
         (point - self.placement.origin).length() / self.height.rounded().min(widest)
     }
 
-    /// What describes it.
+    /// The values that describe it.
     #[must_use]
     pub fn measures(&self) -> Vec<(&'static str, Measure)> {
         let ([base, apex], [radius, apex_radius]) = (self.ends(), self.radii);
@@ -260,8 +260,8 @@ impl Cone {
     }
 }
 
-/// Where F < 0, on the side of the apex where R > 0; beyond the apex, the flat end cuts it off. Nothing where F is the same
-/// all along: on a ray along the axis of a cylinder, or one through the apex.
+/// Where F < 0, on the side of the apex where R > 0; beyond the apex, the flat end cuts it off. `None` if F is constant
+/// along the ray: on a ray along the axis of a cylinder, or one through the apex.
 fn side_span<T: Scalar>(
     quadratic: T,
     half_linear: T,
@@ -272,7 +272,7 @@ fn side_span<T: Scalar>(
 ) -> Option<Span<T>> {
     let never = |side: f64| Crossing { at: T::from_f64(NEVER * side), error: 0.0, face: SIDE };
     let is_negative = half_linear.rounded() < 0.0;
-    // The root that is a sum of two numbers of one sign, and the other from the product of both.
+    // The root that adds two numbers of the same sign, and the other one from the product of both.
     let sum = if is_negative { root - half_linear } else { -(root + half_linear) };
     if sum.rounded() == 0.0 {
         return None;

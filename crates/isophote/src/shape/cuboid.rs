@@ -16,13 +16,13 @@ pub struct Cuboid {
 }
 
 impl Cuboid {
-    /// A box of these sides (in metres, positive) about a centre.
+    /// A box with these sides (in metres, positive) around a centre.
     #[must_use]
     pub fn new(center: Vector, size: Vector, rotation: Rotation) -> Self {
         Self { placement: Placement::turned(center, rotation), half: size * 0.5 }
     }
 
-    /// The part of the ray between each pair of faces, and what is common to the three parts (2.4).
+    /// The part of the ray between each pair of faces, and the intersection of the three parts (2.4).
     pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         let local = self.placement.local_ray(ray);
         let size = self.size();
@@ -83,7 +83,7 @@ impl Cuboid {
         NearestPoint::new(self.placement.origin, offset, self.placement.axis(face) * side)
     }
 
-    /// The box around it with sides along the scene's axes.
+    /// Its bounding box, with sides along the scene's axes.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         Bounds::around(self.placement.origin, self.placement.half_sides(self.half))
@@ -95,14 +95,14 @@ impl Cuboid {
         self.half.length()
     }
 
-    /// How far away a point is, in half the shortest side.
+    /// The distance of a point, in units of half the shortest side.
     #[must_use]
     pub fn relative_distance(&self, point: Vector) -> f64 {
         let Vector { x, y, z } = self.half;
         (point - self.placement.origin).length() / x.min(y).min(z)
     }
 
-    /// What describes it.
+    /// The values that describe it.
     #[must_use]
     pub fn measures(&self) -> Vec<(&'static str, Measure)> {
         let mut measures =

@@ -5,15 +5,14 @@ use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
-/// The points within a radius of the straight way between two points, its flat ends included: a [`Cone`] that does not
-/// narrow.
+/// The points within a radius of the segment between two points, with flat ends: a [`Cone`] with equal radii.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cylinder {
     body: Cone,
 }
 
 impl Cylinder {
-    /// A cylinder between two points that differ, with a radius in metres, positive.
+    /// A cylinder between two distinct points, with a radius in metres, positive.
     #[must_use]
     pub fn new(from: Vector, to: Vector, radius: f64) -> Self {
         Self { body: Cone::new(from, to, [radius, radius]) }
@@ -36,7 +35,7 @@ impl Cylinder {
         self.body.nearest(point)
     }
 
-    /// The middles of its two ends.
+    /// The centres of its two ends.
     #[must_use]
     pub fn ends(&self) -> [Vector; 2] {
         self.body.ends()
@@ -48,7 +47,7 @@ impl Cylinder {
         self.body.radii()[0]
     }
 
-    /// The box around it with sides along the scene's axes.
+    /// Its bounding box, with sides along the scene's axes.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.body.bounds()
@@ -66,7 +65,7 @@ impl Cylinder {
         self.body.relative_distance(point)
     }
 
-    /// What describes it.
+    /// The values that describe it.
     #[must_use]
     pub fn measures(&self) -> Vec<(&'static str, Measure)> {
         let [from, to] = self.body.ends();

@@ -15,13 +15,13 @@ pub struct Disk {
 }
 
 impl Disk {
-    /// A disk of a radius (in metres, positive) about a centre, at right angles to a direction (of any length but zero).
+    /// A disk with a radius (in metres, positive) around a centre, perpendicular to a direction (of any nonzero length).
     #[must_use]
     pub fn new(center: Vector, normal: Vector, radius: f64) -> Self {
         Self { placement: Placement::along(center, Vector::from_f64(normal)), radius }
     }
 
-    /// A hit of the plane that is within its borders.
+    /// A hit of the plane within its border.
     pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         let beyond = |x: T, y: T| x.mul_add(x, y * y).sqrt() - T::from_f64(self.radius);
         flat::intersect(&self.placement, Some(self.radius), ray, accuracy, beyond)
@@ -34,7 +34,7 @@ impl Disk {
         (place - self.nearest_place(place)).length()
     }
 
-    /// The point of it nearest to a point, with N on that side.
+    /// The point of it nearest to a given point, with N on that point's side.
     #[must_use]
     pub fn nearest(&self, point: Vector) -> NearestPoint {
         flat::nearest(&self.placement, point, |place| self.nearest_place(place))
@@ -46,13 +46,13 @@ impl Disk {
         Vector::new(place.x * scale, place.y * scale, 0.0)
     }
 
-    /// The box around it with sides along the scene's axes.
+    /// Its bounding box, with sides along the scene's axes.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         Bounds::of_disk(self.placement.origin, self.placement.axis(2), self.radius)
     }
 
-    /// Its middle, in metres.
+    /// Its centre, in metres.
     #[must_use]
     pub fn center(&self) -> Vector {
         self.placement.origin
@@ -70,13 +70,13 @@ impl Disk {
         self.radius
     }
 
-    /// How far away a point is, in radii.
+    /// The distance of a point, in radii.
     #[must_use]
     pub fn relative_distance(&self, point: Vector) -> f64 {
         (point - self.placement.origin).length() / self.radius
     }
 
-    /// What describes it.
+    /// The values that describe it.
     #[must_use]
     pub fn measures(&self) -> Vec<(&'static str, Measure)> {
         vec![

@@ -15,15 +15,15 @@ pub struct Ellipsoid {
 }
 
 impl Ellipsoid {
-    /// An ellipsoid of these radii (in metres, positive) about a centre.
+    /// An ellipsoid with these radii (in metres, positive) around a centre.
     #[must_use]
     pub fn new(center: Vector, radii: Vector, rotation: Rotation) -> Self {
         Self { placement: Placement::turned(center, rotation), radii }
     }
 
-    /// As the ray meets a sphere, in the space where the radii are 1 (2.4). With x' = (x/a, y/b, z/c) of the point there
-    /// and g = (x'/a, …) the normal is g/‖g‖, and cosθ_o = ‖D'‖ h'/‖g‖ exactly, D' being the direction there and h' half
-    /// the chord.
+    /// Intersects the ray with a sphere, in the space where the radii are 1 (2.4). With x' = (x/a, y/b, z/c) of the point
+    /// there and g = (x'/a, …), the normal is g/‖g‖, and cosθ_o = ‖D'‖ h'/‖g‖ exactly, where D' is the direction there and
+    /// h' is half the chord.
     pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         let local = self.placement.local_ray(ray);
         let [shortest, longest] = self.extremes();
@@ -38,7 +38,7 @@ impl Ellipsoid {
         let along = -start.dot(direction);
         let perpendicular = direction.mul_add(along, start);
         let clearance = T::from_f64(1.0) - perpendicular.dot(perpendicular);
-        // Rounding is magnified by how far from round it is: once where the ray passes, again in the normal.
+        // Rounding errors are amplified by the flattening: once in the ray's path, and again in the normal.
         let flatness = longest / shortest;
         let error = f64::EPSILON * (1.0 + local.reach / shortest);
         let error = TracingError { clearance: 16.0 * error * flatness, normal: 0.75 * error * flatness };
@@ -99,9 +99,9 @@ impl Ellipsoid {
         Vector::new(place.x / self.radii.x, place.y / self.radii.y, place.z / self.radii.z)
     }
 
-    /// The nearest point x solves x_i (1 + s/r_i²) = y_i, where s follows by bisection from x being on the surface
-    /// (Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid"). What is bisected is
-    /// u = 1 + s/c², c the shortest radius, which keeps its digits near the poles of s.
+    /// The nearest point x solves x_i (1 + s/r_i²) = y_i, where s is found by bisection such that x is on the surface
+    /// (Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid"). The bisection is over u = 1 +
+    /// s/c², with the shortest radius c, which stays accurate near the poles of s.
     fn nearest_place(&self, place: Vector) -> Vector {
         let [shortest, _] = self.extremes();
         let radii = self.radii.to_array();
@@ -109,7 +109,7 @@ impl Ellipsoid {
         let flattest = (0..3).find(|axis| is_flat(*axis)).unwrap_or(0);
         let ratios = radii.map(|radius| (radius / shortest) * (radius / shortest));
         let mut scaled = self.scaled(place).map(f64::abs).to_array();
-        // In the plane of the two longer axes there are two nearest points; either will do.
+        // In the plane of the two longer axes there are two nearest points; either one will do.
         scaled[flattest] = scaled[flattest].max(1e-100);
         let place_at = |u: f64| [0, 1, 2].map(|axis| ratios[axis] * scaled[axis] / (u + (ratios[axis] - 1.0)));
         let is_outside = Vector::from(scaled).length() > 1.0;
@@ -127,7 +127,7 @@ impl Ellipsoid {
         Vector::new(x, y, z)
     }
 
-    /// The box around it with sides along the scene's axes.
+    /// Its bounding box, with sides along the scene's axes.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let [x, y, z] = self.placement.axes::<f64>();
@@ -152,13 +152,13 @@ impl Ellipsoid {
         self.extremes()[1]
     }
 
-    /// How far away a point is, in shortest radii.
+    /// The distance of a point, in units of the shortest radius.
     #[must_use]
     pub fn relative_distance(&self, point: Vector) -> f64 {
         (point - self.placement.origin).length() / self.extremes()[0]
     }
 
-    /// What describes it.
+    /// The values that describe it.
     #[must_use]
     pub fn measures(&self) -> Vec<(&'static str, Measure)> {
         let mut measures =

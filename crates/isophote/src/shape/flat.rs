@@ -1,4 +1,4 @@
-//! What flat shapes share: the plane z = 0 of their own axes (2.4).
+//! Common code of flat shapes: the plane z = 0 of their own axes (2.4).
 
 use super::placement::Placement;
 use super::{Accuracy, Intersection, NearestPoint, PLACE_ERROR, ShapeHit, SurfacePoint};
@@ -6,9 +6,9 @@ use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
-/// How a ray meets a flat shape.
+/// Intersects a ray with a flat shape.
 ///
-/// `size` is its extent in metres, none if it has no end. `beyond` tells how far a place (x, y) is outside the border,
+/// `size` is its extent in metres, `None` if it is unbounded. `beyond` returns how far a point (x, y) is outside the border,
 /// in metres, negative inside.
 #[inline]
 pub fn intersect<T: Scalar>(
@@ -24,7 +24,7 @@ pub fn intersect<T: Scalar>(
         return Intersection::MISS;
     }
     let slope = local.direction.z;
-    // Seen edge-on it has no area; what is left of such a slope is rounding, which more digits tell.
+    // Seen edge-on it has no area; so small a slope is only rounding error, which more digits can resolve.
     if (slope * slope).rounded() < 1e4 * T::NEGLIGIBLE_SQUARE {
         return Intersection { hit: None, doubtful_from: Some(T::zero()) };
     }
@@ -47,7 +47,7 @@ pub fn intersect<T: Scalar>(
     let [first, second, third] = placement.axes();
     let point = SurfacePoint {
         anchor: placement.origin,
-        // Built in the plane: its part along N is zero.
+        // Built in the plane: its component along N is zero.
         offset: first * x + second * y,
         normal: third * towards_eye,
         view: -ray.direction,
@@ -57,7 +57,8 @@ pub fn intersect<T: Scalar>(
     Intersection { hit: Some(hit), doubtful_from }
 }
 
-/// The point of a flat shape nearest to a point, with N on that side. `nearest_place` finds it in the shape's own axes.
+/// The point of a flat shape nearest to a given point, with N on that point's side. `nearest_place` finds it in the shape's
+/// own axes.
 pub fn nearest(placement: &Placement, point: Vector, nearest_place: impl Fn(Vector) -> Vector) -> NearestPoint {
     let place = placement.place_of(point);
     let offset = placement.to_scene(nearest_place(place));

@@ -1,4 +1,4 @@
-//! Rays, and how they meet shapes.
+//! How rays intersect shapes.
 
 use std::ops::Range;
 
@@ -6,17 +6,17 @@ use crate::scalar::Scalar;
 use crate::tolerance;
 use crate::vector::Vector;
 
-/// How a ray meets a shape.
+/// The intersection of a ray with a shape.
 #[derive(Clone, Copy, Debug)]
 pub struct Intersection<T = f64> {
     /// The nearest intersection with t > 0.
     pub hit: Option<ShapeHit<T>>,
-    /// From which distance on (in metres) double precision may have decided wrongly, or lost more digits than the
-    /// accuracy allows: the ray comes near a silhouette, an edge or the surface on which it starts.
+    /// The distance (in metres) beyond which double precision may have decided wrongly, or lost more digits than the
+    /// accuracy allows: the ray comes near a silhouette, an edge or the surface that it starts on.
     pub doubtful_from: Option<T>,
 }
 
-/// Where a ray meets a shape.
+/// A hit of a ray on a shape.
 #[derive(Clone, Copy, Debug)]
 pub struct ShapeHit<T = f64> {
     /// t, the distance from the start of the ray in metres.
@@ -25,11 +25,11 @@ pub struct ShapeHit<T = f64> {
     pub point: SurfacePoint<T>,
     /// Whether the ray comes from inside a closed shape.
     pub from_inside: bool,
-    /// From the point to where its shadow rays start, in metres: not zero on meshes with smooth normals only.
+    /// From the point to where its shadow rays start, in metres: nonzero only on meshes with smooth normals.
     pub shadow_ray_offset: Vector<T>,
 }
 
-/// A point on a surface, as its shading needs it.
+/// A point on a surface, with what its shading needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint<T = f64> {
     /// A place near the point (the centre of a sphere), in metres. The point is kept as `anchor + offset`, because
@@ -66,31 +66,31 @@ impl<T: Scalar> SurfacePoint<T> {
 }
 
 impl<T> Intersection<T> {
-    /// The ray passes, beyond doubt.
+    /// The ray certainly misses.
     pub const MISS: Self = Self { hit: None, doubtful_from: None };
 }
 
-/// How many digits of a hit its use needs.
+/// How accurate a hit must be for its use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
-    /// How much shading magnifies an error of the normal: see [`for_shading`](Self::for_shading). Zero where only hit
-    /// or miss matters.
+    /// How much shading amplifies an error of the normal: see [`for_shading`](Self::for_shading). Zero if only hit or miss
+    /// matters.
     magnification: f64,
-    /// How much it magnifies an error of the place, in sizes of the shape: 3 for 1/r² and cosθ_i of a light that is as
-    /// far away as the shape is large, and what a highlight does.
+    /// How much it amplifies an error of the position, in sizes of the shape: 3 for 1/r² and cosθ_i of a light that is as
+    /// far away as the shape is large, plus the effect of a highlight.
     of_place: f64,
 }
 
 impl Accuracy {
-    /// Hit or miss is all that matters, as for shadows.
+    /// Only hit or miss matters, as for shadows.
     pub const OF_VISIBILITY: Self = Self { magnification: 0.0, of_place: 0.0 };
 
-    /// A hit that is shaded with a lobe of this shininess, if any, where spots have edges no
+    /// A hit that is shaded with a lobe of this shininess, if any, where the edges of spots are no
     /// [steeper](crate::light::Light::steepest_edge) than this.
     ///
-    /// The error of the normal is magnified by a terminator, by 1/cosθ_i, by the edge of a spot, and by a highlight: n tanθ_h, largest where
-    /// the highlight has fallen to a millionth of its peak, tan²θ_h = 10^(12/n) − 1, or where θ_h is as large as the
-    /// cosines of the promise let it be. Some four roundings go into θ_h.
+    /// The error of the normal is amplified at a terminator, by 1/cosθ_i, by the edge of a spot, and by a highlight: the
+    /// factor is n tanθ_h, largest where the highlight has fallen to a millionth of its peak, tan²θ_h = 10^(12/n) − 1, or
+    /// where θ_h is as large as the cosines of the promise allow. Some four roundings go into θ_h.
     #[must_use]
     pub fn for_shading(shininess: Option<f64>, steepest_edge: f64) -> Self {
         let terminator = 1.0 / tolerance::DOUBLE.peak_cosine;
@@ -104,21 +104,21 @@ impl Accuracy {
         }
     }
 
-    /// Whether a hit is traced again with 32 digits for these errors of its place (in sizes of the shape) and of its
-    /// normal: for shapes whose normal does not follow from the place, or not closely.
+    /// Whether a hit is traced again with 32 digits, given these errors of its position (in sizes of the shape) and of its
+    /// normal: for shapes whose normal does not follow from the position, or not closely.
     #[must_use]
     #[inline(always)]
     pub fn is_exceeded_by(self, place: f64, normal: f64) -> bool {
         let allowed = 0.5 * tolerance::DOUBLE.of_peak;
-        // Written so that NaN exceeds.
+        // Written so that NaN counts as exceeding.
         self.magnification > 0.0 && !(place * self.of_place <= allowed && normal * self.magnification <= allowed)
     }
 
-    /// For which clearances cos²θ_o a ray is traced again with 32 digits: around zero, where hit and miss are told
-    /// apart, and up to where the error is within half of what [`tolerance::DOUBLE`] allows; shading has the rest.
+    /// The clearances cos²θ_o at which a ray is traced again with 32 digits: from around zero, where hit and miss are
+    /// decided, up to where the error is within half of what [`tolerance::DOUBLE`] allows; the other half is for shading.
     ///
-    /// cosθ_o is the root of the clearance, so its error is that of the clearance over 2 cosθ_o. Where an error of the
-    /// normal is too much by itself, every hit is traced again.
+    /// cosθ_o is the root of the clearance, so its error is the clearance's error over 2 cosθ_o. If the error of the normal
+    /// alone is too large, every hit is traced again.
     #[must_use]
     #[inline(always)]
     pub fn doubtful_clearance(self, error: &TracingError) -> Range<f64> {
@@ -133,21 +133,21 @@ impl Accuracy {
     }
 }
 
-/// How much of the clearance cos²θ_o, and of the normal, is lost to rounding.
+/// The rounding errors of the clearance cos²θ_o and of the normal.
 #[derive(Clone, Copy, Debug)]
 pub struct TracingError {
-    /// Of the clearance.
+    /// The error of the clearance.
     pub clearance: f64,
-    /// Of the normal.
+    /// The error of the normal.
     pub normal: f64,
 }
 
 impl TracingError {
-    /// Of a pixel in an [outline](super::Outline), which distance does not magnify.
+    /// For a pixel in an [outline](super::Outline), whose error does not grow with distance.
     pub const IN_OUTLINE: Self = Self { clearance: 32.0 * f64::EPSILON, normal: 2.0 * f64::EPSILON };
 
-    /// Of a ray that is traced in double precision and starts so many sizes of the shape away from it: in units of
-    /// ε (1 + ρ). The rays' own rounding is most of it; the figures are above what `tests/conformance.rs` finds in a
+    /// For a ray that is traced in double precision and starts `relative_distance` sizes away from the shape: in units of ε
+    /// (1 + ρ). Most of it is the ray's own rounding error; the figures are above what `tests/conformance.rs` finds in a
     /// hundred thousand random scenes.
     #[must_use]
     #[inline(always)]

@@ -1,4 +1,4 @@
-//! Which surface a point lies on.
+//! Finds the surface that a point lies on.
 
 use super::{Geometry, NearestPoint};
 use crate::text::significant;
@@ -14,21 +14,21 @@ pub struct Located {
     pub nearest: NearestPoint,
 }
 
-/// A point that is on no surface, and the surface nearest to it.
+/// A point that is on no surface, and the nearest surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Miss {
     /// Index of the nearest shape among those that were searched.
     pub shape: usize,
     /// Its signed distance in metres, negative where the point is inside.
     pub distance: f64,
-    /// The point of it that is nearest.
+    /// The nearest point of that surface.
     pub nearest: NearestPoint,
 }
 
-/// The surface on which a point lies, to [`Geometry::surface_tolerance`].
+/// The surface that a point lies on, to [`Geometry::surface_tolerance`].
 ///
 /// # Errors
-/// The nearest surface when the point is on none; nothing when there are no shapes at all.
+/// The nearest surface if the point is on none; `None` if there are no shapes at all.
 pub fn surface_at<'g>(shapes: impl Iterator<Item = &'g Geometry>, point: Vector) -> Result<Located, Option<Box<Miss>>> {
     let nearest = shapes
         .enumerate()
@@ -44,7 +44,7 @@ pub fn surface_at<'g>(shapes: impl Iterator<Item = &'g Geometry>, point: Vector)
 }
 
 impl Miss {
-    /// Where the nearest surface is, in the scene's unit. `name` is the nearest shape's.
+    /// Describes where the nearest surface is, in the scene's unit. `name` is the nearest shape's.
     #[must_use]
     pub fn describe(&self, name: &str, length: LengthUnit) -> String {
         let side = if self.distance < 0.0 { "inside" } else { "outside" };

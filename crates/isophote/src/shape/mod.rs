@@ -40,8 +40,9 @@ use crate::vector::Vector;
 
 /// The form of a shape and its place in space. A closed set: each variant has a file of its own.
 ///
-/// A shape has parts, which rays hit one by one: the spheres of a cloud, the triangles of a mesh. Every other shape is one
-/// part, number 0. All but spheres are kept elsewhere and shared: a scene may have a hundred thousand.
+/// A shape has parts, which rays hit one by one: the spheres of a cloud, the triangles of a mesh. Every other shape is a
+/// single part, number 0. All kinds except spheres are stored on the heap and shared: a scene may have a hundred thousand
+/// shapes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Geometry {
     /// See [`Sphere`].
@@ -71,21 +72,21 @@ pub enum Geometry {
 pub struct Primitive {
     /// Index of the shape.
     pub shape: usize,
-    /// Which part of it; 0 where it has only one.
+    /// The part; 0 if there is only one.
     pub part: u32,
 }
 
-/// A box with sides along the axes, in metres.
+/// A bounding box with sides along the axes, in metres.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Bounds {
-    /// The corner with the least coordinates.
+    /// The corner with the smallest coordinates.
     pub least: Vector,
-    /// The corner with the greatest.
+    /// The corner with the largest coordinates.
     pub greatest: Vector,
 }
 
 impl Geometry {
-    /// What it is, in one word.
+    /// Its kind, in one word.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -102,7 +103,7 @@ impl Geometry {
         }
     }
 
-    /// What describes it, with names, in metres.
+    /// The values that describe it, with names, in metres.
     #[must_use]
     pub fn measures(&self) -> Vec<(&'static str, Measure)> {
         match self {
@@ -133,12 +134,12 @@ impl Geometry {
         self.material_of(0).is_some()
     }
 
-    /// The materials that its parts have of their own, again and again.
+    /// The materials of its parts, possibly with repetitions.
     pub fn materials_of_parts(&self) -> impl Iterator<Item = usize> {
         (0..self.parts()).filter_map(|part| self.material_of(part))
     }
 
-    /// How many parts there are.
+    /// The number of parts.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "the reader of the file counted in 32 bits")]
     pub fn parts(&self) -> u32 {
@@ -149,7 +150,7 @@ impl Geometry {
         }
     }
 
-    /// How a ray meets a part: the nearest intersection in front of its start (2.2).
+    /// Intersects a ray with a part: the nearest intersection in front of its start (2.2).
     #[inline(always)]
     pub fn intersect<T: Scalar>(&self, part: u32, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         match self {
@@ -166,7 +167,7 @@ impl Geometry {
         }
     }
 
-    /// The box around a part; nothing for what has no end.
+    /// The bounding box of a part; `None` if it is unbounded.
     #[must_use]
     pub fn bounds(&self, part: u32) -> Option<Bounds> {
         match self {
@@ -192,14 +193,14 @@ impl Geometry {
         }
     }
 
-    /// Whether its parts have an inside. Of what has none, the eye sees the side that is turned to it.
+    /// Whether its parts have an inside. For a shape without one, the eye sees the side that faces it.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         !matches!(self, Self::Plane(_) | Self::Rectangle(_) | Self::Disk(_) | Self::Mesh(_))
     }
 
-    /// In metres: what is nearer to a point of a part is no blocker of its light if it is another part of the shape.
-    /// Neighbours touch along an edge, where rounding alone would tell whether they stand in each other's light.
+    /// In metres: another part of the same shape blocks a part's light only if it is farther than this from the point.
+    /// Neighbours touch along an edge, where otherwise rounding would decide whether they block each other's light.
     #[must_use]
     pub fn least_shadow_distance(&self) -> f64 {
         match self {
@@ -208,7 +209,7 @@ impl Geometry {
         }
     }
 
-    /// The material of a part, where parts have their own.
+    /// The material of a part, if parts have their own.
     #[must_use]
     pub fn material_of(&self, part: u32) -> Option<usize> {
         match self {
@@ -218,8 +219,7 @@ impl Geometry {
         }
     }
 
-    /// Signed distance of a point from the surface in metres, negative inside; surfaces that enclose nothing have no
-    /// inside.
+    /// Signed distance of a point from the surface in metres, negative inside; surfaces that enclose nothing have no inside.
     #[must_use]
     pub fn signed_distance(&self, point: Vector) -> f64 {
         match self {
@@ -253,7 +253,7 @@ impl Geometry {
         }
     }
 
-    /// The surface point that lies in a direction (a unit vector) from the centre of a sphere; other shapes have none.
+    /// The surface point in a direction (a unit vector) from the centre of a sphere; `None` for other shapes.
     #[must_use]
     pub fn in_direction(&self, direction: Vector) -> Option<NearestPoint> {
         match self {
@@ -262,8 +262,8 @@ impl Geometry {
         }
     }
 
-    /// Its size in metres: R of a sphere, and about half of what is longest in other shapes; of a cloud, of the sphere
-    /// whose surface is nearest to a point; of a plane, how far that point is away.
+    /// Its size in metres: R for a sphere, and about half the longest dimension for other shapes; for a cloud, that of the
+    /// sphere whose surface is nearest to a point; for a plane, a length that depends on how far away the point is.
     #[must_use]
     pub fn size_near(&self, point: Vector) -> f64 {
         match self {
@@ -280,8 +280,8 @@ impl Geometry {
         }
     }
 
-    /// Whether it is the same form in the same place. Of meshes and clouds, which are large, whether they were read once for
-    /// both.
+    /// Whether it is the same form in the same place. For meshes and clouds, which are large: whether both are the same data
+    /// in memory, read once.
     #[must_use]
     pub fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
@@ -291,7 +291,7 @@ impl Geometry {
         }
     }
 
-    /// How far away a point is from the shape, in sizes of the shape.
+    /// The distance of a point from the shape, in sizes of the shape.
     #[must_use]
     pub fn relative_distance(&self, point: Vector) -> f64 {
         match self {
@@ -307,13 +307,13 @@ impl Geometry {
             Self::Cylinder(cylinder) => cylinder.relative_distance(point),
             Self::Cone(cone) => cone.relative_distance(point),
             Self::Mesh(mesh) => mesh.relative_distance(point),
-            // It has no end, and so comes near everything.
+            // It is unbounded, and so comes near everything.
             Self::Plane(_) => 0.0,
         }
     }
 
-    /// How near a place must be to the surface to count as on it: a billionth of the shape's size, in metres. Ten
-    /// typed digits are enough for that.
+    /// How close a point must be to the surface to count as on it: a billionth of the shape's size, in metres. Ten typed
+    /// digits are enough for that.
     #[must_use]
     pub fn surface_tolerance(&self, point: Vector) -> f64 {
         1e-9 * self.size_near(point)
@@ -327,27 +327,27 @@ pub enum Measure {
     Vector(Vector),
     /// A length, or another number.
     Number(f64),
-    /// How many of something.
+    /// A number of items.
     Count(usize),
 }
 
-/// What a ray loses to rounding across its direction, as a part of how far away it starts and how large the shape is.
+/// The transverse rounding error of a ray, as a fraction of the distance at which it starts plus the size of the shape.
 const PLACE_ERROR: f64 = 8.0 * f64::EPSILON;
 
 impl Bounds {
-    /// The box that reaches so far from its middle.
+    /// The box with this middle and these half sides.
     #[must_use]
     pub fn around(middle: Vector, half: Vector) -> Self {
         Self { least: middle - half, greatest: middle + half }
     }
 
-    /// The box around a disk with this unit normal.
+    /// The bounding box of a disk with this unit normal.
     #[must_use]
     pub fn of_disk(center: Vector, normal: Vector, radius: f64) -> Self {
         Self::around(center, normal.map(|cosine| (1.0 - cosine * cosine).max(0.0).sqrt()) * radius)
     }
 
-    /// The box around two boxes.
+    /// The bounding box of two boxes.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         let least = |first: f64, second: f64| first.min(second);
@@ -359,27 +359,27 @@ impl Bounds {
     }
 }
 
-/// The point of a surface that is nearest to some place.
+/// The point of a surface that is nearest to a given point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestPoint {
-    /// Which part of the shape.
+    /// The part of the shape.
     pub part: u32,
     /// See [`SurfacePoint::anchor`].
     pub anchor: Vector,
     /// See [`SurfacePoint::offset`].
     pub offset: Vector,
-    /// The unit normal for shading that points out of the shape; of one that encloses nothing, to one of its sides.
+    /// The unit normal for shading, which points out of the shape; if the shape encloses nothing, to one of its sides.
     pub outward_normal: Vector,
-    /// The unit normal of the surface itself, on the same side: another one on meshes with smooth normals only.
+    /// The unit normal of the surface itself, on the same side: it differs only on meshes with smooth normals.
     pub face_normal: Vector,
     /// See [`ShapeHit::shadow_ray_offset`], seen from the side of `face_normal`.
     pub shadow_ray_offset: Vector,
-    /// The same, seen from the other side.
+    /// The same offset, seen from the other side.
     pub shadow_ray_offset_behind: Vector,
 }
 
 impl NearestPoint {
-    /// A point of a shape that is one part, with the same normal for shading and for shadows.
+    /// A point of a shape with a single part, with the same normal for shading and for shadows.
     #[must_use]
     pub fn new(anchor: Vector, offset: Vector, outward_normal: Vector) -> Self {
         let (shadow_ray_offset, shadow_ray_offset_behind) = (Vector::default(), Vector::default());

@@ -1,4 +1,4 @@
-//! Where a shape stands and how it is turned.
+//! Where a shape is and how it is rotated.
 
 use super::Measure;
 use crate::double_double::DoubleDouble;
@@ -8,7 +8,7 @@ use crate::vector::Vector;
 
 /// A shape's own axes, in which its formulas are written.
 ///
-/// The axes have 32 digits, and a double sees them rounded: so a trace with 32 digits is one of exactly the same shape.
+/// The axes have 32 digits, and double precision uses them rounded, so a trace with 32 digits sees exactly the same shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// The origin of the shape's axes, in metres.
@@ -16,40 +16,40 @@ pub struct Placement {
     axes: [Vector<DoubleDouble>; 3],
 }
 
-/// A turn, as a quaternion w + xi + yj + zk. Its length does not matter.
+/// A rotation, as a quaternion w + xi + yj + zk. Its length does not matter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotation {
     w: f64,
     xyz: Vector,
 }
 
-/// A ray in a shape's axes, counted from its point that is nearest to their origin: however far away the ray starts, the
+/// A ray in a shape's axes, relative to its point that is nearest to their origin: however far away the ray starts, the
 /// numbers are then no larger than the shape.
 #[derive(Clone, Copy, Debug)]
 pub struct LocalRay<T> {
-    /// From the start of the ray to that point, in metres; negative where it starts behind it.
+    /// From the start of the ray to that point, in metres; negative if the ray starts beyond it.
     pub along: T,
     /// The point.
     pub nearest: Vector<T>,
     /// The direction, a unit vector.
     pub direction: Vector<T>,
-    /// How far from the origin the ray starts, in metres: what its rounding grows with.
+    /// The distance of the ray's start from the origin, in metres: its rounding error is proportional to this.
     pub reach: f64,
 }
 
 impl Rotation {
-    /// No turn.
+    /// No rotation.
     pub const NONE: Self = Self { w: 1.0, xyz: Vector::new(0.0, 0.0, 0.0) };
 
-    /// A turn about an axis (of any length but zero): looking against the axis, counter-clockwise.
+    /// A rotation about an axis (of any nonzero length): counter-clockwise when looking against the axis.
     #[must_use]
     pub fn about(axis: Vector, degrees: f64) -> Self {
-        // Whole turns are taken off first: they change nothing, and would cost digits.
+        // Whole turns are removed first: they change nothing, and would cost digits.
         let half = (degrees % 720.0).to_radians() * 0.5;
         Self { w: libm::cos(half), xyz: axis.normalized() * libm::sin(half) }
     }
 
-    /// What becomes of the three axes, with 32 digits.
+    /// The rotated axes, with 32 digits.
     fn axes(self) -> [Vector<DoubleDouble>; 3] {
         let [w, x, y, z] = [self.w, self.xyz.x, self.xyz.y, self.xyz.z].map(DoubleDouble::from_f64);
         let (one, two) = (DoubleDouble::from_f64(1.0), DoubleDouble::from_f64(2.0));
@@ -61,7 +61,7 @@ impl Rotation {
         ]
     }
 
-    /// What becomes of the three axes: the columns of its matrix.
+    /// The rotated axes: the columns of its matrix.
     #[must_use]
     pub fn matrix(self) -> [Vector; 3] {
         self.axes().map(|axis| axis.map(DoubleDouble::rounded))
@@ -69,18 +69,18 @@ impl Rotation {
 }
 
 impl Placement {
-    /// Axes that are turned from those of the scene.
+    /// Axes rotated from those of the scene.
     #[must_use]
     pub fn turned(origin: Vector, rotation: Rotation) -> Self {
         Self { origin, axes: rotation.axes() }
     }
 
-    /// Axes of which the third leads in a direction (of any length but zero); where the others lead does not matter.
+    /// Axes whose third points in a direction (of any nonzero length); where the others point does not matter.
     #[must_use]
     pub fn along(origin: Vector, third: Vector<DoubleDouble>) -> Self {
         let third = third.normalized();
         let components = third.map(|component| component.rounded().abs());
-        // The axis of the scene that is farthest from being parallel.
+        // The scene axis that is farthest from parallel.
         let across = if components.x <= components.y && components.x <= components.z {
             Vector::new(1.0, 0.0, 0.0)
         } else if components.y <= components.z {
@@ -92,7 +92,8 @@ impl Placement {
         Self { origin, axes: [first, third.cross(first), third] }
     }
 
-    /// Axes of which the third leads in a direction and the second as far as may be in another, not parallel to it.
+    /// Axes whose third points in a direction, and whose second points as far as possible in another one, not parallel to
+    /// it.
     #[must_use]
     pub fn facing(origin: Vector, third: Vector, second: Vector) -> Self {
         let third = Vector::from_f64(third).normalized();
@@ -113,21 +114,21 @@ impl Placement {
         self.axes[index].map(T::from_precise)
     }
 
-    /// A vector of the scene in the shape's axes.
+    /// Converts a vector from the scene's axes to the shape's.
     #[inline(always)]
     pub fn to_local<T: Scalar>(&self, vector: Vector<T>) -> Vector<T> {
         let [x, y, z] = self.axes();
         Vector::new(x.dot(vector), y.dot(vector), z.dot(vector))
     }
 
-    /// A vector in the shape's axes in those of the scene.
+    /// Converts a vector from the shape's axes to the scene's.
     #[inline(always)]
     pub fn to_scene<T: Scalar>(&self, vector: Vector<T>) -> Vector<T> {
         let [x, y, z] = self.axes();
         x * vector.x + y * vector.y + z * vector.z
     }
 
-    /// A ray in the shape's axes.
+    /// Converts a ray to the shape's axes.
     #[inline(always)]
     pub fn local_ray<T: Scalar>(&self, ray: &Ray<T>) -> LocalRay<T> {
         let start = ray.start_from(self.origin);
@@ -137,13 +138,13 @@ impl Placement {
         LocalRay { along, nearest: self.to_local(nearest), direction: self.to_local(ray.direction), reach }
     }
 
-    /// The place of a point of the scene in the shape's axes.
+    /// Converts a point of the scene to the shape's axes.
     #[must_use]
     pub fn place_of(&self, point: Vector) -> Vector {
         self.to_local(point - self.origin)
     }
 
-    /// The turn from the scene's axes as a person reads it: where the shape's own x and y lead; nothing if nowhere else.
+    /// The rotation in readable form: the directions of the shape's own x and y; empty if they are the scene's.
     #[must_use]
     pub fn turn_measures(&self) -> Vec<(&'static str, Measure)> {
         let [x, y, _] = self.axes::<f64>();
@@ -151,7 +152,7 @@ impl Placement {
         if is_turned { vec![("x axis", Measure::Vector(x)), ("y axis", Measure::Vector(y))] } else { Vec::new() }
     }
 
-    /// Half the sides of the box around a body that reaches so far along each of its own axes.
+    /// Half the sides of the bounding box of a body that extends this far along each of its own axes.
     #[must_use]
     pub fn half_sides(&self, half: Vector) -> Vector {
         let [x, y, z] = self.axes::<f64>().map(|axis| axis.map(f64::abs));
@@ -160,7 +161,7 @@ impl Placement {
 }
 
 impl<T: Scalar> LocalRay<T> {
-    /// Whether it stays farther than this from the origin.
+    /// Whether it stays farther from the origin than this.
     #[inline(always)]
     pub fn passes_by(&self, distance: f64) -> bool {
         self.nearest.dot(self.nearest).rounded() > distance * distance

@@ -1,4 +1,4 @@
-//! The plane, without end (2.4).
+//! The unbounded plane (2.4).
 
 use super::placement::Placement;
 use super::{Accuracy, Intersection, Measure, NearestPoint, flat};
@@ -13,13 +13,13 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane through a point, at right angles to a direction (of any length but zero).
+    /// The plane through a point, perpendicular to a direction (of any nonzero length).
     #[must_use]
     pub fn new(point: Vector, normal: Vector) -> Self {
         Self { placement: Placement::along(point, Vector::from_f64(normal)) }
     }
 
-    /// How a ray meets it.
+    /// Intersects a ray with it.
     pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         flat::intersect(&self.placement, None, ray, accuracy, |_, _| -T::from_f64(f64::INFINITY))
     }
@@ -30,20 +30,20 @@ impl Plane {
         self.placement.place_of(point).z.abs()
     }
 
-    /// The point of it nearest to a point, with N on that side.
+    /// The point of it nearest to a given point, with N on that point's side.
     #[must_use]
     pub fn nearest(&self, point: Vector) -> NearestPoint {
         flat::nearest(&self.placement, point, |place| Vector::new(place.x, place.y, 0.0))
     }
 
-    /// What stands for its size at a point, in metres: how far that is from Q, and a millionth of how far Q is from the
-    /// origin, so that coordinates that are rounded to 15 digits count as on the plane.
+    /// A substitute for its size at a point, in metres: the point's distance from Q, plus a millionth of Q's distance from
+    /// the origin, so that coordinates rounded to 15 digits count as on the plane.
     #[must_use]
     pub fn size_near(&self, point: Vector) -> f64 {
         (point - self.placement.origin).length() + 1e-6 * self.placement.origin.length()
     }
 
-    /// What describes it.
+    /// The values that describe it.
     #[must_use]
     pub fn measures(&self) -> Vec<(&'static str, Measure)> {
         vec![("point", Measure::Vector(self.placement.origin)), ("normal", Measure::Vector(self.placement.axis(2)))]

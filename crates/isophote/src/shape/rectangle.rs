@@ -6,7 +6,7 @@ use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
-/// |x| ≤ w/2, |y| ≤ h/2, z = 0 in its own axes, of which z is its normal and y leads along its height.
+/// |x| ≤ w/2, |y| ≤ h/2, z = 0 in its own axes, with z along its normal and y along its height.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rectangle {
     placement: Placement,
@@ -17,15 +17,15 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
-    /// A rectangle of this width and height (in metres, positive) about a centre. Its height runs along `up` as far as
-    /// its normal lets it; they are not parallel.
+    /// A rectangle of this width and height (in metres, positive) around a centre. Its height runs along `up` as far as its
+    /// normal allows; the two are not parallel.
     #[must_use]
     pub fn new(center: Vector, [width, height]: [f64; 2], normal: Vector, up: Vector) -> Self {
         let placement = Placement::facing(center, normal, up);
         Self { placement, half_width: 0.5 * width, half_height: 0.5 * height }
     }
 
-    /// A hit of the plane that is within its borders.
+    /// A hit of the plane within its borders.
     pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         let absolute = |value: T| value.max(-value);
         let beyond =
@@ -40,7 +40,7 @@ impl Rectangle {
         (place - self.nearest_place(place)).length()
     }
 
-    /// The point of it nearest to a point, with N on that side.
+    /// The point of it nearest to a given point, with N on that point's side.
     #[must_use]
     pub fn nearest(&self, point: Vector) -> NearestPoint {
         flat::nearest(&self.placement, point, |place| self.nearest_place(place))
@@ -51,14 +51,14 @@ impl Rectangle {
         Vector::new(x, y, 0.0)
     }
 
-    /// The box around it with sides along the scene's axes.
+    /// Its bounding box, with sides along the scene's axes.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let half = self.placement.half_sides(Vector::new(self.half_width, self.half_height, 0.0));
         Bounds::around(self.placement.origin, half)
     }
 
-    /// Its middle, in metres.
+    /// Its centre, in metres.
     #[must_use]
     pub fn center(&self) -> Vector {
         self.placement.origin
@@ -82,13 +82,13 @@ impl Rectangle {
         self.half_width.hypot(self.half_height)
     }
 
-    /// How far away a point is, in halves of the shorter side.
+    /// The distance of a point, in units of half the shorter side.
     #[must_use]
     pub fn relative_distance(&self, point: Vector) -> f64 {
         (point - self.placement.origin).length() / self.half_width.min(self.half_height)
     }
 
-    /// What describes it.
+    /// The values that describe it.
     #[must_use]
     pub fn measures(&self) -> Vec<(&'static str, Measure)> {
         vec![

@@ -1,19 +1,19 @@
-//! The part of a ray that is inside a convex body: what is common to the parts between its pairs of faces.
+//! The part of a ray that is inside a convex body: the intersection of the parts between its pairs of faces.
 
 use crate::scalar::Scalar;
 
-/// Where a ray crosses a face, counted from the point of the ray that is nearest to the body's origin.
+/// Where a ray crosses a face, measured from the point of the ray that is nearest to the body's origin.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing<T> {
     /// The distance along the ray, in metres.
     pub at: T,
-    /// How much of it rounding may have lost in double precision, in metres.
+    /// Its possible rounding error in double precision, in metres.
     pub error: f64,
-    /// Which face.
+    /// The index of the face.
     pub face: usize,
 }
 
-/// The part of a ray between two faces; empty where it leaves before it enters.
+/// The part of a ray between two faces; empty if it leaves before it enters.
 #[derive(Clone, Copy, Debug)]
 pub struct Span<T> {
     /// Where it begins.
@@ -22,7 +22,7 @@ pub struct Span<T> {
     pub leave: Crossing<T>,
 }
 
-/// How a ray passes a convex body.
+/// How a ray passes through a convex body.
 #[derive(Clone, Copy, Debug)]
 pub struct Passage<T> {
     /// The nearest face that is crossed in front of the start.
@@ -37,7 +37,7 @@ pub struct Passage<T> {
 pub const NEVER: f64 = 1e200;
 
 impl<T: Scalar> Span<T> {
-    /// Between two parallel planes: where `place + at · direction` is between `low` and `high`. `error` is that of the
+    /// Between two parallel planes: where `place + at · direction` is between `low` and `high`. `error` is the error of the
     /// place.
     #[inline]
     pub fn between(place: T, direction: T, [low, high]: [T; 2], error: f64, [low_face, high_face]: [usize; 2]) -> Self {
@@ -64,7 +64,7 @@ impl<T: Scalar> Span<T> {
     }
 }
 
-/// How a ray that starts at −`along` passes the body that is common to these spans.
+/// How a ray that starts at −`along` passes through the body that is the intersection of these spans.
 #[inline]
 pub fn pass<T: Scalar, const N: usize>(spans: [Span<T>; N], along: T) -> Passage<T> {
     let (mut enter, mut leave) = (spans[0].enter, spans[0].leave);

@@ -15,12 +15,12 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// The nearest root of ‖O + tD − C‖² = R² with t > 0: the near one from outside, the far one from inside, with N
-    /// turned to the viewer (2.2).
+    /// The nearest root of ‖O + tD − C‖² = R² with t > 0: the near one from outside, the far one from inside, with N turned
+    /// towards the viewer (2.2).
     ///
-    /// Everything is built from the perpendicular from the centre to the ray, `l`, and the half chord
-    /// h = √(R² − l²): P − C = l ∓ hD, and cosθ_o = h/R exactly. The textbook form b² − 4ac subtracts the squares of
-    /// large distances and loses the limb; this one loses only what the ray itself has lost. (Haines, Günther and
+    /// Everything is computed from the perpendicular from the centre to the ray, `l`, and the half chord h = √(R² − l²): P −
+    /// C = l ∓ hD, and cosθ_o = h/R exactly. The textbook form b² − 4ac subtracts the squares of large distances and is
+    /// inaccurate at the limb; this one loses only the digits that the ray itself has lost. (Haines, Günther and
     /// Akenine-Möller, "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019.)
     #[inline(always)]
     pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
@@ -28,11 +28,12 @@ impl Sphere {
         let to_center = -ray.start_from(self.center);
         let along = to_center.dot(ray.direction);
         let perpendicular = ray.direction * along - to_center;
-        // How far the ray is from grazing: cos²θ_o of a hit. A ray that touches at a single point sees no area: a miss.
+        // How far the ray is from grazing: cos²θ_o of a hit. A ray that touches at a single point sees no area, so it
+        // misses.
         let clearance = (radius * radius - perpendicular.dot(perpendicular)) / (radius * radius);
         let relative_distance = (along.rounded().abs() + perpendicular.length().rounded()) / self.radius;
         let doubtful = accuracy.doubtful_clearance(&TracingError::of_ray(relative_distance));
-        // Seen from outside, a sphere behind the start is a miss as clear as any; from inside, none is.
+        // Seen from outside, a sphere behind the start is clearly missed; from inside, none is.
         let nearby = T::from_f64(-2.0 * self.radius);
         if clearance.rounded() <= doubtful.start || along.is_less(nearby) {
             return Intersection::MISS;
@@ -79,7 +80,7 @@ impl Sphere {
         NearestPoint::new(self.center, direction * self.radius, direction)
     }
 
-    /// The corners of the box around it.
+    /// Its bounding box.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let half = Vector::new(self.radius, self.radius, self.radius);

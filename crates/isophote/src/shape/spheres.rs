@@ -3,12 +3,12 @@
 use super::{NearestPoint, Sphere};
 use crate::vector::Vector;
 
-/// Many spheres of one scene entry, read from a file of points.
+/// Many spheres of a single scene entry, read from a file of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spheres {
     /// The spheres: the parts of the shape.
     pub spheres: Vec<Sphere>,
-    /// For each sphere, the index of its material; empty where all have the shape's own.
+    /// For each sphere, the index of its material; empty if all use the shape's own.
     pub materials: Vec<u32>,
 }
 

@@ -3,8 +3,8 @@
 use super::ScreenPoint;
 use crate::map::{Map, Scalars};
 
-/// A scalar channel with its mask. An edge between neighbouring centres has the number 2·index for the one from pixel
-/// `index` to its right neighbour and 2·index + 1 for the one to its lower neighbour.
+/// A scalar channel with its mask. The edge from pixel `index` to its right neighbour has the number 2·index, the one to its
+/// lower neighbour 2·index + 1.
 pub(super) struct ContourGrid<'map> {
     map: &'map Map,
     values: Scalars<'map>,
@@ -45,22 +45,22 @@ impl<'map> ContourGrid<'map> {
     fn push_cell(&self, corners: [usize; 4], level: f64, segments: &mut Vec<Segment>) {
         let values = corners.map(|pixel| self.values.at(pixel));
         let above = values.map(|value| value >= level);
-        // Edge k comes before corner k clockwise: left, top, right, bottom.
+        // Clockwise, edge k precedes corner k: left, top, right, bottom.
         let edges = [2 * corners[0] + 1, 2 * corners[0], 2 * corners[1] + 1, 2 * corners[3]];
-        // Clockwise, a run of higher corners begins at `rise` and stops before `fall`: the segment goes round it.
+        // Clockwise, a run of higher corners begins at `rise` and ends before `fall`: the segment goes round the run.
         let rises = |k: usize| above[k] && !above[(k + 3) % 4];
         let falls = |k: usize| !above[k] && above[(k + 3) % 4];
         let is_saddle = above[0] == above[2] && above[1] == above[3] && above[0] != above[1];
         let joined = is_saddle && saddle_value(values) >= level;
         for rise in (0..4).filter(|&k| rises(k)) {
             let mut after = (rise + 1..rise + 4).map(|k| k % 4).filter(|&k| falls(k));
-            // Where the two higher corners of a saddle are joined, segments go round the lower ones instead.
+            // If the two higher corners of a saddle are joined, segments go round the lower ones instead.
             let fall = if joined { after.next_back() } else { after.next() };
             segments.extend(fall.map(|fall| Segment { start: edges[rise], end: edges[fall] }));
         }
     }
 
-    /// Where the contour crosses an edge: linear between the two centres, and the same for both cells at the edge.
+    /// Where the contour crosses an edge: linear between the two centres, and the same for both cells that share the edge.
     pub(super) fn crossing(&self, edge: usize, level: f64) -> ScreenPoint {
         let (pixel, downwards) = (edge / 2, edge % 2 == 1);
         let neighbour = if downwards { pixel + self.width } else { pixel + 1 };

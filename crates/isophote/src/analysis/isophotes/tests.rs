@@ -28,7 +28,7 @@ fn a_paraboloid_gives_circles_to_the_square_of_the_pixel_size() {
 
 #[test]
 fn a_spheres_cosine_gives_circles_of_the_sine() {
-    // Seen along the axis from afar, lit from the eye: cosθ = √(1 − r²) on the unit disc.
+    // Seen along the axis from far away, and lit from the eye: cosθ = √(1 − r²) on the unit disc.
     let map = square_map(400, 1.2, |x, y| {
         let square = 1.0 - x * x - y * y;
         (square > 0.0).then(|| Seen { brightness: square.sqrt(), shape: 0 })
@@ -51,7 +51,7 @@ fn a_plane_gives_a_straight_line_that_stops_at_the_outer_pixel_centres() {
     assert_eq!(lines.len(), 1);
     assert!(!lines[0].closed);
     assert!(lines[0].points.iter().all(|point| (point.x + 2.0 * point.y - 0.33).abs() < 1e-14));
-    // Higher values lie to the left, so the way leads from left to right.
+    // Higher values lie to the left, so the line runs from left to right.
     let (first, last) = (lines[0].points[0], lines[0].points[lines[0].points.len() - 1]);
     assert!((first.x + 0.9).abs() < 1e-14 && (last.x - 0.9).abs() < 1e-14, "{first:?} {last:?}");
 }
@@ -90,7 +90,7 @@ fn a_saddle_goes_the_way_of_the_bilinear_interpolant() {
         );
         let lines = contour(&map, level);
         assert_eq!(lines.len(), 2);
-        // The higher corners are the top left and the bottom right one: joined, no piece goes round the top left.
+        // The higher corners are the top left and the bottom right: if they are joined, no piece goes round the top left.
         let goes_round_top_left = lines.iter().any(|line| {
             let on_left = line.points.iter().any(|point| (point.x + 0.5).abs() < 1e-12);
             on_left && line.points.iter().any(|point| (point.y - 0.5).abs() < 1e-12)
@@ -115,7 +115,7 @@ fn a_saddle_surface_gives_two_hyperbola_branches() {
 
 #[test]
 fn no_contour_touches_a_cell_with_a_missed_pixel_or_two_shapes() {
-    // A steep step at the silhouette of shape 1 before shape 0, and a hole.
+    // A steep step at the silhouette of shape 1 in front of shape 0, and a hole.
     let map = square_map(50, 1.0, |x, y| {
         let hole = (x + 0.5).hypot(y) < 0.2;
         let shape = i32::from(x > 0.1);
@@ -164,7 +164,7 @@ fn every_crossing_is_joined_exactly_once() {
 
 #[test]
 fn a_contour_through_pixel_centres_has_no_repeated_points() {
-    // x² + y² = 25 meets centres such as (3, 4): 11 pixels with centres at −5, −4, …, 5.
+    // x² + y² = 25 passes through centres such as (3, 4): 11 pixels with centres at −5, −4, …, 5.
     let map = square_map(11, 5.5, everywhere(|x, y| x * x + y * y));
     let lines = contour(&map, 25.0);
     assert_eq!(lines.len(), 1);

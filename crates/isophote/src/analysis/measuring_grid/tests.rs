@@ -70,7 +70,7 @@ fn a_grid_on_a_floor_is_not_in_the_floors_shadow_and_other_shapes_stand_in_its_l
     for (index, (value, free)) in shaded.iter().zip(&free).enumerate() {
         let cell =
             Pixel { column: u32::try_from(index % 7).expect("small"), row: u32::try_from(index / 7).expect("small") };
-        // The light's way passes the ball's centre at this distance.
+        // The distance at which the light's path passes the ball's centre.
         let (lamp, centre) = (Vector::new(0.0, 3.0, 0.0), Vector::new(0.75, 1.5, 0.0));
         let way = (grid.point(cell) - lamp).normalized();
         let distance = way.cross(centre - lamp).length();

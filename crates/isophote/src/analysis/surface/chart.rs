@@ -57,7 +57,7 @@ impl Chart {
         }
     }
 
-    /// From where to where x and y run: in degrees, in metres, or as pure numbers.
+    /// The ranges of x and y: in degrees, in metres, or as pure numbers.
     pub(super) fn ranges(&self) -> [[f64; 2]; 2] {
         match self {
             Self::Sphere(sphere) => [CIRCLE, sphere.latitudes()],
@@ -67,7 +67,7 @@ impl Chart {
         }
     }
 
-    /// Width and height of the map on paper, as it is customary or as the surface unrolls.
+    /// Width and height of the map on paper, by convention or as the surface unrolls.
     pub(super) fn proportions(&self) -> [f64; 2] {
         match self {
             Self::Sphere(sphere) => sphere.proportions(),
@@ -111,9 +111,9 @@ impl Chart {
 /// All angles about an axis, in degrees.
 const CIRCLE: [f64; 2] = [-180.0, 180.0];
 
-/// Unit vectors across an axis (a unit vector), to which the angles 0° and 90° lead. 0° is the side of +z; of +x where the
-/// axis runs along z. Seen against the axis, angles grow counter-clockwise in right-handed axes: with the axis along y,
-/// 90° is +x.
+/// Unit vectors perpendicular to an axis (a unit vector), in the directions of the angles 0° and 90°. 0° is on the side of
+/// +z, or of +x if the axis is along z. Seen against the axis, angles grow counter-clockwise in right-handed axes: with the
+/// axis along y, 90° is +x.
 pub(super) fn meridians(axis: Vector) -> [Vector; 2] {
     let side = if axis.z.abs() > 0.999 { Vector::new(1.0, 0.0, 0.0) } else { Vector::new(0.0, 0.0, 1.0) };
     let ninety = axis.cross(side).normalized();

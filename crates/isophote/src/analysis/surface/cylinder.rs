@@ -1,4 +1,4 @@
-//! Angle and height on the side of a cylinder.
+//! Angle and height on the lateral surface of a cylinder.
 
 use super::chart::{ChartPoint, around, meridians};
 use crate::shape::Cylinder;

@@ -17,7 +17,7 @@ pub(super) struct DiskChart {
 }
 
 impl DiskChart {
-    /// A disk does not unroll: this is a shape in which the numbers can be read.
+    /// A disk does not unroll: these proportions merely make the numbers readable.
     pub(super) const PROPORTIONS: [f64; 2] = [2.0, 1.0];
 
     pub(super) fn new(disk: &Disk, projection: SurfaceProjection) -> Self {

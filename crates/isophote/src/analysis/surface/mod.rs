@@ -1,4 +1,4 @@
-//! Maps over a shape's own surface: the distribution of light over a sphere, free of any camera.
+//! Maps over a shape's own surface: the distribution of light over a sphere, for example, independent of any camera.
 
 mod chart;
 mod cylinder;
@@ -23,25 +23,25 @@ pub use totals::{CellExtreme, SurfaceTotals};
 /// Which surface, and how it is cut into cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceRequest {
-    /// What has the surface.
+    /// The primitive that has the surface.
     pub primitive: Primitive,
-    /// Which cells are equal.
+    /// How the surface is divided into equal cells.
     pub projection: SurfaceProjection,
-    /// Where the latitude of a sphere is 90°: a direction of any length but zero; +y by default.
+    /// The direction in which the latitude of a sphere is 90°, of any nonzero length; +y by default.
     pub axis: Option<Vector>,
-    /// Which side is looked at.
+    /// The side to compute.
     pub side: Side,
-    /// Columns and rows; by default 360 columns, and as many rows as make cells about square.
+    /// Columns and rows; by default 360 columns, and as many rows as make the cells roughly square.
     pub size: Option<Resolution>,
 }
 
-/// Which cells of a map are equal.
+/// How a surface is divided into equal cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SurfaceProjection {
-    /// Steps of latitude, of radius: the coordinates as a person reads them.
+    /// Equal steps of latitude or radius: coordinates that are easy to read.
     #[default]
     Equirectangular,
-    /// Areas: rows are steps of the sine of the latitude, of the square of the radius.
+    /// Equal areas: rows are steps of the sine of the latitude, or of the square of the radius.
     EqualArea,
 }
 
@@ -59,51 +59,51 @@ impl Keyword for SurfaceProjection {
 /// Why there is no map of a surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SurfaceError {
-    /// A shape whose surface has no coordinates here.
+    /// A shape whose surface has no coordinates.
     #[error("the surface of a {kind} has no coordinates; allowed: a sphere, a rectangle, a disk, a cylinder")]
     NoCoordinates {
-        /// What the shape is.
+        /// The kind of the shape.
         kind: &'static str,
     },
     /// There is no such shape, or it has no such part.
     #[error("there is no part {part}: the shape has {parts}, counted from 0")]
     NoSuchPart {
-        /// What was asked for.
+        /// The requested part.
         part: u32,
-        /// How many it has.
+        /// The number of parts.
         parts: u32,
     },
-    /// Only spheres have an axis to be chosen.
+    /// Only spheres allow an axis to be chosen.
     #[error("an axis is chosen for a sphere only: a {kind} has its own")]
     AxisOfItsOwn {
-        /// What the shape is.
+        /// The kind of the shape.
         kind: &'static str,
     },
     /// No cells, or too many.
     #[error("a map of {}×{} cells cannot be held in memory; allowed: sides of 1 to {}, together at most {} cells",
         size.width, size.height, Resolution::LONGEST_IN_MEMORY, Resolution::MOST_IN_MEMORY)]
     Size {
-        /// What was asked for.
+        /// The requested size.
         size: Resolution,
     },
-    /// A channel that belongs to a camera's rays.
+    /// A channel that exists only for a camera's rays.
     #[error("a surface has no channel `{name}`: it belongs to a camera's map")]
     ChannelOfCamera {
         /// The channel.
         name: String,
     },
-    /// The channel `color` of a scene that has none.
+    /// The channel `color` of a scene without colours.
     #[error("{}", crate::render::NO_COLOR)]
     NoColor,
-    /// A channel of a light that the scene does not have.
+    /// A channel for a light that the scene does not have.
     #[error("the scene has no light named \"{name}\"")]
     NoSuchLight {
-        /// What was asked for.
+        /// The requested name.
         name: String,
     },
 }
 
-/// A surface cut into cells, each of an exactly known area.
+/// A surface divided into cells, each with an exactly known area.
 #[derive(Debug)]
 pub struct Surface<'s> {
     scene: &'s PreparedScene,
@@ -113,10 +113,10 @@ pub struct Surface<'s> {
 }
 
 impl PreparedScene {
-    /// A surface cut into cells.
+    /// Divides a surface into cells.
     ///
     /// # Errors
-    /// A shape without coordinates, no such part, an axis where none can be chosen, or a size out of bounds.
+    /// A shape without coordinates, a part that does not exist, an axis where none can be chosen, or a size out of bounds.
     pub fn surface(&self, request: &SurfaceRequest) -> Result<Surface<'_>, SurfaceError> {
         let Primitive { shape, part } = request.primitive;
         let geometry = self.scene().shapes().get(shape).map(|shape| &shape.geometry);
@@ -131,7 +131,7 @@ impl PreparedScene {
     }
 }
 
-/// Columns of a map that is not told its size.
+/// The number of columns if no size is given.
 const DEFAULT_COLUMNS: u32 = 360;
 
 fn default_size(chart: &Chart) -> Resolution {
@@ -143,15 +143,15 @@ fn default_size(chart: &Chart) -> Resolution {
 }
 
 impl Surface<'_> {
-    /// The values at the centres of the cells, in double precision: row 0 has the greatest latitude or height, column 0
-    /// the least longitude or angle, −180°.
+    /// The values at the centres of the cells, in double precision: row 0 has the greatest latitude or height, column 0 the
+    /// least longitude or angle, −180°.
     ///
-    /// Irradiance and the parts of single lights are those of (3.1) and (3.9), with the scene's shadows. Brightness and its two
-    /// parts are what the scene's eye would see if nothing stood before it: with one of them among the channels, cells
-    /// that are turned away from the eye (θ_o ≥ 90°) are left out.
+    /// The irradiance and the contributions of single lights are those of (3.1) and (3.9), with the scene's shadows.
+    /// Brightness and its two parts are what the scene's eye would see if nothing were in the way: if one of them is
+    /// requested, cells that face away from the eye (θ_o ≥ 90°) are left out.
     ///
     /// # Errors
-    /// A channel of a camera, of a light that there is not, or of colours that there are not.
+    /// A channel of a camera, of a light that does not exist, or of colours in a scene without colours.
     pub fn map(&self, quantities: &[Quantity]) -> Result<Map, SurfaceError> {
         let of_camera = |quantity: &&Quantity| {
             matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage | Quantity::AmbientError)
@@ -179,13 +179,13 @@ impl Surface<'_> {
         })
     }
 
-    /// How many columns and rows there are.
+    /// The number of columns and rows.
     #[must_use]
     pub fn size(&self) -> Resolution {
         self.size
     }
 
-    /// Width and height of the map if it were unrolled from its shape, in metres.
+    /// Width and height of the map as unrolled from its shape, in metres.
     #[must_use]
     pub fn proportions(&self) -> [f64; 2] {
         self.chart.proportions()
@@ -198,7 +198,7 @@ impl Surface<'_> {
         self.chart.area(x, y)
     }
 
-    /// What belongs to the shape and not to the map.
+    /// What belongs to the shape but not to the map.
     #[must_use]
     pub fn left_out(&self) -> Option<&'static str> {
         self.chart.left_out()
@@ -242,7 +242,7 @@ impl Surface<'_> {
         self.chart.point([centre(x, cell.column, width), centre([y[1], y[0]], cell.row, height)])
     }
 
-    /// The centre of a cell as a hit from the side that is asked for.
+    /// The centre of a cell as a hit from the requested side.
     fn hit(&self, cell: Pixel) -> Hit {
         let ChartPoint { anchor, offset, normal } = self.chart_point(cell);
         let normal = normal * self.request.side.sign();
@@ -275,7 +275,7 @@ impl Surface<'_> {
     }
 }
 
-/// Whether a quantity is what an eye sees.
+/// Whether a quantity depends on what an eye sees.
 #[must_use]
 pub fn depends_on_eye(quantity: &Quantity) -> bool {
     matches!(quantity, Quantity::Brightness | Quantity::Color | Quantity::Diffuse | Quantity::Specular)

@@ -41,7 +41,7 @@ impl SphereChart {
         }
     }
 
-    /// True to length along the equator, and along the meridians there or everywhere.
+    /// True to scale along the equator, and along the meridians either there or everywhere.
     pub(super) fn proportions(&self) -> [f64; 2] {
         let equator = std::f64::consts::TAU * self.radius;
         match self.projection {
@@ -59,7 +59,7 @@ impl SphereChart {
         ChartPoint { anchor: self.center, offset: normal * self.radius, normal }
     }
 
-    /// R² Δλ Δ(sin φ). The difference of the sines is written as a product, which keeps its digits near the poles.
+    /// R² Δλ Δ(sin φ). The difference of the sines is written as a product, which keeps its accuracy near the poles.
     pub(super) fn area(&self, [west, east]: [f64; 2], [south, north]: [f64; 2]) -> f64 {
         let height = match self.projection {
             SurfaceProjection::Equirectangular => {

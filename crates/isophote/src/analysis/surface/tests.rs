@@ -49,7 +49,7 @@ fn assert_close(value: f64, expected: f64, tolerance: f64) {
     assert!((value - expected).abs() <= tolerance * expected.abs(), "{value:e} is not {expected:e} to {tolerance:e}");
 }
 
-/// (5.1) and (5.2): E over β, by an axis that leads to the source, so that cosβ is the sine of the latitude.
+/// (5.1) and (5.2): E as a function of β, with an axis towards the source, so that cosβ is the sine of the latitude.
 #[test]
 fn every_cell_of_a_sphere_has_the_irradiance_of_the_closed_form() {
     let (radius, distance, intensity) = (0.25, 1.6, 100.0);
@@ -70,7 +70,7 @@ fn every_cell_of_a_sphere_has_the_irradiance_of_the_closed_form() {
                 let pattern = if is_lambertian { (distance - radius * cosine) / square.sqrt() } else { 1.0 };
                 let expected = intensity * pattern * above.max(0.0) / (square * square.sqrt());
                 let cos_theta_i = above / square.sqrt();
-                // Where light grazes, what is lost of the cosine's digits is small beside the whole.
+                // Where light grazes the surface, the lost digits of the cosine are negligible compared with the whole.
                 let scale = if cos_theta_i > 1e-3 { expected } else { 54.0 };
                 assert!((value - expected).abs() <= 1e-12 * scale, "{value:e} {expected:e} at cosβ = {cosine}");
                 lit += usize::from(value > 0.0);
@@ -80,7 +80,7 @@ fn every_cell_of_a_sphere_has_the_irradiance_of_the_closed_form() {
     }
 }
 
-/// (5.3), about an axis that has nothing to do with the source.
+/// (5.3), about an axis unrelated to the source.
 #[test]
 fn the_flux_on_a_sphere_converges_to_the_closed_form_with_the_square_of_the_resolution() {
     let ratio: f64 = 0.25 / 1.6;
@@ -128,8 +128,8 @@ fn the_cells_of_every_shape_cover_it_once() {
     }
 }
 
-/// A light in the middle of a closed shape, whose inside is its back: what goes out arrives. A light above a flat one
-/// sends it what goes into the solid angle.
+/// A light in the middle of a closed shape, whose inside is its back: everything that it emits arrives. A flat shape
+/// receives what a light above it emits into the shape's solid angle.
 #[test]
 fn the_flux_on_every_shape_is_the_intensity_times_the_solid_angle() {
     let light = "[[light]]\nposition = [0, 0, 0]\nintensity = 3\n";
@@ -171,7 +171,7 @@ fn crowd() -> PreparedScene {
     prepared(&format!("{CROWD}{}", camera([20.0, 30.0, -300.0])))
 }
 
-/// Every channel at every cell, against the probe of the cell's centre: two ways to the same formulas.
+/// Every channel at every cell, compared with the probe at the cell's centre: two routes to the same formulas.
 #[test]
 fn a_cell_has_the_values_of_a_probe_at_its_centre_with_shadows() {
     let scene = crowd();
@@ -201,7 +201,7 @@ fn a_cell_has_the_values_of_a_probe_at_its_centre_with_shadows() {
                 close(&seen, &Quantity::Brightness, shading.brightness());
                 close(&seen, &Quantity::Specular, shading.specular);
             }
-            // Of a flat shape the probe sees the side that is turned to the eye.
+            // For a flat shape, the probe sees the side that faces the eye.
             if faces || shape < 3 {
                 close(&all, &Quantity::Irradiance, shading.irradiance);
                 close(&all, &light, terms[1].irradiance);
@@ -225,7 +225,7 @@ fn extremes_have_their_cells_and_a_channel_of_the_eye_its_own_area() {
     assert_eq!(map.mask().visible(), map.region.size.pixels());
     let seen = surface.map(&[Quantity::Brightness]).expect("it exists");
     let seen = surface.totals(&seen, &Quantity::Brightness).expect("some cells are seen");
-    // The eye at distance D sees the cap of area 2πR²(1 − R/D).
+    // An eye at distance D sees a cap of area 2πR²(1 − R/D).
     assert_close(seen.area, 2.0 * PI * 0.0625 * (1.0 - 0.25 / 3.0), 0.05);
 }
 

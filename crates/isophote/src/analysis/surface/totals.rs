@@ -4,17 +4,17 @@ use super::Surface;
 use crate::map::{Map, Pixel, Quantity};
 use crate::sum::Sum;
 
-/// What a channel amounts to over a surface, each cell weighted by its exact area.
+/// The totals of a channel over a surface, with each cell weighted by its exact area.
 ///
-/// The integral is taken by the midpoint rule: its error falls with the square of the cells' sides where the channel is
-/// continuous, as at a terminator, and with their sides at the edge of a shadow.
+/// The integral uses the midpoint rule: its error falls with the square of the cells' sides where the channel is continuous,
+/// as at a terminator, and in proportion to their sides at the edge of a shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceTotals {
     /// The area of the cells that have a value, in m².
     pub area: f64,
-    /// ∫ x dA over them, in the channel's unit times m²: for the irradiance the flux in W or lm.
+    /// ∫ x dA over these cells, in the channel's unit times m²: for the irradiance, this is the flux in W or lm.
     pub integral: f64,
-    /// The largest value; the first one in reading order where several are equal.
+    /// The largest value; the first in reading order if several are equal.
     pub max: CellExtreme,
     /// The smallest value, likewise.
     pub min: CellExtreme,
@@ -38,7 +38,7 @@ impl SurfaceTotals {
 }
 
 impl Surface<'_> {
-    /// The totals of a scalar channel of this surface's map; nothing if it has none, or no cell has a value.
+    /// The totals of a scalar channel of this surface's map; `None` if the map has no such channel, or no cell has a value.
     #[must_use]
     pub fn totals(&self, map: &Map, quantity: &Quantity) -> Option<SurfaceTotals> {
         let values = map.scalar(quantity)?;

@@ -4,7 +4,7 @@ use super::{TriangleMesh, weld::Welder};
 use crate::import::{Fault, FilePosition, FileProblem, materials::SlotBook};
 use crate::shape::CornerNormals;
 
-/// Takes triangles as a file has them.
+/// Builds a mesh from triangles as stored in a file.
 #[derive(Debug, Default)]
 pub(in crate::import) struct MeshBuilder {
     vertices: Welder,
@@ -19,7 +19,7 @@ pub(in crate::import) struct MeshBuilder {
 pub(in crate::import) const NO_NORMALS: Option<[([f64; 3], u64); 3]> = None;
 
 impl MeshBuilder {
-    /// One triangle of a face; `normals` are those of its corners, with the numbers by which messages call them.
+    /// Adds one triangle of a face; `normals` are those of its corners, with the numbers that messages refer to.
     pub fn triangle(
         &mut self,
         corners: [[f64; 3]; 3],
@@ -65,7 +65,7 @@ impl MeshBuilder {
         })
     }
 
-    /// Triangles that have no normals, up to this one, get those of their planes.
+    /// Gives the triangles without normals, up to this one, the normals of their planes.
     fn flat_until(&mut self, end: usize) -> Result<(), FileProblem> {
         for triangle in &self.triangles[self.corners.len()..end] {
             let corners = triangle.map(|index| self.vertices.vector(index));
@@ -84,16 +84,16 @@ fn welded(welder: &mut Welder, vectors: [[f64; 3]; 3]) -> Result<[u32; 3], FileP
     Ok(indices)
 }
 
-/// The unit normal, (B − A) × (C − A) in direction; none where the corners are on one line as far as double precision can
-/// tell.
+/// The unit normal, in the direction of (B − A) × (C − A); `None` if the corners are collinear as far as double precision
+/// can tell.
 fn plane_normal(corners: [[f64; 3]; 3]) -> Option<[f64; 3]> {
-    // Else the difference of two of them could be infinite.
+    // Otherwise, the difference of two of them could be infinite.
     let corners =
         if largest(corners.map(largest)) > 1e300 { corners.map(|corner| times(corner, 1e-10)) } else { corners };
     let [a, b, c] = corners;
     let edges = [minus(b, a), minus(c, b), minus(a, c)];
     let lengths = edges.map(largest);
-    // Between the two shorter edges the angle is the least doubtful one.
+    // The angle between the two shorter edges is the most accurate one.
     let longest = (0..3).max_by(|i, j| lengths[*i].total_cmp(&lengths[*j]))?;
     let (first, second) = ((longest + 1) % 3, (longest + 2) % 3);
     if lengths[first] == 0.0 || lengths[second] == 0.0 {
@@ -101,11 +101,11 @@ fn plane_normal(corners: [[f64; 3]; 3]) -> Option<[f64; 3]> {
     }
     let edge = |i: usize| edges[i].map(|component| component / lengths[i]);
     let normal = cross(edge(first), edge(second));
-    // The rounding of the edges and of the products: three half units in the last place of 1, twice.
+    // The rounding error of the edges and of the products: three half units in the last place of 1, twice.
     if largest(normal) > 3.0 * f64::EPSILON { normalized(normal) } else { None }
 }
 
-/// In this direction, of length 1; none for zero.
+/// The vector scaled to length 1; `None` for zero.
 fn normalized(vector: [f64; 3]) -> Option<[f64; 3]> {
     let largest = largest(vector);
     let scaled = vector.map(|component| component / largest);
@@ -144,7 +144,7 @@ mod tests {
         }
         let line = |t: f64| [0.1 + 0.7 * t, 0.2 - 0.3 * t, 0.3 + 0.11 * t].map(|x| (x * 8192.0).round() / 8192.0);
         assert_eq!(plane_normal([line(0.0), line(0.0), line(1.0)]), None);
-        // A needle: two corners are 1e-12 apart, and the numbers say exactly where.
+        // A needle: two corners are 1e-12 apart, and the numbers are exact.
         assert_eq!(plane_normal([[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1e-12, 0.0]]), Some([0.0, 0.0, 1.0]));
     }
 }

@@ -1,8 +1,8 @@
 //! Wavefront OBJ: vertices, normals and polygons. Polygons become fans of triangles around their first corner.
 //!
-//! Names of objects and groups, smoothing groups, texture coordinates, colours of vertices and the material library have no
-//! bearing on the shape and are passed over, points and lines have no surface; curved surfaces are refused. Normals are
-//! those that the faces name (`f 1//1 …`).
+//! Names of objects and groups, smoothing groups, texture coordinates, vertex colours and the material library do not affect
+//! the shape and are skipped; points and lines have no surface; curved surfaces are rejected. The normals used are those
+//! that the faces refer to (`f 1//1 …`).
 
 use memchr::memchr;
 
@@ -12,7 +12,7 @@ use crate::import::{
     text::{finite_number, integer, lines, shown, words},
 };
 
-/// The mesh of an OBJ file. Faces may name vertices of later lines, so they are read last.
+/// The mesh of an OBJ file. Faces may refer to vertices of later lines, so they are processed last.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
     let mut vertices = Vertices::default();
     statements(bytes, |keyword, words| vertices.read(keyword, words))?;
@@ -21,7 +21,7 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
     faces.builder.finish()
 }
 
-/// Calls `read` with the keyword and the rest of each statement, without comments and with continued lines in one.
+/// Calls `read` with the keyword and the rest of each statement, with comments removed and continued lines joined.
 fn statements(bytes: &[u8], mut read: impl FnMut(&[u8], &[u8]) -> Result<(), FileProblem>) -> Result<(), Fault> {
     let mut continued: Vec<u8> = Vec::new();
     for (number, line) in lines(bytes) {
@@ -103,10 +103,10 @@ fn three(rest: &[u8], what: &str, allowed: &[usize]) -> Result<[f64; 3], FilePro
 
 struct Faces<'a> {
     vertices: &'a Vertices,
-    /// Vertices, texture coordinates and normals so far: negative indices count back from here.
+    /// The numbers of vertices, texture coordinates and normals so far: negative indices count back from here.
     so_far: [usize; 3],
     corners: Vec<Corner>,
-    /// None until it is needed: a file whose first face has a material has no slot without one.
+    /// `None` until it is needed: a file whose first face has a material has no slot without one.
     material: Option<u16>,
     builder: MeshBuilder,
 }
@@ -131,7 +131,7 @@ impl<'a> Faces<'a> {
             b"vn" => self.so_far[2] += 1,
             b"f" | b"fo" => return self.face(rest),
             b"usemtl" => {
-                // The name is all that stands there, spaces included.
+                // The rest of the line is the name, including spaces.
                 let name = String::from_utf8_lossy(rest.trim_ascii());
                 let name = Some(name.as_ref()).filter(|name| !name.is_empty());
                 self.material = Some(self.builder.materials.slot(name)?);
@@ -202,7 +202,7 @@ fn too_few(found: usize) -> FileProblem {
     FileProblem::Parts { what: "the face".into(), found: found as u64, allowed: "at least 3 corners are needed".into() }
 }
 
-/// From 1 up, or from −1 down, backwards from the vertices so far.
+/// From 1 upwards, or from −1 downwards, counting back from the vertices so far.
 fn index(word: &[u8], field: &'static str, count: usize, so_far: usize) -> Result<usize, FileProblem> {
     let index = integer(word, field)?;
     let from_start = usize::try_from(index).ok().and_then(|index| index.checked_sub(1)).filter(|index| *index < count);

@@ -1,6 +1,6 @@
-//! Stereolithography, ASCII and binary. Each triangle brings its own corners; equal ones become one vertex.
+//! Stereolithography, ASCII and binary. Each triangle has its own corners; equal ones become one vertex.
 //!
-//! The facets' normals are not read: they repeat what the order of the corners says, and many programs leave them zero.
+//! The facets' normals are not read: they only repeat what the order of the corners says, and many programs leave them zero.
 
 use super::{MeshBuilder, NO_NORMALS, TriangleMesh};
 use crate::import::{
@@ -11,7 +11,7 @@ use crate::import::{
 
 /// The mesh of an STL file.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
-    // The headers of many binary files begin with `solid`, too: size and zeros tell them.
+    // The headers of many binary files also start with `solid`; the file size and zero bytes tell them apart.
     let is_ascii = bytes.trim_ascii_start().starts_with(b"solid") && !bytes[..bytes.len().min(1024)].contains(&0);
     if is_binary_stl(bytes) || !is_ascii { read_binary(bytes) } else { read_ascii(bytes) }
 }
@@ -49,8 +49,8 @@ fn vertex(bytes: &[u8; 12]) -> Result<[f64; 3], FileProblem> {
     Ok([finite(x.into(), "x")?, finite(y.into(), "y")?, finite(z.into(), "z")?])
 }
 
-/// One or more solids. Line breaks mean nothing in this format, but who writes it keeps to them, and so every mistake has
-/// its line.
+/// One or more solids. Line breaks have no meaning in this format, but all programs write them in the same places, so every
+/// error can be reported with its line.
 fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
     let mut reader = AsciiReader { builder: MeshBuilder::default(), expected: Expected::Solid, corners: Vec::new() };
     let mut last = 0;
@@ -72,7 +72,7 @@ struct AsciiReader {
     corners: Vec<[f64; 3]>,
 }
 
-/// What the next line must begin with.
+/// What the next line must start with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Expected {
     Solid,

@@ -1,16 +1,16 @@
-//! One index for all vectors that are equal.
+//! Assigns the same index to equal vectors.
 
-/// An open hash table from vectors to their indices in the order of their first use.
+/// An open-addressing hash table from vectors to their indices, in the order of first use.
 #[derive(Debug, Default)]
 pub(super) struct Welder {
     vectors: Vec<[f64; 3]>,
-    /// Indices into `vectors`; its length is a power of two, at most half of it is used.
+    /// Indices into `vectors`; the length is a power of two, and at most half of it is used.
     table: Vec<u32>,
 }
 
 impl Welder {
-    /// The index of this vector, a new one where it is met for the first time; none when there are too many to be
-    /// numbered. Zeros of both signs are equal.
+    /// The index of this vector, a new one on first use; `None` if there are too many to be numbered. Zeros of both signs
+    /// are equal.
     pub fn index(&mut self, vector: [f64; 3]) -> Option<u32> {
         let vector = vector.map(|component| component + 0.0);
         if self.table.len() < 2 * (self.vectors.len() + 1) {
@@ -25,7 +25,7 @@ impl Welder {
         Some(self.table[slot])
     }
 
-    /// The vector of this index.
+    /// The vector with this index.
     pub fn vector(&self, index: u32) -> [f64; 3] {
         self.vectors[index as usize]
     }
@@ -36,7 +36,7 @@ impl Welder {
         self.vectors
     }
 
-    /// Where the vector is in the table, or where it belongs.
+    /// The vector's place in the table, or where it is to be inserted.
     fn slot(&self, vector: [f64; 3]) -> usize {
         let mask = self.table.len() - 1;
         let mut slot = hash(vector) & mask;
@@ -57,8 +57,8 @@ impl Welder {
 
 const FREE: u32 = u32::MAX;
 
-/// Coordinates of meshes differ in their upper bits alone (short decimals, single precision): products fold these into
-/// all others.
+/// Coordinates of meshes often differ only in their upper bits (short decimals, single precision): multiplication spreads
+/// these over all others.
 #[expect(clippy::cast_possible_truncation, reason = "any bits of the products will do")]
 fn hash(vector: [f64; 3]) -> usize {
     let fold = |hash: u64, component: f64| {

@@ -1,4 +1,4 @@
-//! What a PLY file announces.
+//! The header of a PLY file.
 
 use memchr::memchr;
 
@@ -7,12 +7,12 @@ use crate::import::{
     text::{integer, shown, words},
 };
 
-/// The elements in the order of the file, and how their values are written.
+/// The elements in the order of the file, and the encoding of their values.
 #[derive(Debug, PartialEq)]
 pub(in crate::import) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
-    /// How many lines it takes.
+    /// The number of lines in the header.
     pub lines: u64,
 }
 
@@ -33,9 +33,9 @@ pub(in crate::import) struct Element {
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::import) struct Property {
     pub name: String,
-    /// The kind of its values.
+    /// The type of its values.
     pub kind: Kind,
-    /// The kind of a list's length.
+    /// The type of a list's length.
     pub length: Option<Kind>,
 }
 
@@ -93,7 +93,7 @@ impl Header {
             .at(FilePosition::Header))
     }
 
-    /// The element of this name, which must be there.
+    /// The element with this name, which is required.
     pub fn element(&self, name: &str, needed: &'static str) -> Result<&Element, FileProblem> {
         let element = self.elements.iter().find(|element| element.name == name);
         element.ok_or_else(|| FileProblem::Missing { what: format!("element {name}"), needed })
@@ -125,12 +125,12 @@ impl Element {
         Ok(Self { name: shown(name), count, properties: Vec::new() })
     }
 
-    /// Where the property of one of these names is.
+    /// The index of the property with one of these names.
     pub fn property(&self, names: &[&str]) -> Option<usize> {
         self.properties.iter().position(|property| names.contains(&property.name.as_str()))
     }
 
-    /// Where these single values are.
+    /// The indices of these scalar properties.
     pub fn values<const N: usize>(&self, names: [&'static str; N]) -> Result<[usize; N], FileProblem> {
         let mut places = [0; N];
         for (place, name) in places.iter_mut().zip(names) {

@@ -1,4 +1,4 @@
-//! Triangle meshes of PLY files: element `vertex` (`x`, `y`, `z`, perhaps `nx`, `ny`, `nz`), element `face` with a list
+//! Triangle meshes of PLY files: element `vertex` (`x`, `y`, `z`, optionally `nx`, `ny`, `nz`), element `face` with a list
 //! `vertex_indices` or `vertex_index`. Polygons become fans of triangles around their first corner.
 
 use super::{Header, Row, Rows};
@@ -42,7 +42,7 @@ impl VertexLayout {
     }
 }
 
-/// Which property of the faces has the indices of their corners.
+/// The property of the faces that holds the indices of their corners.
 fn face_indices(header: &Header) -> Result<usize, FileProblem> {
     let face = header.element("face", "without faces there is no surface (points with a radius can be spheres)")?;
     let needed = "a list of whole numbers, the indices of its corners";

@@ -1,5 +1,5 @@
-//! The polygon file format, ASCII and binary of either byte order, whatever the order of its properties. Elements and
-//! properties beyond those that are looked for are walked over.
+//! The polygon file format, ASCII and binary in either byte order, with properties in any order. Elements and properties
+//! that are not needed are skipped.
 
 mod header;
 pub(super) mod mesh;

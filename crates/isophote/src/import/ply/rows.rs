@@ -11,11 +11,11 @@ use crate::import::{
     text::{integer, number, shown, words},
 };
 
-/// What follows the header.
+/// The data after the header.
 pub(in crate::import) struct Rows<'a> {
     rest: &'a [u8],
     encoding: Encoding,
-    /// Lines so far, where there are lines.
+    /// The number of lines so far, in an ASCII file.
     line: u64,
 }
 
@@ -23,7 +23,7 @@ pub(in crate::import) struct Rows<'a> {
 pub(in crate::import) struct Row<'a> {
     /// A value for each property; a list has its length here.
     pub values: &'a [f64],
-    /// The values of the one list that was asked for.
+    /// The values of the one requested list.
     pub list: &'a [f64],
 }
 
@@ -56,7 +56,7 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
-    /// The file must end here.
+    /// Checks that the file ends here.
     pub fn finish(mut self) -> Result<(), Fault> {
         let left = match self.encoding {
             Encoding::Ascii => self.line().map_or(0, |line| (line.len() + self.rest.len()) as u64),
@@ -69,14 +69,14 @@ impl<'a> Rows<'a> {
             .at(FilePosition::Whole))
     }
 
-    /// No more rows than there is room for.
+    /// Checks that there are no more rows than the data has room for.
     fn check_length(&self, element: &Element) -> Result<(), FileProblem> {
         if element.properties.is_empty() {
             let what = format!("a property of element {}", element.name);
             return Err(FileProblem::Missing { what, needed: "an element without any has nothing to read" });
         }
         let row: usize = match self.encoding {
-            // A digit and what separates it from the next.
+            // A digit and the separator after it.
             Encoding::Ascii => 2 * element.properties.len(),
             _ => element.properties.iter().map(|property| property.length.unwrap_or(property.kind).size()).sum(),
         };
@@ -104,7 +104,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The next line that is not empty.
+    /// The next nonempty line.
     fn line(&mut self) -> Option<&'a [u8]> {
         while !self.rest.is_empty() {
             let end = memchr(b'\n', self.rest).unwrap_or(self.rest.len());
@@ -207,7 +207,7 @@ impl Source<'_> {
     }
 }
 
-/// No kind of PLY is wider than 32 bits, and a double holds all of these.
+/// No integer type of PLY is wider than 32 bits, and a double holds all of these exactly.
 fn whole_number(word: &[u8], name: &str) -> Result<f64, FileProblem> {
     let value = integer(word, name)?;
     let value = i32::try_from(value).map(f64::from).or_else(|_| u32::try_from(value).map(f64::from));
@@ -215,7 +215,7 @@ fn whole_number(word: &[u8], name: &str) -> Result<f64, FileProblem> {
     value.map_err(|_| FileProblem::NotANumber { field: name.into(), text: shown(word), allowed })
 }
 
-/// All of these kinds fit into a double.
+/// All of these types fit into a double.
 fn decoded(kind: Kind, bytes: &[u8], is_big: bool) -> f64 {
     let mut little = [0; 8];
     for (to, from) in little.iter_mut().zip(bytes) {

@@ -1,4 +1,4 @@
-//! Spheres of PLY files: element `vertex` with `x`, `y`, `z`, `radius` and perhaps `material`, a whole number: the material's
+//! Spheres of PLY files: element `vertex` with `x`, `y`, `z`, `radius` and optionally `material`, an integer: the material's
 //! name is that number.
 
 use super::{Header, Rows};
@@ -28,7 +28,7 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
     builder.finish()
 }
 
-/// Where the numbers of a sphere are, and its material if it has one.
+/// The indices of a sphere's numbers, and of its material if it has one.
 fn layout(header: &Header) -> Result<([usize; 4], Option<usize>), FileProblem> {
     let vertex = header.element("vertex", "x, y, z and radius stand there")?;
     let numbers = vertex.values(["x", "y", "z", "radius"])?;

@@ -1,4 +1,4 @@
-//! Files that are in memory.
+//! Files in memory.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -22,7 +22,7 @@ pub struct MemoryFiles {
 impl<N: Into<String>, C: Into<Vec<u8>>> FromIterator<(N, C)> for MemoryFiles {
     fn from_iter<I: IntoIterator<Item = (N, C)>>(files: I) -> Self {
         let files: BTreeMap<_, _> = files.into_iter().map(|(name, content)| (name.into(), content.into())).collect();
-        // What they hold tells them from others: files of the same name with other contents are read again.
+        // Identified by their contents: files with the same name but different contents are read again.
         let mut hasher = DefaultHasher::new();
         files.hash(&mut hasher);
         let origin = Origin::Named(format!("memory {:016x}", hasher.finish()));

@@ -1,13 +1,13 @@
-//! Where the names of files start.
+//! The base of file names.
 
 use std::path::{Path, PathBuf, absolute};
 
-/// Where the names of files in a scene start.
+/// The base of the file names in a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// In this directory of the file system.
+    /// A directory of the file system.
     Directory(PathBuf),
-    /// Elsewhere. Two that are named alike must give the same contents for the same names.
+    /// Any other source. Two with the same name must give the same contents for the same file names.
     Named(String),
 }
 
@@ -19,7 +19,7 @@ impl Default for Origin {
 }
 
 impl Origin {
-    /// The directory, if it is one.
+    /// The directory, if the origin is one.
     #[must_use]
     pub fn directory(&self) -> Option<&Path> {
         match self {
@@ -28,7 +28,7 @@ impl Origin {
         }
     }
 
-    /// Whether the same name is that of the same file, however a directory is written.
+    /// Whether equal names refer to the same file, however a directory is written.
     #[must_use]
     pub fn is_same_place(&self, other: &Self) -> bool {
         let absolute = |path: &Path| absolute(if path.as_os_str().is_empty() { Path::new(".") } else { path });

@@ -1,5 +1,5 @@
-//! Comma-separated values: a line of column names (`x`, `y`, `z`, `radius` and, if wanted, `material`, in any order), then a
-//! line for each sphere. Empty lines and lines that begin with `#` mean nothing; names may stand in double quotes.
+//! Comma-separated values: a line of column names (`x`, `y`, `z`, `radius` and optionally `material`, in any order), then a
+//! line for each sphere. Empty lines and lines that begin with `#` are ignored; names may be in double quotes.
 
 use super::{SphereList, SpheresBuilder};
 use crate::import::{
@@ -89,7 +89,7 @@ fn row<'a>(line: &'a [u8], columns: &[Column]) -> Result<Row<'a>, FileProblem> {
     Err(FileProblem::Parts { what: "the row, by its fields,".into(), found: found as u64, allowed })
 }
 
-/// The parts of a line between its commas; those within double quotes separate nothing.
+/// The fields of a line, separated by commas; commas in double quotes do not separate.
 fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     let mut is_quoted = false;
     line.split(move |byte| {
@@ -98,7 +98,7 @@ fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     })
 }
 
-/// A name without spaces around it and without its quotes; none if it is empty.
+/// A name without surrounding spaces and quotes; `None` if it is empty.
 fn unquoted(field: &[u8]) -> Result<Option<String>, FileProblem> {
     let wrong =
         |allowed: &str| FileProblem::Unexpected { what: "a name".into(), found: shown(field), allowed: allowed.into() };

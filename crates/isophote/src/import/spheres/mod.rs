@@ -12,11 +12,11 @@ pub struct SphereList {
     pub centers: Vec<[f64; 3]>,
     /// Radii in the same unit, all finite and greater than 0.
     pub radii: Vec<f64>,
-    /// Materials by name, where the file has any.
+    /// Materials by name, if the file has any.
     pub materials: Option<MaterialSlots>,
 }
 
-/// Takes spheres as a file has them.
+/// Builds a list from spheres as stored in a file.
 #[derive(Debug, Default)]
 pub(super) struct SpheresBuilder {
     centers: Vec<[f64; 3]>,
@@ -25,13 +25,13 @@ pub(super) struct SpheresBuilder {
 }
 
 impl SpheresBuilder {
-    /// With room for so many.
+    /// With capacity for this many.
     pub fn with_capacity(count: usize) -> Self {
         let (centers, radii) = (Vec::with_capacity(count), Vec::with_capacity(count));
         Self { centers, radii, materials: SlotBook::default() }
     }
 
-    /// One sphere.
+    /// Adds one sphere.
     pub fn sphere(&mut self, [x, y, z, radius]: [f64; 4]) -> Result<(), FileProblem> {
         let center = [finite(x, "x")?, finite(y, "y")?, finite(z, "z")?];
         let radius = finite(radius, "radius")?;

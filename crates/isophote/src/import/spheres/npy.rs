@@ -1,10 +1,10 @@
-//! One array of `NumPy` (`numpy.lib.format`, versions 1 to 3): of shape (N, 4), the columns x, y, z, radius, in single or
-//! double precision of either byte order.
+//! A single `NumPy` array (`numpy.lib.format`, versions 1 to 3): of shape (N, 4), with the columns x, y, z, radius, in
+//! single or double precision of either byte order.
 
 use super::{SphereList, SpheresBuilder};
 use crate::import::{Fault, FilePosition, FileProblem, text::shown};
 
-/// The spheres of an NPY file. What follows after the array means nothing, as it does to `NumPy`.
+/// The spheres of an NPY file. Anything after the array is ignored, as `NumPy` does.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
     let (header, body) = split(bytes).map_err(|problem| problem.at(FilePosition::Header))?;
     let array = Array::parse(header).map_err(|problem| problem.at(FilePosition::Header))?;
@@ -81,7 +81,7 @@ struct Array {
 }
 
 impl Array {
-    /// By a Python dictionary with the keys `descr`, `fortran_order` and `shape`.
+    /// Parses a Python dictionary with the keys `descr`, `fortran_order` and `shape`.
     fn parse(header: &str) -> Result<Self, FileProblem> {
         let kind = value(header, "descr")?;
         let order = value(header, "fortran_order")?;
@@ -118,7 +118,7 @@ impl Array {
     }
 }
 
-/// What stands after a key of the dictionary: to the next comma outside of brackets, or to the end.
+/// The value of a key in the dictionary: up to the next comma outside of brackets, or to the end.
 fn value<'a>(header: &'a str, key: &str) -> Result<&'a str, FileProblem> {
     let after = [format!("'{key}'"), format!("\"{key}\"")]
         .iter()

@@ -1,4 +1,4 @@
-//! Files by their names, and contents of other formats under them.
+//! Files by name, and contents that do not match their names.
 
 use super::{
     mesh_fault, spheres_fault,

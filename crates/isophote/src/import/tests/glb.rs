@@ -4,7 +4,7 @@ use super::{
 };
 use crate::import::{MeshFormat::Glb, mesh_from_bytes};
 
-/// The unit triangle O, X, Y with normals along z, its corners once as bytes; a fourth vertex Z.
+/// The unit triangle O, X, Y with normals along z, with its corners once as bytes; and a fourth vertex Z.
 fn binary() -> Vec<u8> {
     [single(&[O, X, Y, Z]), single(&[Z, Z, Z, [0.0, 1.0, 1.0]]), vec![0, 1, 2, 3]].concat()
 }
@@ -37,7 +37,7 @@ fn nodes_are_placed_with_all_their_parents() {
     let mesh = mesh_from_bytes(&glb(&document(nodes, MESHES, ""), &binary()), Glb).unwrap();
     let [first, second] = corners(&mesh)[..] else { panic!("the last node is not in the scene") };
     assert_eq!(first, [[0.1, 0.0, 20.0], [1.1, 0.0, 20.0], [0.1, 2.0, 20.0]]);
-    // By a quarter about z X becomes Y and Y becomes −X; then the scale.
+    // A quarter turn about z takes X to Y and Y to −X; then the scale applies.
     let expected = [[0.1, 0.0, 0.0], [0.1, 2.0, 0.0], [-0.9, 0.0, 0.0]];
     for (found, expected) in second.as_flattened().iter().zip(expected.as_flattened()) {
         assert!((found - expected).abs() < 1e-15);
@@ -50,11 +50,11 @@ fn normals_follow_the_inverse_transpose_and_mirrors_turn_corners_round() {
     let nodes = r#"[{"mesh": 0, "scale": [1, -2, 4]}]"#;
     let mesh = mesh_from_bytes(&glb(&document(nodes, meshes, ""), &binary()), Glb).unwrap();
     let (x, y, z) = (X, [0.0, -2.0, 0.0], [0.0, 0.0, 4.0]);
-    // Unmirrored they are O, X, Y and X, Z, Y.
+    // Without the mirror they are O, X, Y and X, Z, Y.
     assert_eq!(corners(&mesh), [[O, y, x], [x, y, z]]);
     let length = (0.25_f64 + 0.0625).sqrt();
     let [_, last] = normals(&mesh)[..] else { panic!("two triangles") };
-    // (0, 1, 1) becomes (0, 1/−2, 1/4) in direction.
+    // (0, 1, 1) becomes (0, 1/−2, 1/4), up to a factor.
     let found = last.iter().find(|normal| normal[1] != 0.0).unwrap();
     assert!((found[1] + 0.5 / length).abs() < 1e-15 && (found[2] - 0.25 / length).abs() < 1e-15);
 }
@@ -180,7 +180,7 @@ fn mistakes_of_the_document_are_named() {
 
 #[test]
 fn a_mesh_repeated_without_end_is_refused() {
-    // A thousand nodes of a thousand primitives of all of a million corners.
+    // A thousand nodes with a thousand primitives, each with a million corners.
     let primitive = r#"{"attributes": {"POSITION": 0}, "indices": 1}"#;
     let json = format!(
         r#"{{"asset": {{"version": "2.0"}}, "scenes": [{{"nodes": [{}]}}], "nodes": [{}],

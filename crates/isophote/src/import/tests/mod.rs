@@ -1,4 +1,4 @@
-//! What each format says comes out, and what is wrong with a file is said.
+//! Every format is read correctly, and every fault in a file is reported.
 
 mod files;
 mod glb;
@@ -11,12 +11,12 @@ mod write;
 
 use super::{MeshFormat, SpheresFormat, TriangleMesh, mesh_from_bytes, spheres_from_bytes};
 
-/// What is wrong with a mesh file, as people read it.
+/// The message about a faulty mesh file.
 fn mesh_fault(format: MeshFormat, bytes: impl AsRef<[u8]>) -> String {
     mesh_from_bytes(bytes.as_ref(), format).expect_err("something is wrong with it").to_string()
 }
 
-/// What is wrong with a file of spheres, as people read it.
+/// The message about a faulty file of spheres.
 fn spheres_fault(format: SpheresFormat, bytes: impl AsRef<[u8]>) -> String {
     spheres_from_bytes(bytes.as_ref(), format).expect_err("something is wrong with it").to_string()
 }

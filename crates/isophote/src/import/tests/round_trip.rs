@@ -1,4 +1,4 @@
-//! What is written in any format comes back as it was.
+//! Data written in any format is read back unchanged.
 
 use proptest::{collection::vec, prelude::*};
 
@@ -8,7 +8,7 @@ use super::{
 };
 use crate::import::{MeshFormat, SpheresFormat, TriangleMesh, mesh_from_bytes, spheres_from_bytes};
 
-/// Eighths: every format can say them, areas are exact, and they are few enough that some vertices are equal.
+/// Eighths: every format represents them exactly, areas are exact, and there are few enough that some vertices are equal.
 fn vector() -> impl Strategy<Value = [f64; 3]> {
     proptest::array::uniform3(-3..4_i16).prop_map(|steps| steps.map(|step| f64::from(step) * 0.125))
 }

@@ -53,7 +53,7 @@ fn mistakes_of_tables_are_named_with_their_line() {
     assert_eq!(fault(&format!("x,y,z,radius,material\n{many}")), "line 65538: there are more than 65536 materials");
 }
 
-/// By hand, since NumPy pads and versions differ.
+/// Written by hand, because NumPy pads and its versions differ.
 fn npy(version: u8, dictionary: &str, numbers: &[u8]) -> Vec<u8> {
     let length = u32::try_from(dictionary.len()).unwrap().to_le_bytes();
     let length = if version == 1 { &length[..2] } else { &length };
@@ -71,7 +71,7 @@ fn an_array_is_read_in_every_kind_and_version() {
         for (kind, body) in [("<f8", numbers(f64::to_le_bytes)), (">f8", numbers(f64::to_be_bytes))] {
             let file = npy(version, &dictionary(kind), &body);
             assert_eq!(spheres_from_bytes(&file, Npy).unwrap(), list());
-            // NumPy, too, passes over what follows.
+            // NumPy also ignores what follows.
             assert_eq!(spheres_from_bytes(&[&file[..], b"more"].concat(), Npy).unwrap(), list());
         }
     }

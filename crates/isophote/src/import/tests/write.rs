@@ -1,8 +1,8 @@
-//! Small writers of every format, for what the readers must read.
+//! Small writers for every format, as input for the readers.
 
 use std::fmt::Write as _;
 
-/// A polygon mesh as files have it; normals belong to vertices.
+/// A polygon mesh as stored in files; normals belong to vertices.
 #[derive(Debug, Clone)]
 pub struct Polygons {
     pub vertices: Vec<[f64; 3]>,
@@ -11,7 +11,7 @@ pub struct Polygons {
 }
 
 impl Polygons {
-    /// The fans of the faces.
+    /// The faces as fans of triangles.
     pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
         self.faces.iter().flat_map(|face| face[1..].windows(2).map(|pair| [face[0], pair[0], pair[1]]))
     }

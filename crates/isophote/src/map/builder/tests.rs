@@ -4,7 +4,7 @@ use crate::units::LengthUnit;
 
 const FULL: Resolution = Resolution { width: 4, height: 3 };
 
-/// Of an image of 4 × 3 pixels.
+/// A builder for an image of 4 × 3 pixels.
 fn begun() -> MapBuilder {
     let window =
         Window { x: [0.0, 4.0], y: [0.0, 3.0], length: LengthUnit::Metre, coordinates: Coordinates::default() };
@@ -19,7 +19,7 @@ fn begun() -> MapBuilder {
     Map::builder(FULL, window, provenance)
 }
 
-/// Its two pixels in the middle of the lowest row.
+/// The two middle pixels of its lowest row.
 fn part() -> Region {
     Region { corner: Pixel { column: 1, row: 2 }, size: Resolution { width: 2, height: 1 } }
 }

@@ -1,4 +1,4 @@
-//! Visibility by rows: the outlines of a few spheres, row by row of a band.
+//! Visibility by rows: the outlines of a few spheres, intersected with each row of a band.
 
 mod visible;
 
@@ -30,22 +30,22 @@ pub struct RowsJob<'a, 'm> {
     pub scene: &'a PreparedScene,
     /// The band.
     pub band: Band<'m>,
-    /// The shapes that may be seen in it.
+    /// The shapes that may be visible in it.
     pub candidates: Vec<Candidate<'a>>,
-    /// Its lights.
+    /// The scene's lights.
     pub lighting: &'a Lighting,
-    /// Those whose irradiance is asked for by itself.
+    /// The lights whose own irradiance is requested.
     pub asked_for: &'a [usize],
-    /// Of what is shaded.
+    /// The precision of the shading.
     pub precision: Precision,
-    /// Hears of the progress.
+    /// Receives progress reports.
     pub observer: Option<&'a dyn Observer>,
 }
 
-/// Columns that share a choice of lights.
+/// Columns that share a selection of lights.
 const CHUNK: u32 = 128;
 
-/// Lights at pixels that are computed without asking whether to go on: a few milliseconds.
+/// Lights times pixels between two checks for an interruption: a few milliseconds.
 const UNINTERRUPTED: u64 = 1 << 20;
 
 impl LaneJob for RowsJob<'_, '_> {
@@ -86,14 +86,14 @@ impl LaneJob for RowsJob<'_, '_> {
     }
 }
 
-/// The rows in which anything can be seen.
+/// The rows in which anything can be visible.
 fn seen_rows(candidates: &[Candidate<'_>], rows: &Range<u32>) -> Range<u32> {
     let start = candidates.iter().map(|candidate| candidate.rows.start).min().unwrap_or(rows.end);
     let end = candidates.iter().map(|candidate| candidate.rows.end).max().unwrap_or(rows.end);
     start.max(rows.start)..end.min(rows.end).max(start.max(rows.start))
 }
 
-/// Puts the stretches and the traced pixels of a row in order.
+/// Merges the stretches and the traced pixels of a row in order.
 fn see(band: &Band<'_>, row: u32, stretches: &[Stretch], traced: &[(Pixel, usize)], runs: &mut Vec<Run>) {
     let mut traced = traced.iter().peekable();
     for stretch in stretches {
@@ -107,33 +107,34 @@ fn see(band: &Band<'_>, row: u32, stretches: &[Stretch], traced: &[(Pixel, usize
     }
 }
 
-/// Shades stretches: what it needs for that, in either precision, and what it remembers of the shapes.
+/// Shades stretches: scratch memory in either precision, and what is cached per shape.
 struct RowShader<'a> {
     layers: Vec<&'a PreparedScene>,
     lighting: &'a Lighting,
     candidates: Vec<Candidate<'a>>,
     precision: Precision,
     observer: Option<&'a dyn Observer>,
-    /// What lights each candidate, placed when it is first seen.
+    /// The light on each candidate, placed when it is first visible.
     kept: Vec<Option<Vec<LitShape<'a>>>>,
-    /// Emitters that are kept, over all shapes.
+    /// The number of cached emitters, over all shapes.
     kept_emitters: usize,
     single: Scratch<f32>,
     double: Scratch<f64>,
     geometry: Option<Box<SurfaceBlock<f64>>>,
 }
 
-/// Emitters kept in a band: beyond that they are placed anew rather than fill the memory.
+/// The most emitters cached in a band: beyond that, they are placed again each time rather than fill the memory.
 const KEPT: usize = 1 << 20;
 
-/// What lights a shape in a layer of the scene.
+/// The light on a shape in a layer of the scene.
 struct LitShape<'a> {
     layer: &'a PreparedScene,
     emitters: ShapeEmitters,
     all: AllChosen,
     power: Power,
     formula: &'a BrightnessFormula,
-    /// E_a: one convex shape, or none of several, obstructs it in the scenes that are rendered so.
+    /// E_a: nothing obstructs it in the scenes that are rendered by rows, which have one convex shape, or several that do
+    /// not obstruct it.
     ambient: f64,
 }
 
@@ -197,7 +198,7 @@ impl<'a> RowShader<'a> {
         Ok(())
     }
 
-    /// Makes sure that a candidate's light is there.
+    /// Makes sure that a candidate's light is cached.
     fn keep(&mut self, candidate: usize) {
         if self.kept[candidate].is_some() {
             return;
@@ -248,7 +249,7 @@ struct StretchWork {
     at_row: u32,
 }
 
-/// Where a stretch is written, and in which light.
+/// Where a stretch is written, and the light that it is shaded in.
 struct Target<'t, 'a, 'm> {
     lit: &'t LitShape<'a>,
     lighting: &'t Lighting,
@@ -275,7 +276,8 @@ impl Target<'_, '_, '_> {
             |value| V::splat(token, V::Element::from_f64(value)),
         );
         let ambient = V::splat(token, V::Element::from_f64(*ambient));
-        // Counted in the full image: the choice of lights, and with it the order of the sum, is that of any region.
+        // Counted in the full image, so that the selection of lights, and with it the order of the sum, is the same for any
+        // region.
         let has_choice = emitters.len() > BLOCK;
         for columns in work.chunks(if has_choice { CHUNK } else { WHOLE }) {
             let selection = if has_choice {
@@ -299,12 +301,12 @@ impl Target<'_, '_, '_> {
     }
 }
 
-/// As many columns as a block has points: a stretch whose light is not chosen anew is cut for no other reason.
+/// As many columns as a block has points: without a new selection of lights, a stretch is cut only for this reason.
 #[expect(clippy::cast_possible_truncation, reason = "a few hundred")]
 const WHOLE: u32 = POINTS as u32;
 
-/// The points of some columns of a row, straight from the outline. (That spares a light's sum the way through a block,
-/// which costs about as much as a light.)
+/// The points of some columns of a row, straight from the outline. (This avoids storing them in a block first, which costs
+/// about as much as one light.)
 struct RowPoints<'p, V> {
     work: &'p StretchWork,
     row: &'p RowOfEllipse<V>,
@@ -336,7 +338,7 @@ impl StretchWork {
         }
     }
 
-    /// The columns, cut where the image is cut into pieces of this width.
+    /// The columns, cut where the image is cut into chunks of this width.
     fn chunks(&self, width: u32) -> impl Iterator<Item = Range<u32>> + use<> {
         let Stretch { mut start, end, .. } = self.stretch;
         std::iter::from_fn(move || {
@@ -347,7 +349,7 @@ impl StretchWork {
         })
     }
 
-    /// What a vector of pixels sees, the first one so many columns after another.
+    /// What a vector of pixels sees; its first pixel is `after` columns to the right of `first`.
     #[inline(always)]
     #[expect(clippy::cast_precision_loss, reason = "a few hundred columns")]
     fn point<V: Lane>(&self, token: V::Token, row: &RowOfEllipse<V>, first: u32, after: usize) -> PointInRow<V> {
@@ -361,8 +363,8 @@ impl StretchWork {
         row.point(self.center, &place)
     }
 
-    /// A cap of the unit sphere that holds what the columns of a chunk can see: the direction of its middle, and the
-    /// largest distance from there. A row cuts the sphere in a circle, so the ends are farthest from the middle.
+    /// A cap of the unit sphere that contains everything the columns of a chunk can see: the direction of its middle, and
+    /// the largest distance from there. A row cuts the sphere in a circle, so the ends are farthest from the middle.
     fn cap(&self, chunk: u32) -> (Vector, f64) {
         let [left, right] = self.row.roots;
         let start = f64::from(chunk) * f64::from(CHUNK) - self.counted_from;

@@ -1,4 +1,4 @@
-//! What the pixels of a row see, by the outlines of the shapes: no ray is traced but for pixels in doubt.
+//! What the pixels of a row see, from the outlines of the shapes: rays are traced only for pixels in doubt.
 
 use std::ops::Range;
 
@@ -17,18 +17,18 @@ pub struct Stretch {
     pub shape: usize,
 }
 
-/// The view of one row; its memory serves for the next.
+/// The view of one row; its memory is reused for the next.
 #[derive(Default)]
 pub struct RowView {
-    /// From the left; columns in doubt are in none.
+    /// From left to right; columns in doubt belong to none.
     pub stretches: Vec<Stretch>,
-    /// The columns that are too close to call for a double, from the left.
+    /// The columns that are too close to call in double precision, from left to right.
     pub doubtful: Vec<u32>,
     spans: Vec<Span>,
     edges: Vec<u32>,
 }
 
-/// The columns that a shape covers, whatever is before it.
+/// The columns that a shape covers, whatever is in front of it.
 #[derive(Clone, Copy)]
 struct Span {
     start: u32,
@@ -39,14 +39,14 @@ struct Span {
     far: f64,
 }
 
-/// A shape that may be seen, with its outline.
+/// A shape that may be visible, with its outline.
 #[derive(Clone)]
 pub struct Candidate<'s> {
     /// The shape.
     pub shape: usize,
     /// Its outline.
     pub ellipse: &'s Ellipse,
-    /// The rows in which it can be seen.
+    /// The rows in which it can be visible.
     pub rows: Range<u32>,
     /// The shape's geometry.
     pub sphere: Sphere,
@@ -54,8 +54,7 @@ pub struct Candidate<'s> {
 }
 
 impl<'s> Candidate<'s> {
-    /// The shapes that may be seen in these rows, or nothing if there is one whose outline is unknown, or
-    /// that may stand in another one's light.
+    /// The shapes that may be visible in these rows; `None` if the outline of one is unknown, or if one may shadow another.
     pub fn all(scene: &'s PreparedScene, rows: Range<u32>) -> Option<Vec<Self>> {
         let mut candidates = Vec::new();
         if scene.casts_shadows_between_shapes() {
@@ -67,7 +66,7 @@ impl<'s> Candidate<'s> {
                 Outline::Unseen => {}
                 Outline::Unknown => return None,
                 Outline::Ellipse(ellipse) => {
-                    // With a row to spare on either side, for what is in doubt.
+                    // With one extra row on either side, for pixels in doubt.
                     let bound = |row: f64| whole(row.clamp(rows.start.into(), rows.end.into()));
                     let [first, last] = ellipse.rows.map(|row| row + ellipse.row);
                     let rows = bound(first - 1.0)..bound(last + 3.0);
@@ -81,7 +80,7 @@ impl<'s> Candidate<'s> {
         Some(candidates)
     }
 
-    /// What rays hit.
+    /// The primitive that rays hit.
     pub fn primitive(&self) -> Primitive {
         Primitive { shape: self.shape, part: 0 }
     }
@@ -104,7 +103,8 @@ impl<'s> Candidate<'s> {
         Some(Span { start: whole(start), end: whole(end), shape: self.shape, near, far })
     }
 
-    /// Columns whose clearance leaves in doubt whether they hit, or what they see: from both roots inwards and outwards.
+    /// Columns whose clearance leaves in doubt whether they hit, or what they see: searched inwards and outwards from both
+    /// roots.
     #[inline(always)]
     fn doubt(&self, row: &RowOfEllipse, columns: &Range<u32>, roots: [f64; 2], doubtful: &mut Vec<u32>) {
         let is_doubtful = |column: f64| self.doubtful.contains(&row.clearance_at(column - self.ellipse.column));
@@ -123,14 +123,14 @@ impl<'s> Candidate<'s> {
     }
 }
 
-/// A column within the image.
+/// A column, clamped to the image.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it was held within the columns")]
 fn whole(column: f64) -> u32 {
     column as u32
 }
 
 impl RowView {
-    /// Looks at some columns of a row.
+    /// Finds what some columns of a row see.
     #[inline(always)]
     pub fn look(&mut self, candidates: &[Candidate<'_>], row: u32, columns: &Range<u32>) {
         self.stretches.clear();
@@ -149,7 +149,7 @@ impl RowView {
         }
     }
 
-    /// Goes from edge to edge of the spans, from the left; between two edges the same shapes compete.
+    /// Sweeps the edges of the spans from left to right; between two edges the same shapes compete.
     #[inline(never)]
     fn sweep(&mut self, candidates: &[Candidate<'_>], row: u32) {
         self.spans.sort_by_key(|span| span.start);
@@ -189,7 +189,7 @@ impl RowView {
         }
     }
 
-    /// Takes the columns in doubt out of the stretches.
+    /// Removes the columns in doubt from the stretches.
     #[inline(never)]
     fn take_out_doubtful(&mut self) {
         self.doubtful.sort_unstable();
@@ -213,8 +213,8 @@ impl RowView {
     }
 }
 
-/// The nearest of several shapes at a pixel that all of them cover. Where two are too close to be told apart, the
-/// column is in doubt.
+/// The nearest of several shapes at a pixel that all of them cover. If two are too close to be told apart, the column is in
+/// doubt.
 fn nearest(front: &[&Candidate<'_>], row: u32, column: u32, doubtful: &mut Vec<u32>) -> usize {
     let (mut best, mut second) = ((f64::INFINITY, usize::MAX), f64::INFINITY);
     for candidate in front {
@@ -226,7 +226,7 @@ fn nearest(front: &[&Candidate<'_>], row: u32, column: u32, doubtful: &mut Vec<u
             second = second.min(distance);
         }
     }
-    // The error of half the chord is a part of the radius, whatever the distance.
+    // The error of half the chord is a fraction of the radius, whatever the distance.
     let radius = front.iter().map(|candidate| candidate.sphere.radius).fold(0.0, f64::max);
     if second - best.0 < ERROR_OF_DISTANCE * (best.0 + radius) {
         doubtful.push(column);

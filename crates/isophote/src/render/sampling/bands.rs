@@ -1,24 +1,24 @@
-//! A region in bands of rows, each sampled by one thread, and the map of all of them.
+//! A region split into bands of rows, each sampled by one thread, and the map that they make up.
 
 use crate::map::{Channel, Map, Mask, Pixel, Region, Resolution, Run, Values};
 use crate::prepare::PreparedScene;
 use crate::render::RenderSettings;
 
-/// Rows of the region, and those around them whose light a filter spreads into these.
+/// Rows of a region, plus the surrounding rows from which a filter spreads light into them.
 #[derive(Clone, Copy)]
 pub struct RowBand {
-    /// All of them.
+    /// All rows, including the surrounding ones.
     region: Region,
-    /// How many of them come before its own.
+    /// The number of surrounding rows above.
     above: u32,
-    /// How many are its own.
+    /// The number of its own rows.
     rows: u32,
 }
 
-/// Rows of a band: enough that its start costs little, few enough that it stays in the cache and threads end together.
+/// Rows of a band: enough that starting it costs little, few enough that it stays in the cache and threads finish together.
 const ROWS: u32 = 32;
 
-/// The bands of a region, with so many rows around each as far as the region goes.
+/// The bands of a region, with `reach` rows around each, as far as the region extends.
 pub fn bands(region: Region, reach: u32) -> Vec<RowBand> {
     let Region { corner, size } = region;
     let end = corner.row + size.height;
@@ -37,27 +37,27 @@ pub fn bands(region: Region, reach: u32) -> Vec<RowBand> {
 }
 
 impl RowBand {
-    /// The settings that render it.
+    /// The settings to render it with.
     pub fn settings<'o>(&self, settings: &RenderSettings<'o>) -> RenderSettings<'o> {
         RenderSettings { region: Some(self.region), ..settings.clone() }
     }
 }
 
-/// The map of a region, band by band.
+/// The map of a region, assembled from bands.
 pub struct Stack {
     region: Region,
-    /// What the bands have in common, and what they hold.
+    /// The common data of the bands, and their values so far.
     map: Option<Map>,
     runs: Vec<Run>,
 }
 
 impl Stack {
-    /// No band yet.
+    /// An empty stack.
     pub fn new(region: Region) -> Self {
         Self { region, map: None, runs: Vec::new() }
     }
 
-    /// Puts a band to the others, whichever came before.
+    /// Adds a band; bands may come in any order.
     pub fn add(&mut self, band: RowBand, part: &Map) {
         let Self { region, map, runs } = self;
         let width = region.size.width as usize;
@@ -70,7 +70,7 @@ impl Stack {
         let above = band.above as usize * width;
         let start = (band.region.corner.row + band.above - region.corner.row) as usize * width;
         let own = above..above + band.rows as usize * width;
-        // No run goes on in another row.
+        // Runs never continue into the next row.
         for run in part.mask.runs().iter().filter(|run| own.contains(&run.start)) {
             let target = run.start - above + start..run.end - above + start;
             for (channel, part) in map.channels.iter_mut().zip(&part.channels) {
@@ -90,7 +90,7 @@ impl Stack {
     }
 }
 
-/// A channel of so many pixels that see nothing.
+/// A channel of this many pixels that see nothing.
 fn empty(like: &Channel, pixels: usize) -> Channel {
     let values = match &like.values {
         Values::Scalar(_) => Values::Scalar(vec![0.0; pixels]),
@@ -101,7 +101,7 @@ fn empty(like: &Channel, pixels: usize) -> Channel {
     Channel { quantity: like.quantity.clone(), unit: like.unit.clone(), values }
 }
 
-/// Values of the same kind.
+/// Copies values; both sides must be of the same kind.
 fn copy(from: &Values, source: std::ops::Range<usize>, to: &mut Values, target: std::ops::Range<usize>) {
     match (from, to) {
         (Values::Scalar(from), Values::Scalar(to)) => to[target].copy_from_slice(&from[source]),

@@ -1,5 +1,5 @@
-//! As many rays through every pixel: band by band an image of each of their places, by what renders the centres, and the
-//! means of all.
+//! The same number of rays through every pixel: for each band, one image per sample position, rendered like the centres, and
+//! the mean of all.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -14,8 +14,8 @@ use crate::render::{Observer, RenderError, RenderSettings, band};
 use crate::scene::{Filter, Sampling};
 use crate::threads::Threads;
 
-/// Renders every place in the pixels of a region and takes the means. Threads share the bands, not the images: those of a
-/// band come one after the other in the same memory, which stays in the cache.
+/// Renders every sample position in the pixels of a region and takes the means. Threads share the bands, not the images: the
+/// images of a band are rendered one after another in the same memory, which stays in the cache.
 pub fn render(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
@@ -62,22 +62,22 @@ pub fn render(
     Ok(stacks.into_iter().map(|stack| stack.finish(scene)).collect())
 }
 
-/// How many views of a scene are kept at a time: each has a list of its shapes.
+/// How many views of a scene are cached at a time: each has a list of the scene's shapes.
 fn views_at_once(scene: &PreparedScene) -> usize {
     (1_000_000 / scene.scene().shapes().len().max(1)).clamp(1, 64)
 }
 
-/// Whether the places of a pixel are asked for a quantity: for its mean, or for what the centre may miss.
+/// Whether a quantity is rendered at every sample position: for its mean, or for what the centre may miss.
 fn is_sampled(quantity: &Quantity) -> bool {
     let is_geometry = matches!(quantity, Quantity::Depth | Quantity::Position | Quantity::Normal);
     is_mean(quantity) || is_geometry || *quantity == Quantity::Color
 }
 
-/// What a band is so far.
+/// The state of a band so far.
 struct BandMeans {
     /// The map of each layer, and the sums for it.
     layers: Vec<(Means, Map)>,
-    /// Of the last image, cleared.
+    /// Cleared buffers of the last image.
     memory: Vec<Values>,
 }
 
@@ -113,13 +113,13 @@ impl BandMeans {
 struct Means {
     filter: Filter,
     width: usize,
-    /// The channels of the map that are means, and the sums of weight × value.
+    /// The channels of the map that are means, with the sums of weight × value.
     sums: Vec<(usize, Vec<f64>)>,
-    /// For each pixel that the filter reaches, row by row from the upper left, the sum of its weights there.
+    /// For each pixel within reach of the filter, row by row from the upper left, the sum of its weights there.
     weights: Vec<f64>,
-    /// How many more samples see a surface in a pixel than in the one before it.
+    /// The difference between the number of samples that see a surface in a pixel and in the one before it.
     steps: Vec<i32>,
-    /// What each pixel sees: at its centre, or else at the first place that sees anything.
+    /// What each pixel sees: at its centre, or otherwise at the first sample position that sees anything.
     shapes: Vec<i32>,
 }
 
@@ -137,7 +137,7 @@ impl Means {
         }
     }
 
-    /// Adds the image of a place: to its pixels and, in part, to those that the filter reaches from there.
+    /// Adds the image of a sample position: to its own pixels and, weighted, to those within reach of the filter.
     fn add(&mut self, map: &Map, sample: &Map, [across, down]: [f64; 2]) {
         let Self { filter, width, sums, weights, steps, .. } = self;
         let offsets = offsets(*filter);
@@ -164,7 +164,7 @@ impl Means {
         }
     }
 
-    /// Where the centres saw nothing so far, what this place sees.
+    /// Where no centre has seen anything so far, records what this sample sees.
     fn fill_in(&mut self, map: &mut Map, sample: &Map) {
         for run in sample.mask.runs() {
             for index in run.start..run.end {
@@ -195,7 +195,7 @@ impl Means {
         Ok(())
     }
 
-    /// Writes how many rays went through each pixel, and which part of them met a surface.
+    /// Writes the number of rays through each pixel, and the fraction of them that hit a surface.
     fn count(&self, map: &mut Map, samples: u32) {
         let mut covered = 0;
         for (index, step) in self.steps[..self.shapes.len()].iter().enumerate() {
@@ -207,7 +207,7 @@ impl Means {
         }
     }
 
-    /// Whether all that the filter reaches is in the image.
+    /// Whether everything within reach of the filter is in the image.
     fn is_inner(&self, index: usize) -> bool {
         let reach = self.filter.reach() as usize;
         if reach == 0 {
@@ -218,7 +218,7 @@ impl Means {
         row >= reach && row + reach < rows && column >= reach && column + reach < self.width
     }
 
-    /// Pixels that see nothing and yet get light from neighbours are where the first of those is.
+    /// A pixel that sees nothing but gets light from neighbours takes its geometry from the first such neighbour.
     fn see_neighbours(&mut self, map: &mut Map) {
         let seen = self.shapes.clone();
         for index in (0..seen.len()).filter(|index| seen[*index] < 0) {
@@ -230,7 +230,7 @@ impl Means {
         }
     }
 
-    /// The pixels from which light comes to one, in the order of the weights turned round; nothing for those beyond the image.
+    /// The pixels that spread light into one, in reverse order of the weights; `None` for those outside the image.
     fn neighbours(&self, index: usize) -> impl Iterator<Item = Option<usize>> + use<> {
         let (width, rows) = (self.width, self.shapes.len() / self.width);
         let (row, column) = (index / width, index % width);
@@ -244,7 +244,7 @@ impl Means {
         })
     }
 
-    /// The sum of the weights of all that a pixel got, background too.
+    /// The sum of all weights that a pixel received, including the background's.
     fn weight(&self, index: usize) -> f64 {
         let weights = self.neighbours(index).zip(self.weights.iter().rev());
         weights.filter_map(|(source, weight)| source.map(|_| weight)).sum()
@@ -258,10 +258,10 @@ fn within(runs: &[Run], start: usize, width: usize) -> &[Run] {
     &runs[first..first + count]
 }
 
-/// Adds weight × value of the runs of a row to the pixels so many columns to the right of them.
+/// Adds weight × value of the runs of a row to the pixels `columns` to the right of them.
 fn add_row(sums: &mut [f64], columns: isize, weight: f64, values: Scalars<'_>, start: usize, runs: &[Run]) {
     for run in runs {
-        // Those that arrive within the row.
+        // The part that ends up within the row.
         let [first, last] = [run.start - start, run.end - start];
         let first = first.max((-columns).max(0).unsigned_abs());
         let last = last.min(sums.len().saturating_add_signed(-columns));
@@ -282,7 +282,7 @@ fn add_row(sums: &mut [f64], columns: isize, weight: f64, values: Scalars<'_>, s
     }
 }
 
-/// Writes where the surface is that a pixel sees in another map.
+/// Copies the geometry that a pixel sees from another map.
 fn copy_geometry_of(map: &mut Map, other: &Map, index: usize) {
     for channel in &mut map.channels {
         let Some(source) = other.channel(&channel.quantity) else { continue };

@@ -21,31 +21,31 @@ use crate::map::{Channel, Map, Mask, Pixel, Quantity, Region, Resolution, Values
 use crate::prepare::PreparedScene;
 use crate::threads::Threads;
 
-/// The first samples of a pixel that is uncertain: enough to see how much its values differ.
+/// The first samples of an uncertain pixel: enough to estimate how much its values differ.
 const FIRST_SAMPLES: u32 = 16;
 
-/// Where pixels are integrated, fewer than these are done before another thread has woken up.
+/// Where pixels are integrated, fewer than this are done before another thread has woken up.
 const WORTH_THREADS: usize = 20_000;
 
-/// So many rows are looked through and refined by one thread at a time.
+/// The number of rows that one thread searches and refines at a time.
 const ROWS: usize = 16;
 
-/// Renders the centres of pixels in every layer, in memory of earlier maps if there are any.
+/// Renders the centres of pixels in every layer, reusing memory of earlier maps if there is any.
 pub type Centres<'c> =
     dyn Fn(Vec<Values>, &PreparedScene, &RenderSettings<'_>) -> Result<Vec<Map>, RenderError> + Sync + 'c;
 
 /// What renders the centres of pixels.
 pub struct Renders<'c> {
-    /// On all threads there are.
+    /// On all threads.
     pub parallel: &'c Centres<'c>,
-    /// On the thread that asks.
+    /// On the calling thread.
     pub serial: &'c Centres<'c>,
 }
 
 /// Renders means over pixels: of as many samples as the scene asks for, or of more where the value is uncertain.
 ///
-/// The same pixels come out whatever the region and the threads: what a pixel gets depends on its neighbours and on
-/// the scene as a whole, never on what else is computed.
+/// The result does not depend on the region or the number of threads: a pixel's value depends on its neighbours and on the
+/// scene as a whole, never on what else is computed.
 pub fn render(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
@@ -72,7 +72,7 @@ pub fn render(
     Ok(layers.into_iter().map(finish).collect())
 }
 
-/// The centres of a region, with what is uncertain of them refined.
+/// The centres of a region, with the uncertain pixels refined.
 fn refined(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
@@ -130,7 +130,7 @@ fn refined(
     Ok(layers)
 }
 
-/// A region and so many pixels around it, as far as the image goes.
+/// A region grown by this many pixels on every side, as far as the image extends.
 fn grown(region: Region, by: u32, full: Resolution) -> Region {
     let Region { corner, size } = region;
     let first = |start: u32| start.saturating_sub(by);
@@ -141,10 +141,10 @@ fn grown(region: Region, by: u32, full: Resolution) -> Region {
     Region { corner: corner_of_grown, size: Resolution { width, height } }
 }
 
-/// The longer side of the small image that tells how bright a scene is.
+/// The longer side of the small image that is rendered to estimate how bright a scene is.
 const GLANCE: u32 = 96;
 
-/// About the largest brightness of the whole image in each layer, whatever the region: that of a small image of it.
+/// Roughly the largest brightness of the whole image in each layer, whatever the region: that of a small image of the scene.
 fn peaks(scene: &PreparedScene, renders: &Renders<'_>) -> Result<Vec<f64>, RenderError> {
     let full = scene.scene().camera().resolution;
     let longer = f64::from(full.width.max(full.height));
@@ -181,7 +181,7 @@ fn cropped(map: Map, region: Region, scene: &PreparedScene) -> Map {
     Map { full: map.full, region, window, provenance: map.provenance, mask, channels: channels.collect() }
 }
 
-/// So many values from each of some places.
+/// `width` values from each start.
 fn part<T: Copy>(values: &[T], starts: impl Iterator<Item = usize>, width: usize) -> Vec<T> {
     starts.flat_map(|start| values[start..start + width].iter().copied()).collect()
 }

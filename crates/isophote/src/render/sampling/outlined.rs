@@ -1,5 +1,6 @@
-//! Means over pixels that show one sphere, or its outline against the background: by integration. Points would find the
-//! share of an area that an edge cuts off only as n^(−3/4); the outline is known, and within it the brightness is smooth.
+//! Means over pixels that show one sphere, or its outline against the background, by integration. Point samples would
+//! estimate the area that an edge cuts off with an error that falls only as n^(−3/4); the outline is known, and within it
+//! the brightness is smooth.
 
 use super::refine::{Refinement, Wanted};
 use super::rule::{Center, NodePlaces, RowRule};
@@ -19,12 +20,12 @@ use crate::render::shading::kernel::{Lit, Unobstructed};
 use crate::render::shading::lobe::Power;
 use crate::scene::Filter;
 
-/// The spheres of a scene whose outlines are all that can cut a pixel.
+/// The spheres of a scene in which only sphere outlines can cut a pixel.
 pub struct Outlined<'s> {
     scene: &'s PreparedScene,
     spheres: Vec<OutlinedSphere<'s>>,
     wanted: &'s Wanted<'s>,
-    /// Whether the map tells where the surface is that a pixel sees.
+    /// Whether the map has channels for the geometry that a pixel sees.
     has_geometry: bool,
     instructions: Instructions,
 }
@@ -32,11 +33,11 @@ pub struct Outlined<'s> {
 struct OutlinedSphere<'s> {
     candidate: Candidate<'s>,
     layers: Vec<LitSphere<'s>>,
-    /// Whether its highlights are as wide as a pixel: else places in a few rows may miss them.
+    /// Whether its highlights are at least as wide as a pixel: otherwise a few rows of nodes may miss them.
     is_smooth: bool,
 }
 
-/// What lights a sphere in a layer of the scene.
+/// The light on a sphere in a layer of the scene.
 struct LitSphere<'s> {
     formula: &'s BrightnessFormula,
     power: Power,
@@ -44,7 +45,7 @@ struct LitSphere<'s> {
     ambient: f64,
 }
 
-/// Memory for the places in a pixel and what is seen there.
+/// Scratch memory for the nodes in a pixel and what is visible there.
 pub struct Nodes {
     places: NodePlaces,
     points: Box<SurfaceBlock<f64>>,
@@ -52,21 +53,21 @@ pub struct Nodes {
 }
 
 impl Nodes {
-    /// With what so many lights give by themselves.
+    /// With room for the separate irradiances of this many lights.
     pub fn new(lights: usize) -> Self {
         Self { places: NodePlaces::new(), points: SurfaceBlock::new(), shaded: ShadedBlock::new(lights) }
     }
 }
 
-/// A pixel of which an outline covers less is left to rays.
+/// A pixel of which an outline covers less than this is left to rays.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// With more spheres than this, most pixels show several, and none is asked which.
+/// With more spheres than this, most pixels show several, so integration is not tried.
 const FEW: usize = 16;
 
 impl<'s> Outlined<'s> {
-    /// Of a scene with a few spheres, all before the eye and none in another one's light, through a filter that is the pixel
-    /// itself; nothing for others.
+    /// For a scene with a few spheres, all in front of the eye and none shadowing another, with a filter that is the pixel
+    /// itself; `None` for other scenes.
     pub fn new(
         scene: &'s PreparedScene,
         wanted: &'s Wanted<'s>,
@@ -93,12 +94,12 @@ impl<'s> Outlined<'s> {
         Some(Self { scene, spheres: spheres?, wanted, has_geometry, instructions: Instructions::best() })
     }
 
-    /// Whether a pixel whose centre sees nothing shows nothing all over.
+    /// Whether a pixel whose centre sees nothing is empty all over.
     pub fn is_missed_by_all(&self, pixel: Pixel, uncertain: &Uncertain) -> bool {
         !uncertain.sees && !self.spheres.iter().any(|sphere| sphere.may_touch(pixel))
     }
 
-    /// The mean over a pixel; nothing where several spheres meet, or where the brightness varies too much to be integrated.
+    /// The mean over a pixel; `None` where several spheres meet, or where the brightness varies too much for integration.
     pub fn mean(&self, nodes: &mut Nodes, pixel: Pixel, uncertain: &Uncertain) -> Option<Refinement> {
         let mut touching = self.spheres.iter().filter(|sphere| sphere.may_touch(pixel));
         let (Some(sphere), None) = (touching.next(), touching.next()) else { return None };
@@ -106,7 +107,7 @@ impl<'s> Outlined<'s> {
             return None;
         }
         let center = sphere.center_of(pixel);
-        // Where the brightness has a kink, at a terminator, two rows may miss 0.03 of its range and four 0.014.
+        // Where the brightness has a kink, at a terminator, two rows may be off by 0.03 of its range and four by 0.014.
         for (rows, widest) in [(RowRule::Two, 16.0), (RowRule::Four, 36.0)] {
             nodes.places.place(sphere.candidate.ellipse, center, rows);
             let samples = u32::try_from(nodes.places.count).unwrap_or(u32::MAX);
@@ -134,7 +135,7 @@ impl<'s> Outlined<'s> {
         None
     }
 
-    /// The means in each layer; nothing if the brightness of one varies by more than so many tolerances.
+    /// The means in each layer; `None` if the brightness of any layer varies by more than `widest` tolerances.
     fn means(&self, nodes: &mut Nodes, sphere: &OutlinedSphere<'s>, widest: f64) -> Option<Vec<Vec<f64>>> {
         let Wanted { averages, tolerances, .. } = self.wanted;
         let mut sums = Vec::with_capacity(averages.len());
@@ -178,7 +179,7 @@ impl<'s> LitSphere<'s> {
     }
 }
 
-/// Shades the places in an outline, in one layer; in the first one it finds the points.
+/// Shades the nodes in an outline, in one layer; the points are computed in the first one.
 struct Evaluate<'e> {
     sphere: &'e OutlinedSphere<'e>,
     lit: &'e LitSphere<'e>,
@@ -234,7 +235,7 @@ impl OutlinedSphere<'_> {
         }
     }
 
-    /// Whether the outline may reach into a pixel, by the widest row and the ends of the middle.
+    /// Whether the outline may reach into a pixel, judged by the widest row and the ends of the middle one.
     fn may_touch(&self, pixel: Pixel) -> bool {
         let Center { column, row } = self.center_of(pixel);
         let [start, end] = self.candidate.ellipse.rows;

@@ -4,32 +4,31 @@ use std::sync::OnceLock;
 
 use crate::hammersley::points;
 
-/// The places of the samples in a pixel, for every number of them that [`enough`] may name; found when they are first
-/// asked for.
+/// The sample positions in a pixel, for every sample count that [`enough`] may return; computed on first use.
 pub struct Patterns(Vec<(u32, OnceLock<Vec<[f64; 2]>>)>);
 
 impl Patterns {
-    /// For up to so many samples.
+    /// For up to this many samples.
     pub fn new(most: u32) -> Self {
         let powers = (0..32).map(|exponent| 1_u32 << exponent).take_while(|count| *count < most);
         Self(powers.chain([most]).map(|count| (count, OnceLock::new())).collect())
     }
 
-    /// The places of so many samples: a power of two, or the most.
+    /// The positions of this many samples: a power of two, or the maximum.
     pub fn of(&self, count: u32) -> &[[f64; 2]] {
         let (_, places) = self.0.iter().find(|(known, _)| *known == count).expect("a power of two, or the most");
-        // Few digits, so that no column loses any of them.
+        // Few digits, so that adding them to a column loses none.
         let short = |part: f64| (part * 16_777_216.0).round() / 16_777_216.0;
         places.get_or_init(|| points(count).into_iter().map(|place| place.map(short)).collect())
     }
 }
 
-/// How far the share of n points on one side of a straight edge may be from the share of the area, times n^(3/4), for up to
-/// 1024 points. The worst edges run along the diagonal.
+/// The largest difference between the fraction of n points on one side of a straight edge and the fraction of the area,
+/// times n^(3/4), for up to 1024 points. The worst edges run along the diagonal.
 pub const EDGE_ERROR: f64 = 1.7;
 
-/// The least number of points, a power of two, that bounds the error of the mean over a pixel that an edge cuts: the
-/// values on both sides differ by `contrast`.
+/// The smallest number of points, a power of two, that bounds the error of the mean over a pixel cut by an edge, where the
+/// values on the two sides differ by `contrast`.
 pub fn enough(contrast: f64, tolerance: f64, most: u32) -> u32 {
     let wanted = libm::pow(EDGE_ERROR * contrast / tolerance, 4.0 / 3.0).min(f64::from(most));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is positive, and at most `most`")]

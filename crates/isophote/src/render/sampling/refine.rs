@@ -1,4 +1,4 @@
-//! Many rays through the pixels that need them, and what they make of a map.
+//! Many rays through the pixels that need them, and how the results change a map.
 
 use super::FIRST_SAMPLES;
 use super::pattern::{self, Patterns};
@@ -13,41 +13,41 @@ use crate::render::hits::HitBlock;
 use crate::render::shading::block::{POINTS, ShadedBlock};
 use crate::scene::{Filter, Sampling};
 
-/// The channels of a layer that are means. The others hold what is seen at the centre.
+/// The channels of a layer that hold means. The others hold what is visible at the centre.
 pub struct Averages {
-    /// Index among the map's channels, and what it is.
+    /// Index among the map's channels, and what the channel holds.
     channels: Vec<(usize, ScalarChannel)>,
 }
 
-/// What is asked of a pixel.
+/// What to compute for a pixel.
 pub struct Wanted<'w> {
-    /// Of each layer.
+    /// The averages of each layer.
     pub averages: &'w [Averages],
     pub sampling: Sampling,
-    /// The places of the rays in a pixel, for each number of them that is asked for.
+    /// The positions of the rays in a pixel, for each number of rays in use.
     pub patterns: &'w Patterns,
-    /// The pixels that the filter reaches.
+    /// The pixels within reach of the filter.
     pub offsets: &'w [[f64; 2]],
     /// The allowed error of the brightness of each layer.
     pub tolerances: &'w [f64],
 }
 
-/// What a pixel is over its area.
+/// A pixel's values over its area.
 pub struct Refinement {
     /// Index in the map.
     pub index: usize,
     /// Whether the centre sees a surface.
     pub sees: bool,
-    /// How many places the mean is made of.
+    /// The number of samples in the mean.
     pub samples: u32,
-    /// The part of the pixel that shows a surface.
+    /// The fraction of the pixel that shows a surface.
     pub coverage: f64,
-    /// The shape at the first place that sees any.
+    /// The shape at the first sample that sees any.
     pub seen: Option<usize>,
-    /// Where that is; needed only where the centre sees nothing, and the map has channels for it.
+    /// The hit there; needed only if the centre sees nothing and the map has channels for geometry.
     pub hit: Option<Box<Hit>>,
-    /// In each layer, for each pixel that the filter reaches, row by row from the upper left: the mean of weight × value of
-    /// each averaged channel, and last the mean weight.
+    /// In each layer, for each pixel within reach of the filter, row by row from the upper left: the mean of weight × value
+    /// of each averaged channel, and finally the mean weight.
     pub sums: Vec<Vec<f64>>,
 }
 
@@ -63,20 +63,20 @@ impl Averages {
         Self { channels: quantities.enumerate().filter_map(&mut channel).collect() }
     }
 
-    /// Index among the map's channels, and what it is.
+    /// Index among the map's channels, and what the channel holds.
     pub fn channels(&self) -> &[(usize, ScalarChannel)] {
         &self.channels
     }
 }
 
-/// Whether a map tells where the surface is that a pixel sees.
+/// Whether a map has channels for the geometry that a pixel sees.
 pub fn has_geometry(map: &Map) -> bool {
     let is_geometry =
         |channel: &Channel| matches!(channel.quantity, Quantity::Depth | Quantity::Position | Quantity::Normal);
     map.channels.iter().any(is_geometry)
 }
 
-/// Whether a pixel's value is the mean over its area. Of the others it is the value at its centre.
+/// Whether a pixel's value is the mean over its area. Otherwise it is the value at the centre.
 pub fn is_mean(quantity: &Quantity) -> bool {
     match quantity {
         Quantity::Brightness
@@ -97,7 +97,7 @@ pub fn is_mean(quantity: &Quantity) -> bool {
 }
 
 impl Refinement {
-    /// Sends as many rays through a pixel as its contrast takes.
+    /// Traces as many rays through a pixel as its contrast requires.
     pub fn new(hits: &mut HitBlock<'_>, wanted: &Wanted<'_>, pixel: Pixel, uncertain: &Uncertain) -> Self {
         let most = wanted.sampling.samples;
         let enough = |contrasts: &[f64]| {
@@ -115,7 +115,7 @@ impl Refinement {
         }
     }
 
-    /// With so many samples; and how much their brightness differs in each layer.
+    /// With this many samples; also returns how much their brightness differs in each layer.
     fn of_samples(
         hits: &mut HitBlock<'_>,
         wanted: &Wanted<'_>,
@@ -167,7 +167,7 @@ impl<'w> LayerMeans<'w> {
         Self { channels, sums, least: f64::INFINITY, greatest: f64::NEG_INFINITY }
     }
 
-    /// Adds samples, given by their places and what is seen there.
+    /// Adds samples, given by their positions and what is visible there.
     fn add(
         &mut self,
         seen: &[([f64; 2], Option<usize>)],
@@ -203,14 +203,14 @@ impl<'w> LayerMeans<'w> {
     }
 }
 
-/// The pixels that the filter reaches from one pixel: columns and rows away from it.
+/// The pixels within reach of the filter from one pixel, as column and row offsets.
 pub fn offsets(filter: Filter) -> Vec<[f64; 2]> {
     let reach = i32::try_from(filter.reach()).unwrap_or(0);
     let rows = (-reach..=reach).flat_map(|row| (-reach..=reach).map(move |column| [column, row]));
     rows.map(|offset| offset.map(f64::from)).collect()
 }
 
-/// Puts refined pixels, in reading order, into the map of a layer.
+/// Writes refined pixels, given in reading order, into the map of a layer.
 pub fn apply(
     (layer, map): (usize, &mut Map),
     averages: &Averages,
@@ -238,7 +238,7 @@ pub fn apply(
     Ok(())
 }
 
-/// Where the centre saw nothing, what the pixel sees; that is also written into the map's geometry.
+/// Where the centre saw nothing, finds what the pixel sees, and writes that into the map's geometry too.
 fn find_shapes(map: &mut Map, refined: &[Refinement]) -> Vec<Run> {
     let mut found = Vec::new();
     for refinement in refined.iter().filter(|refinement| !refinement.sees) {
@@ -253,8 +253,8 @@ fn find_shapes(map: &mut Map, refined: &[Refinement]) -> Vec<Run> {
     found
 }
 
-/// Writes how many places a pixel is made of, and which part of it shows a surface. Where no surface is, there was none to
-/// sample.
+/// Writes the number of samples in a pixel, and the fraction of it that shows a surface. Where there is no surface, the
+/// sample count is 0.
 fn put_counts(map: &mut Map, refinement: &Refinement, is_seen: bool) {
     let Refinement { index, samples, coverage, .. } = *refinement;
     let [samples, coverage] = if is_seen { [samples.into(), coverage] } else { [0.0; 2] };
@@ -262,7 +262,7 @@ fn put_counts(map: &mut Map, refinement: &Refinement, is_seen: bool) {
     put_exactly(map, &Quantity::Coverage, index, coverage);
 }
 
-/// The same with a filter that spreads light over more than a pixel.
+/// Writes them through a filter that spreads light over more than a pixel.
 fn spread(
     (layer, map): (usize, &mut Map),
     averages: &Averages,
@@ -283,14 +283,14 @@ fn spread(
     Ok(())
 }
 
-/// Weighted sums of values, over the sum of the weights, which comes last.
+/// Weighted sums of values, divided by the sum of the weights, which comes last.
 fn normalized(sums: &[f64]) -> impl Iterator<Item = f64> {
     let (weight, sums) = sums.split_last().expect("there is always a weight");
     sums.iter().map(move |sum| sum / weight)
 }
 
-/// The values of every pixel through a filter that reaches beyond it. A pixel that was not refined is as bright as its
-/// centre all over.
+/// The values of every pixel through a filter that extends beyond it. A pixel that was not refined is taken to be as bright
+/// all over as at its centre.
 fn gathered(
     (layer, map): (usize, &mut Map),
     averages: &Averages,
@@ -377,7 +377,7 @@ pub fn put(map: &mut Map, channel: usize, index: usize, value: f64) -> Result<()
     Ok(())
 }
 
-/// Writes a number that is small enough for any channel, if the map has that channel.
+/// Writes a number that any channel can hold, if the map has that channel.
 pub fn put_exactly(map: &mut Map, quantity: &Quantity, index: usize, value: f64) {
     let channel = map.channels.iter_mut().find(|channel| channel.quantity == *quantity);
     if let Some(Values::Scalar(values)) = channel.map(|channel| &mut channel.values) {
@@ -385,7 +385,7 @@ pub fn put_exactly(map: &mut Map, quantity: &Quantity, index: usize, value: f64)
     }
 }
 
-/// Writes where a hit is.
+/// Writes the geometry of a hit.
 fn put_geometry(map: &mut Map, index: usize, hit: &Hit) {
     let length = map.window.length;
     for channel in &mut map.channels {
@@ -400,7 +400,7 @@ fn put_geometry(map: &mut Map, index: usize, hit: &Hit) {
     }
 }
 
-/// Where the surface is that a filter reaches.
+/// Copies the geometry of a surface that a filter reaches.
 pub fn copy_geometry(map: &mut Map, from: usize, to: usize) {
     for channel in &mut map.channels {
         match (&channel.quantity, &mut channel.values) {

@@ -1,10 +1,10 @@
-//! Where a mean over the part of a pixel that an outline covers is computed, and with what weights.
+//! The nodes and weights that integrate over the part of a pixel that an outline covers.
 
 use crate::outline::Ellipse;
 
-/// Places in an outline and their weights, which add up to the covered part of the pixel.
+/// Nodes in an outline and their weights, which add up to the covered fraction of the pixel.
 pub struct NodePlaces {
-    /// How many there are; all others weigh nothing.
+    /// The number of nodes; the weights of all others are zero.
     pub count: usize,
     /// u, counted from [`Ellipse::column`].
     pub columns: [f64; MOST],
@@ -14,32 +14,33 @@ pub struct NodePlaces {
     pub after_first: [f64; MOST],
     /// u − u_b.
     pub after_last: [f64; MOST],
-    /// Parts of the pixel.
+    /// Fractions of the pixel.
     pub weights: [f64; MOST],
-    /// The covered part of the pixel.
+    /// The covered fraction of the pixel.
     pub coverage: f64,
-    /// The middle of the longest line that was cut into places: its column and row.
+    /// The middle of the longest line on which nodes were placed: its column and row.
     pub inside: [f64; 2],
 }
 
-/// The most places: five pieces of four rows of four. (A whole number of vectors, the last one perhaps half empty.)
+/// The maximum number of nodes: five pieces of four rows of four. (A whole number of vectors, the last one perhaps half
+/// empty.)
 pub const MOST: usize = 80;
 
-/// A pixel, counted as the outline is: its centre.
+/// The centre of a pixel, in the outline's coordinates.
 #[derive(Clone, Copy)]
 pub struct Center {
     pub column: f64,
     pub row: f64,
 }
 
-/// At which ends of an interval the function goes like the root of the distance: those that the outline makes.
+/// The ends of an interval at which the function behaves like the square root of the distance: those on the outline.
 #[derive(Clone, Copy)]
 struct Roots {
     first: bool,
     last: bool,
 }
 
-/// Gauss's places from 0 to 1 and their weights.
+/// Gauss nodes on [0, 1] and their weights.
 const TWO: [[f64; 2]; 2] = [[0.211_324_865_405_187_13, 0.5], [0.788_675_134_594_812_9, 0.5]];
 const FOUR: [[f64; 2]; 4] = [
     [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
@@ -48,7 +49,7 @@ const FOUR: [[f64; 2]; 4] = [
     [0.930_568_155_797_026_3, 0.173_927_422_568_726_93],
 ];
 
-/// How many rows every piece of a pixel has; in each there are four places.
+/// The number of rows in each piece of a pixel; each row has four nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowRule {
     Two,
@@ -65,7 +66,7 @@ impl RowRule {
 }
 
 impl Roots {
-    /// A place and its weight after a change of variable that makes the function smooth again.
+    /// A node and its weight after a change of variable that makes the function smooth again.
     #[inline(always)]
     fn map(self, [t, weight]: [f64; 2]) -> [f64; 2] {
         let rest = 1.0 - t;
@@ -79,7 +80,7 @@ impl Roots {
 }
 
 impl NodePlaces {
-    /// No places yet.
+    /// No nodes yet.
     pub fn new() -> Self {
         let none = [0.0; MOST];
         Self {
@@ -94,8 +95,8 @@ impl NodePlaces {
         }
     }
 
-    /// Cuts the pixel into pieces where the outline enters or leaves it through its left or right edge: between those
-    /// rows, all that is integrated is smooth.
+    /// Cuts the pixel into pieces at the rows where the outline enters or leaves it through its left or right edge: between
+    /// those rows, all integrands are smooth.
     pub fn place(&mut self, outline: &Ellipse, pixel: Center, rows: RowRule) {
         (self.count, self.coverage) = (0, 0.0);
         let first = (pixel.row - 0.5).max(outline.rows[0]);
@@ -147,7 +148,7 @@ impl NodePlaces {
     }
 }
 
-/// The rows, in order, where the outline crosses the lines of the pixel's left and right edge; NaN where it does not.
+/// The rows, in order, where the outline crosses the lines of the pixel's left and right edges; NaN where it does not.
 ///
 /// ```text
 /// (u − m₀ − m₁v)² = W (v − v_a)(v_b − v)
@@ -155,7 +156,7 @@ impl NodePlaces {
 fn crossings(outline: &Ellipse, pixel: Center) -> [f64; 4] {
     let ([middle, growth], width) = (outline.middle, outline.width_squared);
     let [first, last] = outline.rows;
-    // Counted from the pixel: few digits are lost even where the outline is large.
+    // Counted from the pixel, so that few digits are lost even for a large outline.
     let (first, last) = (first - pixel.row, last - pixel.row);
     let square = growth * growth + width;
     let of_edge = |edge: f64| {
@@ -163,7 +164,7 @@ fn crossings(outline: &Ellipse, pixel: Center) -> [f64; 4] {
         let half = across * growth + 0.5 * width * (first + last);
         let rest = across * across + width * first * last;
         let root = (half * half - square * rest).sqrt();
-        // The sum that does not cancel, and the other root by their product.
+        // The root without cancellation, and the other one from their product.
         let sum = half + root.copysign(half);
         [sum / square, rest / sum].map(|row| row + pixel.row)
     };
@@ -191,7 +192,7 @@ mod tests {
         PreparedScene::new(&Scene::from_text("test", &text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}")))
     }
 
-    /// By 4000 lines.
+    /// Computed with 4000 lines.
     fn covered(outline: &Ellipse, pixel: Center) -> f64 {
         let line = |index: u32| {
             let row = pixel.row - 0.5 + (f64::from(index) + 0.5) / 4000.0;

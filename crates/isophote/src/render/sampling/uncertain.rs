@@ -5,18 +5,17 @@ use std::ops::Range;
 use crate::lanes::{Element, Instructions, Lane, LaneJob};
 use crate::map::{Map, Quantity, Region, Run, Scalars};
 
-/// A pixel whose value is not that at its centre.
+/// A pixel whose value differs from that at its centre.
 pub struct Uncertain {
     /// Index in the map.
     pub index: usize,
-    /// By how much its neighbours differ from it in each layer: so much may be in a corner of it that the first samples
-    /// miss.
+    /// How much its neighbours differ from it in each layer: a corner that the first samples miss may differ by as much.
     pub contrasts: Vec<f64>,
     /// Whether its centre sees a surface.
     pub sees: bool,
 }
 
-/// The same in one layer.
+/// An uncertain pixel in one layer.
 #[derive(Clone, Copy)]
 pub struct Suspect {
     index: usize,
@@ -24,7 +23,7 @@ pub struct Suspect {
     sees: bool,
 }
 
-/// The pixels of a row, from the left, that are uncertain in any layer.
+/// The pixels of a row, from left to right, that are uncertain in any layer.
 pub fn uncertain_in_row(finders: &[Finder<'_>], row: usize, suspects: &mut Suspects) -> Vec<Uncertain> {
     let mut all: Vec<Uncertain> = Vec::new();
     for (layer, finder) in finders.iter().enumerate() {
@@ -39,20 +38,21 @@ pub fn uncertain_in_row(finders: &[Finder<'_>], row: usize, suspects: &mut Suspe
     all
 }
 
-/// Columns of a row that are to be looked at; the memory serves for the next row.
+/// Columns of a row that are to be checked; the memory is reused for the next row.
 #[derive(Default)]
 pub struct Suspects {
     columns: Vec<usize>,
     cuts: Vec<usize>,
 }
 
-/// Finds the uncertain pixels of a region: those where the brightness bends by more than the tolerance on one of the four
-/// lines through the pixel and two of its neighbours, or differs by more from a neighbour that sees something else. A slope
-/// alone needs nothing: its mean is the value at the centre. But across a limb it may be an accident.
+/// Finds the uncertain pixels of a region: those where the brightness curves by more than the tolerance along one of the
+/// four lines through the pixel and two of its neighbours, or differs by more than that from a neighbour that sees something
+/// else. A slope alone needs no refinement: its mean is the value at the centre. Across a limb, however, a straight line may
+/// be a coincidence.
 pub struct Finder<'m> {
     brightness: Scalars<'m>,
     runs: &'m [Run],
-    /// The runs of each row begin and end here.
+    /// Where the runs of each row begin and end.
     of_row: Vec<Range<usize>>,
     columns: Range<usize>,
     width: usize,
@@ -62,7 +62,7 @@ pub struct Finder<'m> {
 }
 
 impl<'m> Finder<'m> {
-    /// In a region of a map.
+    /// For a region of a map.
     pub fn new(map: &'m Map, region: Region, tolerance: f64) -> Self {
         let Region { corner, size } = map.region;
         let first = (region.corner.column - corner.column) as usize;
@@ -86,7 +86,7 @@ impl<'m> Finder<'m> {
         }
     }
 
-    /// Those of a row of the map, from the left.
+    /// The uncertain pixels of a row of the map, from left to right.
     fn in_row<'f>(&'f self, row: usize, suspects: &'f mut Suspects) -> impl Iterator<Item = Suspect> {
         suspects.columns.clear();
         self.suspect_edges(row, suspects);
@@ -102,12 +102,12 @@ impl<'m> Finder<'m> {
         &self.runs[self.of_row[row].clone()]
     }
 
-    /// The rows around one, as far as the map goes.
+    /// The rows around a row, as far as the map extends.
     fn around(&self, row: usize) -> Range<usize> {
         row.saturating_sub(1)..(row + 2).min(self.height)
     }
 
-    /// The columns of a row between the first and the last that anything is seen beside, without those at the border.
+    /// The columns of a row between the first and the last with anything visible next to them, without those at the border.
     fn inner(&self, row: usize) -> Option<Range<usize>> {
         let seen = self.around(row).filter_map(|row| {
             let runs = self.runs_of(row);
@@ -119,10 +119,10 @@ impl<'m> Finder<'m> {
         (row > 0 && row + 1 < self.height && start < end).then_some(start..end)
     }
 
-    /// The columns beside which another shape is seen, and the border of the map.
+    /// The columns next to which another shape is visible, and those at the border of the map.
     fn suspect_edges(&self, row: usize, suspects: &mut Suspects) {
         let Suspects { columns: suspects, cuts } = suspects;
-        // Between two cuts each of the three rows sees one shape or none.
+        // Between two cuts, each of the three rows sees one shape or none.
         cuts.clear();
         cuts.extend([0, self.width]);
         for around in self.around(row) {
@@ -153,7 +153,7 @@ impl<'m> Finder<'m> {
         }
     }
 
-    /// What is seen at a pixel.
+    /// The shape visible at a pixel.
     fn shape(&self, row: usize, column: usize) -> Option<u32> {
         let (runs, index) = (self.runs_of(row), row * self.width + column);
         let before = runs.partition_point(|run| run.end <= index);
@@ -192,10 +192,10 @@ impl<'m> Finder<'m> {
     }
 }
 
-/// The lines through a pixel: neighbours on both sides, by rows down and columns across.
+/// The lines through a pixel: the neighbours on both sides, as row and column offsets.
 const LINES: [[[isize; 2]; 2]; 4] = [[[0, 1], [0, -1]], [[1, 0], [-1, 0]], [[1, 1], [-1, -1]], [[1, -1], [-1, 1]]];
 
-/// Finds the columns of a row where the brightness bends, several at a time.
+/// Finds the columns of a row where the brightness curves, several at a time.
 struct Bends<'b, 'm> {
     finder: &'b Finder<'m>,
     row: usize,
@@ -234,7 +234,7 @@ impl Bends<'_, '_> {
         let [above, here, below] = [row - 1, row, row + 1].map(|row| &values[row * width..][..width]);
         let mut first = inner.start;
         loop {
-            // Those beside the last ones are looked at twice rather than one by one.
+            // The last vector overlaps the one before, so that no column is processed one by one.
             let column = first.min(inner.end - V::COUNT);
             let bend = |before: &[V::Element], after: &[V::Element]| V::load(token, before) + V::load(token, after);
             let [left, middle, right] = [column - 1, column, column + 1];

@@ -1,22 +1,22 @@
-//! Points of one surface that are shaded together, and what comes of it: arrays that stay in the nearest cache.
+//! Points of one surface that are shaded together, and the results: arrays that stay in the L1 cache.
 
 use crate::lanes::{Element, Lane};
 use crate::outline::{Ellipse, PlaceInRow, PointInRow};
 use crate::shape::{Primitive, SurfacePoint};
 use crate::vector::Vector;
 
-/// As many points a block has at most.
+/// The maximum number of points in a block.
 pub const POINTS: usize = 256;
 
-/// Room after the last point: vectors may reach beyond it.
+/// Room after the last point: vectors may extend beyond it.
 const SIZE: usize = POINTS + 32;
 
-/// Points of a primitive, as the kernel takes them: lengths are in units of `unit` from `anchor`. All that finds out what
-/// pixels see makes such blocks.
+/// Points of a primitive in the form that the kernel reads: lengths are in units of `unit` from `anchor`. Every visibility
+/// method produces such blocks.
 pub struct SurfaceBlock<E> {
-    /// How many points there are.
+    /// The number of points.
     pub count: usize,
-    /// What they are on.
+    /// The primitive that they are on.
     pub primitive: Primitive,
     /// A place near them, in metres.
     pub anchor: Vector,
@@ -36,7 +36,7 @@ pub struct SurfaceBlock<E> {
     pub ambient: [E; SIZE],
 }
 
-/// What the kernel makes of a block. Numbers that nobody asked for may be those of another block.
+/// The kernel's output for a block. Values that were not requested may be left over from another block.
 pub struct ShadedBlock<E> {
     /// B, in the convention's unit.
     pub brightness: [E; SIZE],
@@ -50,19 +50,19 @@ pub struct ShadedBlock<E> {
     pub ambient: [E; SIZE],
     /// Its standard error.
     pub ambient_error: [E; SIZE],
-    /// E_j of each light that is asked for by itself, W/m² or lx.
+    /// E_j of each light whose own irradiance is requested, W/m² or lx.
     pub by_light: Vec<[E; SIZE]>,
 }
 
-/// Places on the screen within an outline: columns and rows counted as the outline does.
+/// Screen positions within an outline, in the outline's columns and rows.
 pub struct Places<'p> {
     /// u.
     pub columns: &'p [f64],
     /// v.
     pub rows: &'p [f64],
-    /// u − u_a, where it is known better than by columns and rows.
+    /// u − u_a, where it is known more accurately than from columns and rows.
     pub after_first: &'p [f64],
-    /// u − u_b likewise.
+    /// u − u_b, likewise.
     pub after_last: &'p [f64],
 }
 
@@ -84,8 +84,8 @@ impl<E: Element> SurfaceBlock<E> {
         })
     }
 
-    /// The points of a sphere that are seen at places within its outline. The places go on after the last one, to the
-    /// end of a vector, with anything within the outline.
+    /// The points of a sphere that are visible at positions within its outline. The positions are padded to the end of a
+    /// vector with anything within the outline.
     #[inline(always)]
     pub fn see<V: Lane<Element = E>>(&mut self, token: V::Token, outline: &Ellipse, places: &Places<'_>) {
         let outline = outline.map(
@@ -110,7 +110,7 @@ impl<E: Element> SurfaceBlock<E> {
         self.store_point(at, &seen.point);
     }
 
-    /// The same without distances.
+    /// Writes a vector of points without distances.
     #[inline(always)]
     pub fn store_point<V: Lane<Element = E>>(&mut self, at: usize, point: &SurfacePoint<V>) {
         store(point.offset, at, &mut self.offset);
@@ -153,7 +153,7 @@ impl SurfaceBlock<f64> {
 }
 
 impl<E: Element> ShadedBlock<E> {
-    /// Room for what so many lights give by themselves.
+    /// With room for the separate irradiances of this many lights.
     pub fn new(lights: usize) -> Box<Self> {
         let zeros = [E::default(); SIZE];
         Box::new(Self {

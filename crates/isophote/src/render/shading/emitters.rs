@@ -1,4 +1,4 @@
-//! The emitters of a scene as the points of one sphere see them.
+//! The emitters of a scene as seen by the points of one sphere.
 
 use crate::lanes::Element;
 use crate::light::{Emitters, Pattern, PlacedEmitter};
@@ -6,59 +6,59 @@ use crate::prepare::PreparedScene;
 use crate::shape::Sphere;
 use crate::vector::Vector;
 
-/// Emitters whose sum is plain before it goes into the compensated one, and that are skipped together when they are
-/// behind the horizon together.
+/// Emitters whose terms are added plainly before the compensated sum, and that are skipped together if all of them are below
+/// the horizon.
 pub const BLOCK: usize = 64;
 
-/// In single precision a lobe with a larger n would lose more digits than [`SINGLE`](crate::tolerance::SINGLE) allows.
+/// In single precision, a lobe with a larger n would lose more digits than [`SINGLE`](crate::tolerance::SINGLE) allows.
 const LARGEST_SHININESS_IN_SINGLE: f64 = 32.0;
 
-/// A distance, in radii, whose powers single precision can hold; and intensities, over R².
+/// The largest distance, in radii, whose powers single precision can hold, and the intensities over R² that it can hold.
 const FARTHEST_IN_SINGLE: f64 = 1e5;
 const INTENSITIES_IN_SINGLE: std::ops::Range<f64> = 1e-18..1e18;
 
-/// Nearer to the surface, in radii, the difference of two rounded places has too few digits left for 1/r².
+/// Closer to the surface than this, in radii, the difference of two rounded positions has too few digits left for 1/r².
 const NEAREST_IN_SINGLE: f64 = 0.1;
 
-/// A steeper edge of a cone, per radian, would multiply the rounding of directions beyond what
+/// A steeper cone edge, per radian, would amplify the rounding errors of directions beyond what
 /// [`SINGLE`](crate::tolerance::SINGLE) allows.
 const STEEPEST_IN_SINGLE: f64 = 6.0;
 
-/// What the lights of a scene are, for all of its shapes.
+/// The data about a scene's lights that all shapes share.
 pub struct Lighting {
     /// The [order](by_place) in which emitters are summed.
     order: Vec<usize>,
-    /// The place of each light among those that are asked for by themselves.
+    /// The index of each light among those whose own irradiance is requested.
     asked_for: Vec<Option<usize>>,
 }
 
-/// The emitters as seen from the centre of a sphere, lengths in its radii: irradiances then come out right when
-/// intensities are divided by the radius squared. Those that send nothing are left out.
+/// The emitters as seen from the centre of a sphere, with lengths in units of its radius: irradiances then come out right if
+/// intensities are divided by the radius squared. Emitters of zero intensity are left out.
 #[derive(Default)]
 pub struct ShapeEmitters {
     placed: Vec<PlacedEmitter>,
-    /// What each is among the scene's.
+    /// The index of each one among the scene's emitters.
     indices: Vec<usize>,
-    /// Bounds of every [`BLOCK`] of them in their order, none where one of them is parallel; empty where there are so few
-    /// that each is simply summed.
+    /// Bounds of every [`BLOCK`] of them, in order; `None` where one of them is parallel; empty if there are so few that
+    /// each is simply summed.
     blocks: Vec<Option<Ball>>,
 }
 
-/// Emitters that may light some points, in the precision of their sums; the memory serves for the next ones.
+/// Emitters that may light some points, in the precision of the sums; the memory is reused.
 #[derive(Default)]
 pub struct Chosen<E> {
     emitters: Vec<PlacedEmitter<E>>,
     block_ends: Vec<usize>,
-    /// For those whose light is asked for by itself: its place among these, and that of the emitter.
+    /// For emitters of lights whose own irradiance is requested: the index among those lights, and that of the emitter.
     asked_for: Vec<(usize, usize)>,
 }
 
-/// The same, as the kernel takes them.
+/// The selected emitters in the form that the kernel reads.
 #[derive(Clone, Copy)]
 pub struct Selection<'c, E> {
     /// In the order in which they are summed.
     pub emitters: &'c [PlacedEmitter<E>],
-    /// Where blocks end whose sums are added with compensation; none where there is only one.
+    /// Ends of the blocks whose sums are added with compensation; `None` if there is only one block.
     pub block_ends: Option<&'c [usize]>,
     /// See [`Chosen`].
     pub asked_for: &'c [(usize, usize)],
@@ -72,7 +72,7 @@ struct Ball {
 }
 
 impl Lighting {
-    /// The lights of a scene; `asked_for` are those whose irradiance is asked for by itself.
+    /// The lights of a scene; `asked_for` lists those whose own irradiance is requested.
     pub fn new(scene: &PreparedScene, asked_for: &[usize]) -> Self {
         let mut places = vec![None; scene.scene().lights().len()];
         for (place, light) in asked_for.iter().enumerate() {
@@ -81,7 +81,7 @@ impl Lighting {
         Self { order: by_place(scene.emitters()), asked_for: places }
     }
 
-    /// Sees them from a sphere.
+    /// Computes the emitters as seen from a sphere.
     pub fn place(&self, scene: &PreparedScene, sphere: &Sphere, emitters: &mut ShapeEmitters) {
         let ShapeEmitters { placed, indices, blocks } = emitters;
         let all = scene.emitters().all();
@@ -96,9 +96,9 @@ impl Lighting {
     }
 }
 
-/// The emitters of a scene in the order in which they are summed: that of the scene; where they make blocks, along a curve
-/// that keeps neighbours together (Morton's), so that blocks are small in space, and parallel ones, which have no place,
-/// in the end.
+/// The emitters of a scene in the order in which they are summed. That is the order of the scene, unless they form blocks:
+/// then they follow a space-filling curve (Morton order), so that blocks are small in space, with the parallel ones, which
+/// have no position, at the end.
 fn by_place(emitters: &Emitters) -> Vec<usize> {
     let emitters = emitters.all();
     let mut order: Vec<usize> = (0..emitters.len()).collect();
@@ -119,17 +119,17 @@ fn by_place(emitters: &Emitters) -> Vec<usize> {
 }
 
 impl ShapeEmitters {
-    /// Each of them, with what it is among the scene's.
+    /// Each emitter, with its index among the scene's.
     pub fn iter(&self) -> impl Iterator<Item = (usize, &PlacedEmitter)> {
         self.indices.iter().copied().zip(&self.placed)
     }
 
-    /// How many there are.
+    /// The number of emitters.
     pub fn len(&self) -> usize {
         self.placed.len()
     }
 
-    /// Whether single precision holds them, the ambient light, and the lobe of a shininess.
+    /// Whether single precision can hold them, the ambient light, and the lobe of a shininess.
     pub fn fit_single(&self, ambient: f64, shininess: Option<f64>) -> bool {
         let fits = |emitter: &PlacedEmitter| {
             let distance = emitter.position.length();
@@ -147,14 +147,14 @@ impl ShapeEmitters {
 }
 
 impl<E: Element> Chosen<E> {
-    /// None of them.
+    /// Empties the selection.
     pub fn clear(&mut self) {
         self.emitters.clear();
         self.block_ends.clear();
         self.asked_for.clear();
     }
 
-    /// All emitters of a shape.
+    /// Selects all emitters of a shape.
     pub fn choose_all(&mut self, scene: &PreparedScene, lighting: &Lighting, shape: &ShapeEmitters) {
         self.clear();
         for (index, placed) in shape.iter() {
@@ -163,9 +163,10 @@ impl<E: Element> Chosen<E> {
         self.end_blocks_by_count();
     }
 
-    /// The emitters that may be above the horizon of any point of a cap, given by the direction of its middle and the
-    /// largest distance of its points from that, in radii. One at S is above the horizon of the point N of the unit sphere
-    /// where N·S > 1, a parallel one where N·L > 0. Each is tested but those of a block that is below as a whole.
+    /// Selects the emitters that may be above the horizon of any point of a cap, given by the direction of its middle and
+    /// the largest distance of its points from there, in radii. An emitter at S is above the horizon of the point N of the
+    /// unit sphere if N·S > 1, a parallel one if N·L > 0. Each is tested individually, except in a block that is below as a
+    /// whole.
     pub fn choose_above_horizon(
         &mut self,
         scene: &PreparedScene,
@@ -174,7 +175,7 @@ impl<E: Element> Chosen<E> {
         (middle, reach): (Vector, f64),
     ) {
         self.clear();
-        // Single precision rounds N·S to about 1e-7 of ‖S‖: with that to spare, what is skipped is dark in any case.
+        // Single precision rounds N·S to about 1e-7 of ‖S‖: with this margin, whatever is skipped is dark in any case.
         let spare = |distance: f64| 1e-6 * (1.0 + distance);
         for (number, block) in shape.blocks.iter().enumerate() {
             if let Some(Ball { center, radius }) = block {
@@ -197,7 +198,7 @@ impl<E: Element> Chosen<E> {
         self.end_blocks_by_count();
     }
 
-    /// Adds an emitter, by what it is among the scene's and as it is seen.
+    /// Adds an emitter, given by its index among the scene's and by how it is seen.
     #[inline(always)]
     pub fn push(&mut self, scene: &PreparedScene, lighting: &Lighting, index: usize, placed: &PlacedEmitter) {
         if let Some(place) = lighting.asked_for[scene.emitters().all()[index].light] {
@@ -206,7 +207,7 @@ impl<E: Element> Chosen<E> {
         self.emitters.push(placed.map(E::from_f64));
     }
 
-    /// Ends a block after the last emitter, if it is not empty.
+    /// Ends a block after the last emitter, unless the block is empty.
     #[inline(always)]
     pub fn end_block(&mut self) {
         let end = self.emitters.len();
@@ -215,13 +216,13 @@ impl<E: Element> Chosen<E> {
         }
     }
 
-    /// Makes blocks of so many.
+    /// Makes blocks of a fixed number of emitters.
     fn end_blocks_by_count(&mut self) {
         let count = self.emitters.len();
         self.block_ends.extend((1..=count.div_ceil(BLOCK)).map(|number| (number * BLOCK).min(count)));
     }
 
-    /// As the kernel takes them.
+    /// The selection in the form that the kernel reads.
     #[inline(always)]
     pub fn selection(&self) -> Selection<'_, E> {
         let Self { emitters, block_ends, asked_for } = self;
@@ -238,7 +239,7 @@ impl Ball {
         let sum = emitters.iter().fold(Vector::default(), |sum, emitter| sum + emitter.position);
         let center = sum * (1.0 / emitters.len() as f64);
         let distance = |emitter: &PlacedEmitter| (emitter.position - center).length();
-        // A little larger, for what rounding to single precision moves them.
+        // Slightly enlarged, because rounding to single precision moves the emitters.
         let radius = emitters.iter().map(distance).fold(0.0, f64::max);
         Some(Self { center, radius: radius + 1e-6 * (radius + center.length()) })
     }

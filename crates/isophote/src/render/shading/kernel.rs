@@ -1,5 +1,5 @@
-//! The kernel: the brightness of points, summed over all lights, several points at a time. It does not know how they were
-//! found.
+//! The kernel: the brightness of points, summed over all lights, several points at a time. It does not know how the points
+//! were found.
 
 use std::ops::Range;
 
@@ -12,12 +12,12 @@ use crate::shade::{Shading, light_term};
 use crate::shape::SurfacePoint;
 use crate::sum::Sum;
 
-/// Where the points of a kernel come from: from a block, or straight from the outline in which they lie.
+/// Where a kernel's points come from: from a block, or straight from the outline that they lie in.
 pub trait Points<V: Lane> {
-    /// A vector of points, from an index on.
+    /// A vector of points, starting at an index.
     fn point(&self, token: V::Token, at: usize) -> SurfacePoint<V>;
 
-    /// E_a of them.
+    /// E_a of these points.
     fn ambient(&self, token: V::Token, at: usize) -> V;
 }
 
@@ -33,13 +33,13 @@ impl<V: Lane> Points<V> for SurfaceBlock<V::Element> {
     }
 }
 
-/// Which part of each emitter the points see.
+/// The fraction of each emitter that the points see.
 pub trait Visibility<V: Lane> {
     /// v of an emitter, by its index in the selection, at a vector of points.
     fn of(&self, token: V::Token, emitter: usize, at: usize) -> V;
 }
 
-/// All of each.
+/// Every emitter is fully visible.
 pub struct Unobstructed;
 
 impl<V: Lane> Visibility<V> for Unobstructed {
@@ -49,11 +49,11 @@ impl<V: Lane> Visibility<V> for Unobstructed {
     }
 }
 
-/// A number for each emitter and point, from 0 to 1.
+/// A number from 0 to 1 for each emitter and point.
 pub struct PerPoint<'v> {
-    /// All of them, emitter after emitter.
+    /// All of the numbers, emitter after emitter.
     pub visible: &'v [f64],
-    /// From one emitter to the next.
+    /// The offset from one emitter to the next.
     pub stride: usize,
 }
 
@@ -64,24 +64,24 @@ impl<V: Lane> Visibility<V> for PerPoint<'_> {
     }
 }
 
-/// Points in the light that falls on them.
+/// Points and the light that falls on them.
 pub struct Lit<'l, P, S, E> {
     /// The points.
     pub points: &'l P,
     /// How many there are.
     pub count: usize,
-    /// Their convention, applied to their material.
+    /// The convention, applied to their material.
     pub formula: &'l BrightnessFormula,
-    /// How the lobe of that is computed.
+    /// How the formula's lobe is computed.
     pub power: &'l Power,
-    /// What may light any of the points.
+    /// The emitters that may light any of the points.
     pub selection: Selection<'l, E>,
-    /// What of each of those the points see.
+    /// The fraction of each emitter that the points see.
     pub visibility: &'l S,
 }
 
 impl<P, S, E: Element> Lit<'_, P, S, E> {
-    /// Shades the points: the only place that picks the lobe. Each is compiled by itself.
+    /// Shades the points: the only place that chooses the kind of lobe. Each kind is compiled separately.
     #[inline(always)]
     pub fn shade<V>(&self, token: V::Token, shaded: &mut ShadedBlock<E>)
     where
@@ -129,7 +129,7 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
         );
     }
 
-    /// Σ E_j and Σ E_j (N·H_j)ⁿ at a vector of points. Blocks of emitters are summed plainly, the blocks' sums with
+    /// Σ E_j and Σ E_j (N·H_j)ⁿ at a vector of points. Emitters of a block are summed plainly, and the blocks' sums with
     /// compensation, so that the error does not grow with the number of lights.
     #[inline(always)]
     fn sum<V, L>(&self, token: V::Token, point: &SurfacePoint<V>, at: usize, lobe: &L) -> [V; 2]
@@ -153,7 +153,7 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
         [irradiance.value(), lobes.value()]
     }
 
-    /// The same of some emitters, by plain addition.
+    /// The same sums over some of the emitters, by plain addition.
     #[inline(always)]
     fn plain_sum<V, L>(
         &self,
@@ -182,7 +182,7 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
         [irradiance, lobes]
     }
 
-    /// E_j of the lights that are asked for by themselves.
+    /// E_j of the lights whose own irradiance is requested.
     #[inline(always)]
     fn shade_by_light<V>(&self, token: V::Token, shaded: &mut ShadedBlock<E>)
     where

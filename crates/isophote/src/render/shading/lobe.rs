@@ -1,8 +1,8 @@
 //! The lobe (N·H)ⁿ in lanes.
 //!
-//! A whole n of moderate size is a chain of multiplications, which multiplies the rounding error of cos²θ_h by n/2. Any
-//! other n is exp(n/2 · ln cos²θ_h) by polynomials; where cos²θ_h is near 1, its logarithm is taken from sin²θ_h, which
-//! carries the digits there.
+//! For an integer n of moderate size it is a chain of multiplications, which amplifies the rounding error of cos²θ_h by n/2.
+//! For any other n it is exp(n/2 · ln cos²θ_h), by polynomials; where cos²θ_h is near 1, its logarithm is computed from
+//! sin²θ_h, which keeps its digits there.
 
 use crate::lanes::{Element, Lane, Precision};
 use crate::reflectance::Lobe;
@@ -12,18 +12,18 @@ use crate::reflectance::Lobe;
 pub enum Power {
     /// The formula has no lobe.
     None,
-    /// Of a whole, even n.
+    /// For an even integer n.
     Even(EvenLobe),
-    /// Of a whole, odd n.
+    /// For an odd integer n.
     Odd(OddLobe),
-    /// Of any n.
+    /// For any n.
     Any(AnyLobe),
 }
 
 impl Power {
-    /// The way for a shininess (none where the formula has no highlight) in a precision.
+    /// Chooses the method for a shininess (`None` if the formula has no highlight) and a precision.
     pub fn new(shininess: Option<f64>, precision: Precision) -> Self {
-        // Beyond these the chain's error would be more than the polynomials'.
+        // Beyond these lengths, the chain's error would exceed that of the polynomials.
         let longest = match precision {
             Precision::Double => 512.0,
             Precision::Single => 24.0,
@@ -89,13 +89,13 @@ impl<V: Lane> Lobe<V> for OddLobe {
     }
 }
 
-/// cos²θ_h as 1 − sin²θ_h: near the peak, where the power would multiply it, that leaves the error of one rounding.
+/// cos²θ_h as 1 − sin²θ_h: near the peak, where the power would amplify it, only the error of one rounding remains.
 #[inline(always)]
 fn cos_share<V: Lane>(sin_squared: V, inverse: V) -> V {
     (-sin_squared).mul_add(inverse, inverse.splat_like(1.0))
 }
 
-/// By squaring, from the lowest digit of the exponent.
+/// By repeated squaring, from the lowest digit of the exponent.
 #[inline(always)]
 fn whole_power<V: Lane>(base: V, exponent: u32) -> V {
     let mut square = base;
@@ -119,7 +119,7 @@ fn whole_power<V: Lane>(base: V, exponent: u32) -> V {
     result
 }
 
-/// The share of cos² in the sum of the squares as m·2ᵏ with m between √½ and √2.
+/// The fraction cos² / (cos² + sin²), as m·2ᵏ with m between √½ and √2.
 struct Split<V> {
     /// (m − 1) times the sum of the squares.
     difference: V,
@@ -133,22 +133,23 @@ impl AnyLobe {
     #[inline(always)]
     fn split<V: Lane>(cos_squared: V, sin_squared: V) -> Split<V> {
         let sum = cos_squared + sin_squared;
-        // Zero has no exponent, and what is smaller than this has no lobe.
+        // Zero has no exponent, and for anything smaller than this the lobe is zero.
         let cos_squared = cos_squared.max(sum * sum.splat_like(1e-30));
-        // With the factor √2, shares from √½ on have the exponent 0 or more: then only 0, as shares end at 1.
+        // With the factor √2, fractions from √½ up have an exponent of 0 or more: exactly 0, since fractions do not
+        // exceed 1.
         let scaled = cos_squared * sum.splat_like(std::f64::consts::SQRT_2);
         let exponent = scaled.exponent() - sum.exponent();
         let one_less = exponent - sum.splat_like(1.0);
         let exponent = V::select(scaled.mantissa().is_less(sum.mantissa()), one_less, exponent);
         let is_far = exponent.is_less(sum.splat_like(0.0));
-        // Near the peak cos² − sum is −sin², with all its digits.
+        // Near the peak, cos² − sum is −sin², with all its digits.
         let difference = V::select(is_far, cos_squared * (-exponent).power_of_two() - sum, -sin_squared);
         Split { difference, sum: sum + sum, exponent }
     }
 }
 
 impl<V: Lane> Lobe<V> for AnyLobe {
-    /// What the logarithm divides by: see [`value`](Self::value).
+    /// The divisor in the logarithm: see [`value`](Self::value).
     #[inline(always)]
     fn denominator(&self, cos_squared: V, sin_squared: V) -> V {
         let split = Self::split(cos_squared, sin_squared);
@@ -157,7 +158,7 @@ impl<V: Lane> Lobe<V> for AnyLobe {
 
     #[inline(always)]
     fn value(&self, cos_squared: V, sin_squared: V, inverse: V) -> V {
-        // ln m = 2 artanh s with s = (m − 1)/(m + 1), where m is the share of cos², times a power of two.
+        // ln m = 2 artanh s with s = (m − 1)/(m + 1), where m is the fraction of cos², scaled by a power of two.
         let split = Self::split(cos_squared, sin_squared);
         let s = split.difference * inverse;
         let logarithm = split.exponent.mul_add(s.splat_like(std::f64::consts::LN_2), twice_artanh(s));
@@ -180,7 +181,7 @@ fn twice_artanh<V: Lane>(s: V) -> V {
     (s + s) * series
 }
 
-/// eˣ for x ≤ 0, down to where the type ends; 0 beyond.
+/// eˣ for x ≤ 0, down to the smallest number of the type; 0 below that.
 #[inline(always)]
 fn exp<V: Lane>(x: V) -> V {
     let (least, terms) = match V::Element::PRECISION {
@@ -188,20 +189,20 @@ fn exp<V: Lane>(x: V) -> V {
         Precision::Single => (-86.0, 6),
     };
     let x_bounded = x.max(x.splat_like(least));
-    // To the nearest whole: adding and subtracting 1.5·2^p drops the fraction.
+    // To the nearest integer: adding and subtracting 1.5·2^p drops the fraction.
     let magic = x.splat_like(match V::Element::PRECISION {
         Precision::Double => 6_755_399_441_055_744.0,
         Precision::Single => 12_582_912.0,
     });
     let exponent = x_bounded.mul_add(x.splat_like(std::f64::consts::LOG2_E), magic) - magic;
-    // ln 2 in two parts, the first of which has so few digits that its product with the exponent is exact.
+    // ln 2 in two parts; the first has so few digits that its product with the exponent is exact.
     let [high, low] = match V::Element::PRECISION {
         Precision::Double => [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10],
         Precision::Single => [0.693_145_751_953_125, 1.428_606_820_309_417_2e-6],
     };
     let rest = (-exponent).mul_add(x.splat_like(high), x_bounded);
     let rest = (-exponent).mul_add(x.splat_like(low), rest);
-    // eʳ by its series, |r| ≤ ln 2 / 2.
+    // eʳ by its power series, |r| ≤ ln 2 / 2.
     let mut series = x.splat_like(inverse_factorial(terms));
     for k in (0..terms).rev() {
         series = series.mul_add(rest, x.splat_like(inverse_factorial(k)));
@@ -273,11 +274,11 @@ mod tests {
         DoubleDouble::cosine_power(DoubleDouble::from_f64(1.0) - sin_squared, sin_squared, shininess).rounded()
     }
 
-    /// The stated error: relative, four roundings and as many as the exponent −n/2 ln cos² multiplies; for whole n, which
-    /// only multiply, n/2 roundings.
+    /// The stated relative error: four roundings, plus those that the exponent −n/2 ln cos² amplifies; for integer n, which
+    /// only multiplies, n/2 roundings.
     #[test]
     fn the_lobe_has_its_stated_error_for_any_shininess() {
-        // Numbers that single precision holds exactly.
+        // Numbers that single precision represents exactly.
         let sin_squared: Vec<f64> =
             (0..1000).map(|k| f64::from(k) / 1024.0).chain([2e-6, 1e-9].map(|x| f32::from_f64(x).to_f64())).collect();
         for instructions in Instructions::all() {

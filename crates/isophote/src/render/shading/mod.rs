@@ -1,4 +1,4 @@
-//! The shading of blocks of points, whatever found them: one kernel, in lanes.
+//! The shading of blocks of points, however they were found: one kernel, in SIMD vectors.
 
 pub mod block;
 pub mod emitters;

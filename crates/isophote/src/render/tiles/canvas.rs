@@ -6,19 +6,19 @@ use crate::lanes::{Lane, LaneJob};
 use crate::map::Pixel;
 use crate::prepare::ERROR_OF_DISTANCE;
 
-/// A row in memory: vectors may reach beyond the tile's edge.
+/// The length of a row in memory: vectors may extend beyond the tile's edge.
 const STRIDE: usize = WIDTH as usize + 16;
 const PIXELS: usize = STRIDE * HEIGHT as usize;
 
-/// Parts of a tile whose farthest pixel is known.
+/// The size of the parts of a tile whose farthest depth is tracked.
 const PART: usize = 16;
 const PART_ROWS: usize = 8;
 const PARTS: usize = WIDTH as usize / PART;
 
 /// Which outline each pixel of a tile sees, and how far away.
 pub struct Canvas {
-    /// t‖d‖ of (2.1), where d is the direction to the pixel on a screen at distance 1: the root of a row's outline gives
-    /// it without another one.
+    /// t‖d‖ of (2.1), where d is the direction to the pixel on a screen at distance 1: it follows from the root of a row's
+    /// outline without another root.
     depths: Vec<f64>,
     /// Index of the outline; negative where nothing is seen.
     outlines: Vec<f64>,
@@ -27,49 +27,49 @@ pub struct Canvas {
     doubts: Vec<Doubt>,
 }
 
-/// Something that may be seen at a pixel, or not.
+/// Something that may or may not be visible at a pixel.
 #[derive(Clone, Copy)]
 struct Doubt {
     at: usize,
-    /// Not nearer than this.
+    /// A lower bound on its depth.
     from: f64,
 }
 
 /// No outline.
 const NONE: f64 = -1.0;
 
-/// A row of an outline that is drawn.
+/// A row of an outline being drawn.
 struct RowOf {
     roots: [f64; 2],
-    /// d·c at u = 0, and its growth.
+    /// d·c at u = 0, and its change per column.
     depth: [f64; 2],
 }
 
-/// What does not depend on the row.
+/// The values that do not depend on the row.
 struct Pen {
     column: f64,
     index: f64,
     /// cos²θ_o ‖d‖² R² over (u − u_a)(u_b − u).
     clearance: f64,
-    /// Clearances between these, times ‖d‖² R², are in doubt.
+    /// Clearances between these limits, times ‖d‖² R², are in doubt.
     doubtful: [f64; 2],
-    /// How far depths may be off, for those that are nearly the same.
+    /// The possible error of depths, for comparing nearly equal ones.
     uncertain: f64,
-    /// The same at the edge, where the depth is that of the grazing ray.
+    /// The same error at the edge, where the depth is that of the grazing ray.
     uncertain_at_edge: f64,
 }
 
-/// Draws what was prepared last, from near to far.
+/// Draws the last batch of outlines, from near to far.
 pub struct Draw<'t> {
-    /// Where to.
+    /// The canvas to draw on.
     pub canvas: &'t mut Canvas,
-    /// What.
+    /// The outlines to draw.
     pub outlines: &'t Outlines,
     /// The camera.
     pub view: &'t View,
-    /// Which tile.
+    /// The tile.
     pub tile: Tile,
-    /// The least length of d in it.
+    /// The smallest length of d in the tile.
     pub least_length: f64,
 }
 
@@ -101,7 +101,7 @@ impl Canvas {
         }
     }
 
-    /// Makes it empty again.
+    /// Clears the tile.
     pub fn clear(&mut self) {
         self.depths.fill(f64::INFINITY);
         self.outlines.fill(NONE);
@@ -109,12 +109,12 @@ impl Canvas {
         self.doubts.clear();
     }
 
-    /// No pixel is farther: t‖d‖, in metres.
+    /// The greatest depth of any pixel: t‖d‖, in metres.
     pub fn farthest(&self) -> f64 {
         self.farthest.iter().flatten().copied().fold(0.0, f64::max)
     }
 
-    /// Finds out how far the pixels of each part are.
+    /// Updates the farthest depth of each part.
     #[inline(always)]
     fn measure<D: Lane<Element = f64>>(&mut self, token: D::Token, tile: Tile) {
         for (row, parts) in self.farthest.iter_mut().enumerate() {
@@ -135,7 +135,7 @@ impl Canvas {
         }
     }
 
-    /// Draws a sphere by its outline, unless all that it covers is nearer.
+    /// Draws a sphere from its outline, unless everything that it covers is closer.
     #[inline(always)]
     fn draw<D: Lane<Element = f64>>(
         &mut self,
@@ -152,7 +152,7 @@ impl Canvas {
         let row = ellipse.row[lane];
         let [top, left] = [f64::from(tile.first.row), f64::from(tile.first.column)];
         let [bottom, right] = [top + f64::from(tile.height), left + f64::from(tile.width)];
-        // One row more on either side, for what is in doubt.
+        // One extra row on either side, for pixels in doubt.
         let rows = [(row + first).floor().max(top), ((row + last).ceil() + 1.0).min(bottom)];
         if rows[0] >= rows[1] || self.is_hidden(block, lane, [rows[0] - top, rows[1] - top], left, least_length) {
             return;
@@ -221,7 +221,7 @@ impl Canvas {
         }
     }
 
-    /// Notes pixels at an edge, and those where two surfaces meet.
+    /// Records pixels at an edge, and pixels where two surfaces meet.
     #[inline(never)]
     fn doubt(
         &mut self,
@@ -244,7 +244,7 @@ impl Canvas {
         }
     }
 
-    /// Whether what a sphere covers, and a pixel around it, is nearer than the sphere.
+    /// Whether everything that a sphere covers, including a margin of one pixel, is closer than the sphere.
     #[inline(always)]
     fn is_hidden(&self, block: &Block, lane: usize, rows: [f64; 2], left: f64, least_length: f64) -> bool {
         let [start, end] = columns_of(block, lane);
@@ -258,7 +258,7 @@ impl Canvas {
         self.farthest[rows].iter().all(|row| row[parts.clone()].iter().all(|farthest| near > *farthest))
     }
 
-    /// Takes out the pixels in doubt.
+    /// Moves the pixels in doubt to `doubtful`.
     pub fn settle(&mut self, tile: Tile, doubtful: &mut Vec<Pixel>) {
         for doubt in &self.doubts {
             // Written so that NaN stays in doubt.
@@ -271,13 +271,13 @@ impl Canvas {
         }
     }
 
-    /// The outlines that are seen in a row, negative where none is.
+    /// The outlines visible in a row, negative where there is none.
     pub fn row(&self, row: u32, width: u32) -> &[f64] {
         &self.outlines[row as usize * STRIDE..][..width as usize]
     }
 }
 
-/// An outline that is seen or not.
+/// Marks a pixel in doubt.
 const DOUBTFUL: f64 = -2.0;
 
 impl Pen {
@@ -299,7 +299,7 @@ impl Pen {
     }
 }
 
-/// The first and the last column that an outline may touch, and one more on either side.
+/// The first and last column that an outline may touch, with one extra on either side.
 #[inline(always)]
 fn columns_of(block: &Block, lane: usize) -> [f64; 2] {
     let ellipse = &block.ellipse;
@@ -326,7 +326,7 @@ fn stored<D: Lane<Element = f64>>(numbers: D) -> [f64; 16] {
     out
 }
 
-/// The lanes before an end.
+/// The lanes below an index.
 #[inline(always)]
 fn bits_below(count: f64) -> u32 {
     if count >= 16.0 { 0xffff } else { (1 << whole(count)) - 1 }
@@ -338,7 +338,7 @@ fn count_of<D: Lane>() -> f64 {
     D::COUNT as f64
 }
 
-/// A count within a tile.
+/// An index within a tile.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held within the tile")]
 fn whole(count: f64) -> usize {

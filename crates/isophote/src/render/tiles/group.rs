@@ -7,7 +7,7 @@ use crate::accelerate::Walk;
 use crate::map::Pixel;
 use crate::shape::Primitive;
 
-/// So many pixels are shaded together.
+/// The most pixels that are shaded together.
 pub const MOST: usize = 256;
 
 /// A pixel of a tile.
@@ -29,28 +29,28 @@ pub struct Group<'g> {
     pub seen: &'g Seen,
     /// What it is.
     pub primitive: Primitive,
-    /// Where the pixels are.
+    /// The tile that the pixels are in.
     pub tile: Tile,
     /// At most [`MOST`].
     pub pixels: &'g [TilePixel],
-    /// Memory for a query.
+    /// Scratch memory for a query.
     pub walk: &'g mut Walk,
 }
 
-/// All pixels of a tile, by what they see.
+/// All pixels of a tile, grouped by what they see.
 #[derive(Default)]
 pub struct Groups {
-    /// The outlines that are seen.
+    /// The visible outlines.
     pub seen: Vec<u32>,
-    /// Where the pixels of each of them end.
+    /// The end of each visible outline's pixels.
     ends: Vec<usize>,
     cells: Vec<TilePixel>,
-    /// For each outline the number of its pixels, then where the next one goes.
+    /// For each outline, the number of its pixels, and later the position of the next one.
     places: Vec<usize>,
 }
 
 impl Groups {
-    /// Sorts the pixels of a tile.
+    /// Groups the pixels of a tile.
     pub fn collect(&mut self, canvas: &Canvas, tile: Tile, outlines: usize) {
         self.places.clear();
         self.places.resize(outlines, 0);
@@ -84,7 +84,7 @@ impl Groups {
         }
     }
 
-    /// The pixels that see one of them.
+    /// The pixels that see the visible outline with this index.
     pub fn pixels_of(&self, index: usize) -> &[TilePixel] {
         let start = if index == 0 { 0 } else { self.ends[index - 1] };
         &self.cells[start..self.ends[index]]

@@ -1,10 +1,10 @@
-//! Clouds of spheres, and shadows between them: the screen tile by tile.
+//! Clouds of spheres, and shadows between them: the screen is rendered tile by tile.
 //!
-//! What a tile sees is drawn into a depth buffer, sphere after sphere from near to far, by the [outlines](crate::shape::Ellipse)
-//! of the spheres in its beam. The pixels of a tile that see the same sphere are then a group: what may stand in their
-//! light is looked up once for all of them, in the tube from their part of the sphere to the light, and tested for
-//! several pixels at a time. Where a decision is too close for a double, the pixel is traced with 32 digits; and because
-//! each decision is a pixel's own, neither tiles nor groups nor the order of tests changes a bit.
+//! The visible surfaces of a tile are drawn into a depth buffer, sphere after sphere from near to far, from the
+//! [outlines](crate::shape::Ellipse) of the spheres in its beam. The pixels of a tile that see the same sphere form a group:
+//! the spheres that may block their light are looked up once for all of them, in the tube from their part of the sphere to
+//! the light, and tested for several pixels at a time. Where a decision is too close for a double, the pixel is traced with
+//! 32 digits. Since each decision is made per pixel, neither tiles nor groups nor the order of tests changes a bit.
 
 mod canvas;
 mod group;
@@ -28,11 +28,11 @@ use crate::render::{Observer, RenderError, rays};
 
 /// Columns of a tile.
 pub const WIDTH: u32 = 64;
-/// Rows of a tile: bands that have as many are drawn best.
+/// Rows of a tile: bands of this height are drawn most efficiently.
 pub const HEIGHT: u32 = 64;
 
-/// Whether scenes like this are drawn by tiles: spheres only, and many of them or with shadows; seen in perspective, with
-/// lights that are somewhere, and ambient light that nothing keeps off.
+/// Whether a scene is rendered by tiles: spheres only, either many of them or with shadows; seen in perspective, with lights
+/// at finite positions, and unobstructed ambient light.
 pub fn supports(scene: &PreparedScene) -> bool {
     let description = scene.scene();
     let is_round = description.shapes().iter().all(|shape| shape.geometry.is_round());
@@ -46,23 +46,23 @@ pub fn supports(scene: &PreparedScene) -> bool {
         && (scene.casts_shadows_between_shapes() || scene.primitive_count() > MANY)
 }
 
-/// With fewer spheres, and no shadows, going through the rows is faster.
+/// With fewer spheres, and no shadows, rendering by rows is faster.
 const MANY: u32 = 64;
 
-/// How bands are filled.
+/// The settings for filling bands.
 #[derive(Clone, Copy)]
 pub struct Tiles<'a> {
     /// The scene.
     pub scene: &'a PreparedScene,
     /// Its lights.
     pub lighting: &'a Lighting,
-    /// Those whose irradiance is asked for by itself.
+    /// The lights whose own irradiance is requested.
     pub asked_for: &'a [usize],
-    /// Of what is shaded.
+    /// The precision of the shading.
     pub precision: Precision,
-    /// What the machine can do.
+    /// The instruction set to use.
     pub instructions: Instructions,
-    /// Hears of the progress.
+    /// Receives progress reports.
     pub observer: Option<&'a dyn Observer>,
 }
 
@@ -78,7 +78,7 @@ pub struct Tile {
 }
 
 impl Tiles<'_> {
-    /// Fills a band, and says what its pixels see.
+    /// Fills a band, and returns what its pixels see.
     pub fn fill(&self, mut band: Band<'_>) -> Result<Vec<Run>, RenderError> {
         let Projection::Perspective(window) = &self.scene.frame().projection else {
             unreachable!("`supports` refuses other cameras");
@@ -125,10 +125,10 @@ fn tiles(band: &Band<'_>) -> Vec<Tile> {
     parts(band.first.row, band.size.height, HEIGHT).flat_map(row).collect()
 }
 
-/// What a pixel sees that sees nothing.
+/// Marks a pixel that sees nothing.
 const NOTHING: u32 = u32::MAX;
 
-/// What one thread needs for one tile after the other.
+/// The scratch memory of a thread, reused from tile to tile.
 struct Work<'a> {
     scene: &'a PreparedScene,
     view: &'a View,
@@ -142,7 +142,7 @@ struct Work<'a> {
     seen: Vec<u32>,
     /// Pixels to be traced with 32 digits.
     doubtful: Vec<Pixel>,
-    /// What those see.
+    /// What those pixels see.
     hits: HitBlock<'a>,
 }
 
@@ -173,7 +173,7 @@ impl Work<'_> {
         self.trace_doubtful(band)
     }
 
-    /// Draws what the tile sees; false where the outline of a sphere in its beam is no ellipse.
+    /// Draws the visible surfaces of a tile; returns false if the outline of a sphere in its beam is not an ellipse.
     fn draw(&mut self, tile: Tile) -> bool {
         let tree = self.scene.accelerator();
         let beam = self.view.beam(tree, tile);
@@ -210,7 +210,7 @@ impl Work<'_> {
     }
 }
 
-/// The runs of a band, from what its pixels see.
+/// The runs of a band, from the shapes that its pixels see.
 fn runs(band: &Band<'_>, seen: &[u32]) -> Vec<Run> {
     let mut runs = Vec::new();
     let width = band.size.width as usize;

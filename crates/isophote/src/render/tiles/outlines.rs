@@ -11,14 +11,14 @@ use crate::prepare::PreparedScene;
 use crate::shape::Sphere;
 use crate::vector::Vector;
 
-/// The camera, as tiles need it.
+/// The camera in the form that tiles use.
 pub struct View {
     grid: PixelGrid,
     eye: Vector,
     forward: Vector,
     right: Vector,
     up: Vector,
-    /// x of the middle of column 0 and y of that of row 0, on a screen at distance 1, and how they grow.
+    /// x of the middle of column 0 and y of the middle of row 0, on a screen at distance 1, and their steps.
     first: [f64; 2],
     step: [f64; 2],
     /// The greatest length of d in the image.
@@ -46,14 +46,14 @@ impl View {
         view
     }
 
-    /// d at the corner of pixels (column, row).
+    /// d at the upper left corner of pixel (column, row).
     fn direction(&self, [column, row]: [f64; 2]) -> Vector {
         let x = self.first[0] + self.step[0] * (column - 0.5);
         let y = self.first[1] + self.step[1] * (row - 0.5);
         self.forward + self.right * x + self.up * y
     }
 
-    /// The beam of a tile, and of a pixel more all around for what is in doubt.
+    /// The beam of a tile, with a margin of one pixel for pixels in doubt.
     pub fn beam(&self, tree: &Accelerator, tile: Tile) -> Beam {
         let Tile { first, width, height } = tile;
         let [left, top] = [f64::from(first.column) - 1.0, f64::from(first.row) - 1.0];
@@ -62,7 +62,7 @@ impl View {
         tree.beam(self.eye, corners.map(|corner| self.direction(corner)), self.forward)
     }
 
-    /// The least length of d in a tile.
+    /// The smallest length of d in a tile.
     pub fn least_length(&self, tile: Tile) -> f64 {
         let nearest = |first: f64, step: f64, start: u32, count: u32| {
             let [a, b] = [f64::from(start) - 1.0, f64::from(start + count)].map(|index| first + step * index);
@@ -74,10 +74,10 @@ impl View {
     }
 }
 
-/// How many outlines are computed at once.
+/// The number of outlines computed at once.
 pub const BLOCK: usize = 8;
 
-/// How many spheres are taken from the beam before they are drawn, in order of distance.
+/// The number of spheres that are taken from the beam at a time, and then drawn in order of distance.
 const BATCH: usize = 64;
 
 /// The spheres in a beam, in the order in which they were found.
@@ -91,12 +91,12 @@ pub struct Outlines {
 /// Eight outlines.
 pub struct Block {
     pub ellipse: Ellipse<[f64; BLOCK]>,
-    /// d·c, in metres, at the pixel from which is counted, and its growth by column and by row.
+    /// d·c, in metres, at the outline's reference pixel, and its change per column and per row.
     pub depth: [[f64; BLOCK]; 3],
     /// From the eye to the centre, in metres.
     pub distance: [f64; BLOCK],
     pub radius: [f64; BLOCK],
-    /// Up to which clearance a pixel is in doubt.
+    /// The largest clearance at which a pixel is in doubt.
     pub doubtful: [f64; BLOCK],
     number: [u32; BLOCK],
 }
@@ -105,21 +105,21 @@ pub struct Block {
 pub struct Seen {
     /// Its outline.
     pub ellipse: Ellipse,
-    /// Its number among the primitives.
+    /// The number of its primitive.
     pub primitive: u32,
 }
 
 /// Takes the next few spheres from a beam.
 pub struct Take<'t> {
-    /// Where they go.
+    /// Where to put them.
     pub outlines: &'t mut Outlines,
-    /// The tree.
+    /// The tree to search.
     pub tree: &'t Accelerator,
-    /// The beam.
+    /// The beam to search.
     pub beam: &'t Beam,
-    /// The depth beyond which nothing is seen.
+    /// The depth beyond which nothing is visible.
     pub limit: f32,
-    /// Where in the tree.
+    /// The state of the search.
     pub walk: &'t mut Walk,
 }
 
@@ -142,9 +142,9 @@ impl LaneJob for Take<'_> {
     }
 }
 
-/// Computes the outlines of what was taken; false if one is no ellipse.
+/// Computes the outlines of the last batch; false if one of them is not an ellipse.
 pub struct Prepare<'t> {
-    /// What was taken, and where the outlines go.
+    /// The spheres that were taken, and where their outlines go.
     pub outlines: &'t mut Outlines,
     /// The scene.
     pub scene: &'t PreparedScene,
@@ -166,22 +166,22 @@ impl LaneJob for Prepare<'_> {
 }
 
 impl Outlines {
-    /// Forgets all.
+    /// Removes all outlines.
     pub fn clear(&mut self) {
         self.blocks.clear();
     }
 
-    /// Whether there were none.
+    /// Whether the last batch was empty.
     pub fn is_exhausted(&self) -> bool {
         self.taken.is_empty()
     }
 
-    /// How many places there are for outlines.
+    /// The number of slots for outlines.
     pub fn count(&self) -> usize {
         self.blocks.len() * BLOCK
     }
 
-    /// Where an outline is.
+    /// The block and the lane of an outline.
     #[inline(always)]
     pub fn place(&self, index: u32) -> (&Block, usize) {
         (&self.blocks[index as usize / BLOCK], index as usize % BLOCK)
@@ -193,7 +193,7 @@ impl Outlines {
         Seen { ellipse: block.ellipse.map(|numbers| numbers[lane]), primitive: block.number[lane] }
     }
 
-    /// Those that were taken last, from near to far.
+    /// The last batch, from near to far.
     pub fn by_distance(&self) -> &[u32] {
         &self.order
     }
@@ -226,7 +226,7 @@ impl Outlines {
                 if z <= -1.0 {
                     continue;
                 }
-                // Written so that NaN is no ellipse.
+                // Written so that NaN counts as no ellipse.
                 if !(z >= 1.0 + BEFORE_THE_EYE) {
                     return false;
                 }
@@ -286,7 +286,7 @@ impl Block {
         block
     }
 
-    /// How far the centre is before the eye.
+    /// How far in front of the eye the centre is, in radii.
     fn depth_in_radii(&self, lane: usize, view: &View) -> f64 {
         self.ellipse.center.map(|numbers| numbers[lane]).dot(view.forward)
     }

@@ -1,4 +1,4 @@
-//! The pixels of a group as blocks of points, with the light that they see.
+//! Shades the pixels of a group as blocks of points, with the light that reaches them.
 
 use super::Tiles;
 use super::group::{Group, MOST};
@@ -18,22 +18,23 @@ use crate::render::shading::lobe::Power;
 use crate::shape::Sphere;
 use crate::vector::Vector;
 
-/// Shades groups, one after the other.
+/// Shades groups, one after another.
 pub struct Shader<'a> {
     tiles: Tiles<'a>,
     layers: Vec<&'a PreparedScene>,
     places: Box<ScreenPlaces>,
-    /// What they see.
+    /// The points that the pixels see.
     points: Box<SurfaceBlock<f64>>,
-    /// The same for sums in single precision.
+    /// The same points, for sums in single precision.
     single_points: Box<SurfaceBlock<f32>>,
     shadows: Box<Shadows>,
     emitters: ShapeEmitters,
-    /// Those that are above the horizon of a pixel: their place in the order, and what they are among the scene's.
+    /// The emitters above the horizon of any pixel: their position in the summation order, and their index among the
+    /// scene's.
     chosen: Vec<(usize, usize)>,
-    /// v of the pixels for each of those.
+    /// v of the pixels for each of these emitters.
     visible: Vec<f64>,
-    /// Lanes that are in doubt, by eights.
+    /// Lanes in doubt, eight per number.
     doubtful: [u32; MOST / 8],
     single: Scratch<f32>,
     double: Scratch<f64>,
@@ -44,11 +45,11 @@ struct Scratch<E> {
     shaded: Box<ShadedBlock<E>>,
 }
 
-/// Where the pixels of a group are. The last one fills up the last vector.
+/// The screen positions of a group's pixels. The last one is repeated to fill the last vector.
 struct ScreenPlaces {
-    /// Of each pixel, its index in the band.
+    /// The index of each pixel in the band.
     index: [usize; MOST],
-    /// Columns and rows, counted as the outline does.
+    /// Columns and rows in the outline's coordinates.
     column: [f64; MOST],
     row: [f64; MOST],
     after_first: [f64; MOST],
@@ -61,7 +62,7 @@ impl ScreenPlaces {
         Self { index: [0; MOST], column: zeros, row: zeros, after_first: zeros, after_last: zeros }
     }
 
-    /// Counts the pixels of a group as its outline does.
+    /// Converts the pixels of a group to the outline's coordinates.
     fn count(&mut self, group: &Group<'_>, band: &Band<'_>) {
         let ellipse = &group.seen.ellipse;
         let mut pixel = Pixel { column: 0, row: 0 };
@@ -75,7 +76,7 @@ impl ScreenPlaces {
         }
     }
 
-    /// Finds what they see.
+    /// Computes the points that they see.
     #[inline(always)]
     fn see<D: Lane<Element = f64>>(&mut self, token: D::Token, group: &Group<'_>, points: &mut SurfaceBlock<f64>) {
         let outline = group.seen.ellipse.map(
@@ -93,7 +94,7 @@ impl ScreenPlaces {
     }
 }
 
-/// Finds out what the pixels of a group see, and which lights.
+/// Computes the points that the pixels of a group see, and the lights that reach them.
 struct See<'s, 'a, 'g> {
     shader: &'s mut Shader<'a>,
     group: &'s mut Group<'g>,
@@ -144,7 +145,8 @@ impl LaneJob for Shade<'_, '_, '_, '_> {
     }
 }
 
-/// With more lights fewer pixels are shaded together, for what is remembered of each light at each pixel.
+/// With more lights than this, fewer pixels are shaded together, because the visibility of each light at each pixel is
+/// stored.
 const MANY_LIGHTS: usize = 1024;
 
 impl<'a> Shader<'a> {
@@ -167,7 +169,7 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Shades the pixels of a group; those whose shadow is in doubt go into a list besides.
+    /// Shades the pixels of a group; those whose shadow is in doubt are also added to a list.
     pub fn shade(
         &mut self,
         group: &mut Group<'_>,
@@ -216,7 +218,7 @@ impl<'a> Shader<'a> {
             && self.emitters.fit_single(ambient(layer), layer.formula(group.primitive).sharpness())
     }
 
-    /// Finds out which lights the pixels see.
+    /// Determines which lights the pixels see.
     #[inline(always)]
     fn see_lights<S, D>(&mut self, token: S::Token, group: &mut Group<'_>)
     where
@@ -281,12 +283,12 @@ impl<'a> Shader<'a> {
     }
 }
 
-/// E_a (3.9), which nothing obstructs in the scenes that are drawn so.
+/// E_a (3.9), which nothing obstructs in scenes that are rendered by tiles.
 fn ambient(layer: &PreparedScene) -> f64 {
     layer.scene().ambient().map_or(0.0, Ambient::unobstructed_irradiance)
 }
 
-/// The light of a layer that a group sees.
+/// The light of a layer that reaches a group.
 struct Light<'l> {
     layer: &'l PreparedScene,
     lighting: &'l Lighting,
@@ -316,7 +318,8 @@ impl Light<'_> {
         lit.shade::<V>(token, &mut scratch.shaded);
     }
 
-    /// The emitters as this layer has them. Blocks are those of all of them, whichever are above the horizon.
+    /// Selects the emitters, with the values that they have in this layer. Blocks are those of the full set, whichever
+    /// emitters are above the horizon.
     fn choose<E: Element>(&self, center: Vector, radius: f64, chosen: &mut Chosen<E>) {
         // Reciprocals, where rows divide: the last digits stay what they were.
         let (per_unit, per_square) = (1.0 / radius, 1.0 / (radius * radius));

@@ -6,36 +6,37 @@ use crate::prepare::PreparedScene;
 use crate::render::shading::block::SurfaceBlock;
 use crate::vector::Vector;
 
-/// Decisions closer than this, relatively, are left to 32 digits. Rounding may come to some 1e-14 of them.
+/// Decisions with a smaller relative margin than this are left to 32 digits. Rounding errors can reach some 1e-14.
 const DOUBTFUL: f64 = 1e-9;
 
-/// What rounding may do to squared distances, in parts of the squared distance to the blocker, which they are made of.
+/// The rounding error of squared distances, as a fraction of the squared distance to the blocker from which they are
+/// computed.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
-/// Visibility of one light.
+/// The visibility of one light.
 pub struct Shadows {
-    /// Bits of the lanes of each vector that are lit by the horizon, that something certainly stands before, and that
-    /// something may stand before.
+    /// For each vector, the lanes above the light's horizon, those that are certainly blocked, and those that may be
+    /// blocked.
     lit: [u32; VECTORS],
     blocked: [u32; VECTORS],
     possible: [u32; VECTORS],
 }
 
-/// As many as there are with the shortest vectors, of two.
+/// The number of vectors of the shortest kind, which have two lanes.
 const VECTORS: usize = MOST / 2;
 
-/// A sphere that may stand in the light, in radii of the sphere whose light it is, from that one's centre.
+/// A sphere that may block the light, in units of the receiving sphere's radius, relative to its centre.
 struct Blocker {
     center: Vector,
     radius: f64,
 }
 
 impl Shadows {
-    /// Nothing known yet.
+    /// No lights tested yet.
     pub const NEW: Self = Self { lit: [0; VECTORS], blocked: [0; VECTORS], possible: [0; VECTORS] };
 
-    /// v_j of the pixels of a group: 1 where they see a light, 0 where they do not, in `visible`; false if all are
-    /// beyond its horizon. What is in doubt is in [`doubtful`](Self::doubtful).
+    /// Computes v_j of the pixels of a group into `visible`: 1 where they see a light, 0 where they do not. Returns false if
+    /// all of them are below its horizon. Lanes in doubt are given by [`doubtful`](Self::doubtful).
     #[inline(always)]
     pub fn find<S, D>(
         &mut self,
@@ -71,13 +72,13 @@ impl Shadows {
         true
     }
 
-    /// The lanes of a vector of which nothing certain is known.
+    /// The lanes of a vector for which the answer is uncertain.
     #[inline(always)]
     pub fn doubtful(&self, vector: usize) -> u32 {
         self.lit[vector] & self.possible[vector] & !self.blocked[vector]
     }
 
-    /// Which lanes face the light, and the box around what they see.
+    /// Finds the lanes that face the light, and the box around their points.
     #[inline(always)]
     fn horizon<D: Lane<Element = f64>>(
         &mut self,
@@ -109,7 +110,7 @@ impl Shadows {
         Some([least, greatest])
     }
 
-    /// Goes through what is in the tube to the light, until no pixel sees it.
+    /// Tests the spheres in the tube to the light, until no pixel sees the light any more.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "none of them belongs to another")]
     fn search<S, D>(
@@ -127,7 +128,7 @@ impl Shadows {
     {
         let SurfaceBlock { anchor: center, unit: radius, .. } = *points;
         let middle = (least + greatest) * 0.5;
-        // What is in doubt may be a little outside.
+        // Pixels in doubt may be slightly outside.
         let half = (greatest - least) * (0.5 + 1e-6) + Vector::new(1e-6, 1e-6, 1e-6);
         let axis = light - middle;
         let tree = scene.accelerator();
@@ -152,7 +153,7 @@ impl Shadows {
             let to_light = light - blocker.center;
             let nearest = blocker.radius * blocker.radius * (1.0 + DOUBTFUL);
             if to_light.dot(to_light) * (1.0 - ROUNDING) <= nearest {
-                // The light is within the blocker, or on its surface.
+                // The light is inside the blocker, or on its surface.
                 self.possible.fill(u32::MAX);
                 return;
             }
@@ -162,7 +163,7 @@ impl Shadows {
         }
     }
 
-    /// Tests a blocker; true if no pixel sees the light any more.
+    /// Tests a blocker; returns true if no pixel sees the light any more.
     #[inline(always)]
     fn block<D: Lane<Element = f64>>(
         &mut self,
@@ -189,7 +190,7 @@ impl Shadows {
             let along = to_blocker.dot(to_light);
             let distance = to_blocker.dot(to_blocker);
             let margin = rounding.mul_add(distance, margin);
-            // The squared distance of the blocker's centre from the ray, times that of the light.
+            // The squared distance of the blocker's centre from the ray, times the squared distance of the light.
             let across = (-along).mul_add(along, distance * length);
             let between = along.min(length - along);
             let certain = (squared - margin).mul_add(length, -across).min(between);
@@ -223,7 +224,7 @@ fn least_of<D: Lane<Element = f64>>(numbers: D) -> f64 {
     -greatest_of(-numbers)
 }
 
-/// A range of numbers, wide enough for some more.
+/// Extends a range of numbers to include more.
 #[inline(always)]
 fn widened<D: Lane<Element = f64>>([least, greatest]: [D; 2], is_lit: D::Mask, numbers: D, far: D) -> [D; 2] {
     [least.min(D::select(is_lit, numbers, far)), greatest.max(D::select(is_lit, numbers, -far))]

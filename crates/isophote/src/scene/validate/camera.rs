@@ -1,4 +1,4 @@
-//! The observer.
+//! Validates the camera.
 
 use super::Validator;
 use super::numbers::vector_text;

@@ -1,4 +1,4 @@
-//! Coefficients and strengths that may be three numbers.
+//! Validates coefficients and strengths that may be three numbers.
 
 use super::Validator;
 use crate::color::{ColorSpace, Component, Rgb};
@@ -9,12 +9,12 @@ use crate::scene::source::{Amount, SceneSource};
 use crate::scene::{Lighting, SceneColor};
 use crate::units::Keyword;
 
-/// Which one number an amount of three becomes.
+/// Which single number is taken from three.
 #[derive(Clone, Copy)]
 pub(super) enum ComponentSelector {
-    /// Its luminance (3.10), for listings.
+    /// The luminance (3.10), for listings.
     Luminance(ColorSpace),
-    /// What it has of a component.
+    /// One component.
     Component(Component),
 }
 
@@ -29,8 +29,8 @@ impl ComponentSelector {
 }
 
 impl Validator<'_> {
-    /// What depends on the component, of a scene in which any amount is written as three numbers; its other parts, and
-    /// all mistakes, have been found by then.
+    /// The parts that depend on the component, for a scene in which any amount is written as three numbers; all other parts,
+    /// and all mistakes, have been found by then.
     pub(super) fn color(&mut self, source: &SceneSource) -> Option<SceneColor> {
         let space = source.color_space.unwrap_or_default();
         if source.is_colored() {
@@ -39,7 +39,7 @@ impl Validator<'_> {
                 .is_empty()
                 .then(|| SceneColor { space, lighting: Rgb::from_fn(|component| self.lighting(source, component)) });
         }
-        // A triple that was written and not understood is a mistake already.
+        // A triple that could not be parsed is already a mistake.
         if source.color_space.is_some() && self.problems.is_empty() {
             let message = "`color_space` means nothing in a scene without colours";
             let help = "leave it out, or write a coefficient, an intensity, an irradiance or a radiance as [R, G, B]";
@@ -72,7 +72,7 @@ impl Validator<'_> {
         self.amount(path, amount, limits::COEFFICIENT, &format!("allowed: 0 to {}", limits::COEFFICIENT))
     }
 
-    /// An intensity, a power, an irradiance or a radiance.
+    /// An intensity, power, irradiance or radiance.
     pub(super) fn strength(&mut self, path: &Path, amount: Amount) -> Option<f64> {
         self.amount(path, amount, limits::INTENSITY, &format!("allowed: 0 to {:e}", limits::INTENSITY))
     }
@@ -89,14 +89,14 @@ impl Validator<'_> {
             Amount::Number(number) => is_allowed(path, number),
             Amount::Rgb(numbers) => {
                 let check = |(index, number)| is_allowed(&path.index(index), number);
-                // Not `all`, which stops at the first mistake.
+                // Not `all`, which would stop at the first mistake.
                 numbers.into_iter().enumerate().map(check).filter(|is_allowed| !is_allowed).count() == 0
             }
         };
         all_allowed.then(|| self.collapse.one(amount))
     }
 
-    /// How much a material reflects of what it receives; the most of all components.
+    /// The fraction of the incident light that a material reflects; the largest of all components.
     pub(super) fn most_reflected(diffuse: Amount, specular: Amount) -> (f64, Option<Component>) {
         let sum = |component| diffuse.of(component) + specular.of(component);
         if !diffuse.is_colored() && !specular.is_colored() {

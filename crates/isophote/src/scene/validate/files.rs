@@ -1,4 +1,4 @@
-//! Shapes that are read from files of their own.
+//! Validates shapes that are read from files of their own.
 
 use std::sync::Arc;
 
@@ -81,20 +81,20 @@ impl ShapeSource for SpheresSource {
             spheres.push(Sphere { center, radius });
         }
         let (slots, materials) = validator.slots(path, list.materials, self.material.is_some())?;
-        // A slot without a material was refused, as no other is given.
+        // A slot without a material was rejected, since no other material is given.
         let materials = slots.into_iter().filter_map(|slot| materials[usize::from(slot)]).collect();
         Some(Geometry::Spheres(Arc::new(Spheres::new(spheres, materials))))
     }
 }
 
-/// Shapes that an earlier scene has read from files, with what was written of them.
+/// Shapes that an earlier scene has read from files, with the source that they were read for.
 #[derive(Default)]
 pub(super) struct GeometryCache {
     meshes: Vec<(MeshForm, Geometry)>,
     clouds: Vec<(CloudForm, Geometry)>,
 }
 
-/// What of a mesh, as it is written, makes its geometry.
+/// The parts of a mesh's source that determine its geometry.
 #[derive(PartialEq)]
 struct MeshForm {
     file: Option<String>,
@@ -118,7 +118,7 @@ impl MeshForm {
     }
 }
 
-/// The same of a cloud.
+/// The parts of a cloud's source that determine its geometry.
 #[derive(PartialEq)]
 struct CloudForm {
     file: Option<String>,
@@ -132,7 +132,7 @@ impl CloudForm {
 }
 
 impl GeometryCache {
-    /// Those that would be read alike in another scene.
+    /// The shapes that another scene would read in the same way.
     pub(super) fn of(earlier: &Scene, source: &SceneSource) -> Self {
         let before = &earlier.source;
         let uses_material = source.convention.unwrap_or(Convention::Radiance).uses_material();
@@ -146,7 +146,7 @@ impl GeometryCache {
         let geometries = || earlier.shapes.iter().map(|shape| shape.geometry.clone());
         let meshes = geometries().filter(|geometry| matches!(geometry, Geometry::Mesh(_)));
         let clouds = geometries().filter(|geometry| matches!(geometry, Geometry::Spheres(_)));
-        // Shapes of a kind are in the order of the file.
+        // Shapes of one kind are in the order of the file.
         Self {
             meshes: before.mesh.iter().map(MeshForm::of).zip(meshes).collect(),
             clouds: before.spheres.iter().map(CloudForm::of).zip(clouds).collect(),
@@ -155,7 +155,7 @@ impl GeometryCache {
 }
 
 impl Validator<'_> {
-    /// What a file holds; a relative path starts at the scene file.
+    /// The contents of a file; relative paths start at the scene file.
     fn imported<T>(
         &mut self,
         path: &Path,
@@ -180,7 +180,7 @@ impl Validator<'_> {
         }
     }
 
-    /// The slot of each part and the scene's material of each slot; none of both where one material is given for all.
+    /// The slot of each part and the scene's material of each slot; both empty if one material is given for all.
     fn slots(
         &mut self,
         path: &Path,

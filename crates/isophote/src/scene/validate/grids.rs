@@ -1,4 +1,4 @@
-//! Grids, each for itself.
+//! Validates each grid by itself.
 
 use super::names::Names;
 use super::{Checked, Validator};
@@ -9,7 +9,7 @@ use crate::scene::limits;
 use crate::scene::source::{GridSource, SceneSource};
 use crate::vector::Vector;
 
-/// How far from a right angle the edges of a grid may be: the cosine between them.
+/// The allowed deviation of a grid's edges from a right angle: the cosine between them.
 const RIGHT_ANGLE: f64 = 1e-9;
 
 impl Validator<'_> {
@@ -56,7 +56,7 @@ impl Validator<'_> {
         Some(edge)
     }
 
-    /// The point that says where the grid is, and whether it is the corner.
+    /// The point that gives the grid's position, and whether it is the corner.
     fn grid_place(&mut self, path: &Path, grid: &GridSource) -> Option<(Vector, bool)> {
         match (grid.corner, grid.center) {
             (Some(corner), None) => Some((self.point(&path.key("corner"), corner)?, true)),

@@ -1,4 +1,4 @@
-//! Lights, each for itself.
+//! Validates each light by itself.
 
 use super::names::Names;
 use super::{Checked, Validator};
@@ -19,7 +19,7 @@ impl Validator<'_> {
             let path = Path::root().key("light").index(index);
             let name = names.check(self, &path, light.name.as_deref());
             if self.problems.has(&path.key("emission")) {
-                // Which keys it needs is not known.
+                // It is unknown which keys it needs.
                 return None;
             }
             let emission = light.emission.unwrap_or(EmissionName::Isotropic);
@@ -91,7 +91,7 @@ impl Validator<'_> {
         let inner = angle("inner_angle", light.inner_angle, "inside, the spot has its full intensity");
         let outer = angle("outer_angle", light.outer_angle, "outside, the spot sends nothing");
         let [inner, outer] = [inner?, outer?];
-        // So that a difference that is written as half a degree is one.
+        // So that a difference written as half a degree counts as one.
         if outer - inner < limits::CONE_STEP * (1.0 - 1e-9) {
             let message = format!("`{path}` has cones from {inner} to {outer} degrees");
             let help = format!("allowed: `outer_angle` at least {} degrees more than `inner_angle`", limits::CONE_STEP);
@@ -138,7 +138,7 @@ impl Validator<'_> {
         Some(ParallelLight { direction: direction?.normalized(), irradiance: irradiance? })
     }
 
-    /// A key that belongs to lights of another emission.
+    /// Rejects keys that belong to lights with another emission.
     fn refuse_keys_without_meaning(&mut self, path: &Path, light: &LightSource, emission: EmissionName) {
         use EmissionName::{Isotropic, Lambertian, Parallel, Spot};
         const POINT: &[EmissionName] = &[Isotropic, Lambertian, Spot];

@@ -1,4 +1,4 @@
-//! Materials.
+//! Validates materials.
 
 use super::{Checked, Validator};
 use crate::reflectance::{Convention, Reflectance};
@@ -42,7 +42,7 @@ impl Validator<'_> {
         Some(Material { name: name.into(), reflectance })
     }
 
-    /// The index of a material by its name; none where the convention needs none.
+    /// The index of a material by its name; `None` if the convention needs no material.
     pub(super) fn material_of(
         &mut self,
         path: &Path,
@@ -71,7 +71,7 @@ impl Validator<'_> {
     }
 }
 
-/// What is wrong has been noted already.
+/// A mistake that has already been reported.
 pub(super) struct Reported;
 
 fn listed(known: &[&str]) -> String {

@@ -1,4 +1,4 @@
-//! From what is written to what is valid: every check of a scene, once.
+//! From a scene as written to a valid scene: every check, once.
 
 mod camera;
 mod color;
@@ -27,7 +27,8 @@ use crate::reflectance::Convention;
 use crate::scene::Sampling;
 use crate::units::{LengthUnit, ScreenUnit, UnitSystem};
 
-/// Checks a scene, given what is already known to be wrong with it. Files that an earlier one has read alike are not read again.
+/// Checks a scene, given the problems that are already known. Files that an earlier scene has read in the same way are not
+/// read again.
 pub(super) fn validate(
     source: SceneSource,
     files: &dyn Resolver,
@@ -83,18 +84,18 @@ pub(super) fn validate(
     }
 }
 
-/// Lists keep the places of items that are wrong, as `None`, so that indices stay those of the file.
+/// Lists keep the positions of invalid items as `None`, so that indices match the file.
 type Checked<T> = Vec<Option<T>>;
 
 struct Validator<'f> {
     length: LengthUnit,
     convention: Convention,
     shadows: bool,
-    /// Which one number three become.
+    /// How three numbers become one.
     collapse: ComponentSelector,
-    /// Those that the scene names.
+    /// The files that the scene names.
     files: &'f dyn Resolver,
-    /// The names of the materials, in their order.
+    /// The names of the materials, in order.
     materials: Vec<String>,
     /// What need not be read again.
     kept: files::GeometryCache,
@@ -116,7 +117,7 @@ impl Validator<'_> {
         }
     }
 
-    /// A default in place of what is wrong, which has been noted by then.
+    /// Returns defaults in place of wrong values, which have been reported by then.
     fn sampling(&mut self, source: &SceneSource) -> Sampling {
         let Some(written) = &source.sampling else { return Sampling::default() };
         let path = Path::root().key("sampling");
@@ -133,7 +134,7 @@ impl Validator<'_> {
         }
     }
 
-    /// The key `samples` of a table.
+    /// Checks the key `samples` of a table.
     fn samples(&mut self, table: &Path, written: u64) -> Option<u32> {
         let samples = u32::try_from(written).ok().filter(|samples| (1..=limits::SAMPLES).contains(samples));
         if samples.is_none() {
@@ -224,7 +225,7 @@ impl Validator<'_> {
     }
 }
 
-/// A few digits, for messages.
+/// A number with a few digits, for messages.
 fn rounded(value: f64) -> String {
     let text = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
     format!("{text}")

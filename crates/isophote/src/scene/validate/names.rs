@@ -1,4 +1,4 @@
-//! Names, which must differ among things of one kind.
+//! Validates names, which must differ among items of one kind.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use super::Validator;
 use crate::scene::document::Path;
 use crate::scene::problems::short;
 
-/// Names of one kind of thing, which must differ.
+/// Names of one kind of item, which must differ.
 pub(super) struct Names {
     kind: &'static str,
     seen: HashMap<String, Path>,
@@ -17,7 +17,7 @@ impl Names {
         Self { kind, seen: HashMap::new() }
     }
 
-    /// The name of the thing at a path, or the default one, which is that path.
+    /// The name of the item at a path, or the default, which is that path.
     pub(super) fn check(&mut self, validator: &mut Validator<'_>, thing: &Path, name: Option<&str>) -> Option<String> {
         let name = name.map_or_else(|| thing.to_string(), str::to_owned);
         let path = thing.key("name");

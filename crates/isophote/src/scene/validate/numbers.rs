@@ -1,4 +1,4 @@
-//! Points, sizes, directions and fractions.
+//! Validates points, sizes, directions and fractions.
 
 use super::Validator;
 use crate::scene::document::Path;
@@ -37,7 +37,7 @@ impl Validator<'_> {
         self.size(&path.key(key), size)
     }
 
-    /// Three sizes, all of whose mistakes are reported.
+    /// Three sizes; all of their mistakes are reported.
     pub(super) fn required_sizes(&mut self, path: &Path, key: &str, sizes: Option<[f64; 3]>) -> Option<Vector> {
         let Some([x, y, z]) = sizes else {
             self.problems.missing(path, key, format!("write `{key} = [x, y, z]`, lengths above 0"));
@@ -75,12 +75,12 @@ impl Validator<'_> {
             self.wrong(path, message, "allowed: any direction, of any length from 1e-100 to 1e100");
             return None;
         }
-        // By a power of two, which changes no digit: the squares then neither vanish nor overflow.
+        // Scaled by a power of two, which changes no digits, so that the squares neither underflow nor overflow.
         let scale = libm::exp2(-libm::floor(libm::log2(largest)));
         Some(Vector::from(direction.map(|component| component * scale)))
     }
 
-    /// A direction that is given itself or by the point it leads to.
+    /// A direction that is given directly or by a target point.
     pub(super) fn direction_or_target(
         &mut self,
         path: &Path,

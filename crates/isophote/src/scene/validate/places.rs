@@ -1,4 +1,4 @@
-//! Where things stand to each other.
+//! Validates where items are relative to each other.
 
 use super::{Checked, Validator};
 use crate::camera::{Camera, Projection};
@@ -71,7 +71,7 @@ impl Validator<'_> {
     }
 
     pub(super) fn probes_against_shapes(&mut self, probes: &Checked<Probe>, shapes: &Checked<Shape>) {
-        // With a shape missing, its probes would be called wrong for nothing.
+        // If a shape is missing, its probes would wrongly be reported as well.
         let is_wrong = |kind: &&str| self.problems.has(&Path::root().key(kind));
         if shapes.iter().any(Option::is_none) || super::shapes::KINDS.iter().any(is_wrong) {
             return;

@@ -1,4 +1,4 @@
-//! Probes.
+//! Validates probes.
 
 use super::names::Names;
 use super::{Checked, Validator};

@@ -1,4 +1,4 @@
-//! How the camera sees: each projection with the keys that belong to it.
+//! Validates the projection of the camera, with the keys that belong to each kind.
 
 use super::Validator;
 use crate::camera::{Extent, Fisheye, Mapping, Projection, Screen};
@@ -8,7 +8,7 @@ use crate::scene::limits;
 use crate::scene::source::{CameraSource, ProjectionName, ScreenSource, WindowSource};
 use crate::units::Keyword;
 
-/// The least width and height of a panorama, in degrees.
+/// The smallest width and height of a panorama, in degrees.
 const NARROWEST: f64 = 1e-6;
 
 impl Validator<'_> {
@@ -19,7 +19,7 @@ impl Validator<'_> {
         resolution: Option<Resolution>,
     ) -> Option<Projection> {
         if self.problems.has(&path.key("projection")) {
-            // Which keys it needs is not known.
+            // It is unknown which keys it needs.
             return None;
         }
         let name = camera.projection.unwrap_or(ProjectionName::Perspective);

@@ -1,4 +1,4 @@
-//! Shapes, each for itself.
+//! Validates each shape by itself.
 
 use std::sync::Arc;
 
@@ -19,12 +19,12 @@ use crate::vector::Vector;
 pub(super) const KINDS: [&str; 10] =
     ["sphere", "ellipsoid", "box", "cylinder", "cone", "plane", "rectangle", "disk", "mesh", "spheres"];
 
-/// A shape as it is written, of any kind.
+/// A shape of any kind, as written.
 pub(super) trait ShapeSource {
-    /// Its name, its material's, and what it has to do with shadows.
+    /// Its name, the name of its material, and its shadow settings.
     fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource);
 
-    /// Whether its form comes from a file, which may name materials of its parts.
+    /// Whether its form comes from a file, which may name materials for its parts.
     fn is_from_file(&self) -> bool {
         false
     }
@@ -33,7 +33,7 @@ pub(super) trait ShapeSource {
     fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry>;
 }
 
-/// [`ShapeSource::head`], of the fields that all have.
+/// Implements [`ShapeSource::head`] from the fields that all shapes have.
 macro_rules! shape_head {
     () => {
         fn head(&self) -> (Option<&str>, Option<&str>, ShadowSource) {
@@ -43,7 +43,7 @@ macro_rules! shape_head {
 }
 pub(super) use shape_head;
 
-/// All shapes that are written, with their paths.
+/// All shapes as written, with their paths.
 fn written(source: &SceneSource) -> impl Iterator<Item = (Path, &dyn ShapeSource)> {
     fn of_kind<'s, S: ShapeSource + 's>(
         kind: &str,
@@ -65,12 +65,12 @@ fn written(source: &SceneSource) -> impl Iterator<Item = (Path, &dyn ShapeSource
         .chain(of_kind(spheres, &source.spheres))
 }
 
-/// The names of the materials that shapes are made of, one for each shape that names one.
+/// The names of the materials that shapes use, one for each shape that names one.
 pub(super) fn materials_in_use(source: &SceneSource) -> impl Iterator<Item = &str> {
     written(source).filter_map(|(_, shape)| shape.head().1)
 }
 
-/// How many shapes are written.
+/// The number of shapes as written.
 pub(super) fn count(source: &SceneSource) -> usize {
     written(source).count()
 }
@@ -88,7 +88,8 @@ impl Validator<'_> {
             let (name, material, shadow) = shape.head();
             let name = names.check(self, &path, name);
             let geometry = shape.geometry(self, &path);
-            // Parts with materials of their own need no other; whether they have is not known of a file that is wrong.
+            // If all parts have materials of their own, no other is needed; for a faulty file it is unknown whether they
+            // have.
             let has_own = geometry.as_ref().map_or(shape.is_from_file(), Geometry::has_own_materials);
             let material =
                 if has_own && material.is_none() { Ok(None) } else { self.material_of(&path, material, &known) };
@@ -100,7 +101,7 @@ impl Validator<'_> {
     pub(super) fn rotation(&mut self, path: &Path, rotation: Option<RotationSource>) -> Option<Rotation> {
         let path = path.key("rotation");
         let Some(RotationSource { axis, degrees }) = rotation else {
-            // It may have been written and not understood.
+            // It may have been written but not understood.
             return (!self.problems.has(&path)).then_some(Rotation::NONE);
         };
         let axis = self.required_direction(&path, "axis", axis);
@@ -110,7 +111,7 @@ impl Validator<'_> {
         Some(Rotation::about(axis?, degrees?))
     }
 
-    /// The two ends of something that has a length between them.
+    /// The two ends of something with a length in between.
     fn ends(&mut self, path: &Path, keys: [&str; 2], points: [Option<[f64; 3]>; 2]) -> Option<[Vector; 2]> {
         let first = self.required_point(path, keys[0], points[0]);
         let second = self.required_point(path, keys[1], points[1]);
@@ -123,7 +124,7 @@ impl Validator<'_> {
         Some([first, second])
     }
 
-    /// A direction at right angles to a shape, and one in it.
+    /// A direction perpendicular to a shape, and one in its plane.
     fn facing(&mut self, path: &Path, rectangle: &RectangleSource) -> Option<[Vector; 2]> {
         let normal = self.required_direction(path, "normal", rectangle.normal);
         let up = self.direction(&path.key("up"), rectangle.up.unwrap_or([0.0, 1.0, 0.0]));

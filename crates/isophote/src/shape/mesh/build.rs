@@ -1,61 +1,60 @@
-//! From the triangles of a file to a mesh that stands in a scene.
+//! From the triangles of a file to a mesh in a scene.
 
 use super::Mesh;
 use crate::shape::{Bounds, Rotation};
 use crate::vector::Vector;
 
-/// The triangles as a file has them, in its own axes and unit.
+/// The triangles as stored in a file, in its own axes and unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshData {
     /// Positions.
     pub vertices: Vec<[f64; 3]>,
     /// The corners of each triangle: indices into `vertices`.
     pub triangles: Vec<[u32; 3]>,
-    /// Directions for smooth shading, if any; of any length, but zero for none (the triangle's own normal then stands
-    /// there).
+    /// Directions for smooth shading, if any; of any length, with zero for none (the triangle's own normal is used there).
     pub normals: Option<CornerNormals>,
-    /// The slot of each triangle: an index into `materials`. Empty where all have the shape's own material.
+    /// The slot of each triangle: an index into `materials`. Empty if all use the shape's own material.
     pub slots: Vec<u16>,
-    /// The material of each slot; none stands for the shape's own.
+    /// The material of each slot; `None` stands for the shape's own.
     pub materials: Vec<Option<u32>>,
 }
 
-/// A direction for each corner of each triangle. Triangles for which the file gives none, while it gives some for others,
-/// have that of their plane.
+/// A direction for each corner of each triangle. Triangles without normals, in a file that has normals for others, get the
+/// normal of their plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornerNormals {
     /// Unit vectors, no two equal.
     pub vectors: Vec<[f64; 3]>,
-    /// Each triangle's three: indices into `vectors`.
+    /// The three normals of each triangle: indices into `vectors`.
     pub corners: Vec<[u32; 3]>,
 }
 
-/// What is done with the triangles of a file, in this order.
+/// The transformations of a file's triangles, in this order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshPlacing {
     /// Factors along the file's axes, positive: metres per unit of the file.
     pub scale: Vector,
-    /// Then they are turned.
+    /// The rotation that follows.
     pub rotation: Rotation,
-    /// Then moved to where this is their origin, in metres.
+    /// Finally, the position of their origin, in metres.
     pub position: Vector,
 }
 
-/// Why triangles make no mesh.
+/// Why the triangles do not make a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
-    /// A factor that would flatten or mirror it.
+    /// A scale factor that would flatten or mirror the mesh.
     #[error("the scale is {scale}; allowed: finite numbers above 0")]
     Scale {
         /// The factor.
         scale: f64,
     },
-    /// A position or direction that is none.
+    /// A coordinate that is not finite.
     #[error("{what} {index} has the coordinate {value}; allowed: finite numbers")]
     NotFinite {
         /// `vertex` or `normal`.
         what: &'static str,
-        /// Which.
+        /// Its index.
         index: usize,
         /// The coordinate.
         value: f64,
@@ -63,43 +62,43 @@ pub enum MeshError {
     /// A corner that does not exist.
     #[error("triangle {triangle} refers to {what} {index}; there are {count}, counted from 0")]
     OutOfRange {
-        /// Which triangle.
+        /// Index of the triangle.
         triangle: usize,
         /// `vertex`, `normal` or `material slot`.
         what: &'static str,
-        /// To which.
+        /// The index that it refers to.
         index: usize,
-        /// How many there are.
+        /// The number of elements.
         count: usize,
     },
-    /// Lists that should have an entry for each triangle and have not.
+    /// A list that should have one entry per triangle but does not.
     #[error("there are {count} {what} for {triangles} triangles")]
     Lengths {
         /// `triples of normals` or `material slots`.
         what: &'static str,
-        /// How many.
+        /// The number of entries.
         count: usize,
-        /// How many triangles.
+        /// The number of triangles.
         triangles: usize,
     },
-    /// Nothing that could be seen.
+    /// A mesh with nothing visible.
     #[error("it has no triangle with an area ({without_area} without)")]
     Empty {
-        /// How many triangles there are without one.
+        /// The number of triangles without area.
         without_area: usize,
     },
-    /// More than 32 bits can count.
+    /// More triangles than 32 bits can count.
     #[error("it has {triangles} triangles; allowed: at most {}", u32::MAX)]
     TooMany {
-        /// How many.
+        /// The number of triangles.
         triangles: usize,
     },
 }
 
 impl Mesh {
-    /// Puts the triangles of a file in their place. Normals stay at right angles to the surface whatever the scale: each
-    /// of their components is divided by the factor of its axis, since a plane's normal turns the other way than its
-    /// tangents. Triangles without area are left out and counted.
+    /// Transforms the triangles of a file into the scene. Normals stay perpendicular to the surface under any scale: each of
+    /// their components is divided by the factor of its axis, because normals transform inversely to tangents. Triangles
+    /// without area are left out and counted.
     ///
     /// # Errors
     /// [`MeshError`]: a scale, an index or a coordinate that is not allowed; no triangle with an area.
@@ -181,7 +180,7 @@ fn same_length(what: &'static str, count: usize, triangles: usize) -> Result<(),
     if count == triangles { Ok(()) } else { Err(MeshError::Lengths { what, count, triangles }) }
 }
 
-/// The items whose triangle is kept; a list without items has none to lose.
+/// Keeps the items of kept triangles; an empty list stays empty.
 fn keep<T>(items: &mut Vec<T>, is_kept: &[bool]) {
     let mut is_kept = is_kept.iter();
     items.retain(|_| is_kept.next().is_none_or(|kept| *kept));
@@ -197,19 +196,19 @@ fn turned_normal(matrix: &[Vector; 3], normal: Vector, scale: Vector) -> Vector 
     if largest == 0.0 {
         return normal;
     }
-    // Divided first by what is largest: the squares then neither vanish nor overflow.
+    // Divided by the largest component first, so that the squares neither underflow nor overflow.
     let least_scale = scale.x.min(scale.y).min(scale.z);
     let part = |component: f64, scale: f64| component / largest * (least_scale / scale);
     let scaled = Vector::new(part(normal.x, scale.x), part(normal.y, scale.y), part(normal.z, scale.z));
     turned(matrix, scaled.normalized())
 }
 
-/// Whether a triangle is wider than a billionth of a thousandth of its longest side: less is nothing but rounding.
+/// Whether a triangle is wider than a billionth of a thousandth of its longest side: anything less is only rounding error.
 fn has_area(vertices: &[[f64; 3]], corners: [u32; 3]) -> bool {
     let [a, b, c] = corners.map(|index| Vector::from(vertices[index as usize]));
     let sides = [b - a, c - b, a - c];
     let longest = sides.map(Vector::length).into_iter().fold(0.0, f64::max);
-    // Squares of what is smaller than this vanish.
+    // The squares of smaller numbers underflow.
     let part = |side: Vector| side * (1.0 / longest);
     longest > 1e-150 && part(sides[0]).cross(part(sides[2])).length() > 1e-12
 }

@@ -13,23 +13,24 @@ use crate::vector::Vector;
 pub use build::{CornerNormals, MeshData, MeshError, MeshPlacing};
 use triangle::Triangle;
 
-/// Triangles that share their corners: the parts of the shape. Lean, as there may be millions: two lists of numbers.
+/// Triangles that share their corners: the parts of the shape. Stored compactly, since there may be millions: two lists of
+/// numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     vertices: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
     normals: Option<CornerNormals>,
-    /// The slot of each triangle; empty where all have the shape's own material.
+    /// The slot of each triangle; empty if all use the shape's own material.
     slots: Vec<u16>,
-    /// The material of each slot; none stands for the shape's own.
+    /// The material of each slot; `None` stands for the shape's own.
     materials: Vec<Option<u32>>,
-    /// How many triangles without area were left out.
+    /// The number of triangles without area that were left out.
     left_out: usize,
     bounds: Bounds,
 }
 
 impl Mesh {
-    /// How a ray meets one of its triangles; see `Triangle::meet`.
+    /// Intersects a ray with one of its triangles; see `Triangle::intersect`.
     pub fn intersect<T: Scalar>(&self, part: u32, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         self.triangle(part).intersect(ray, accuracy, self.size())
     }
@@ -43,20 +44,20 @@ impl Mesh {
         Triangle { corners, normals }
     }
 
-    /// How many triangles there are.
+    /// The number of triangles.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "`new` refuses more than 32 bits can count")]
     pub fn parts(&self) -> u32 {
         self.triangles.len() as u32
     }
 
-    /// How many triangles without area were left out.
+    /// The number of triangles without area that were left out.
     #[must_use]
     pub fn left_out(&self) -> usize {
         self.left_out
     }
 
-    /// The material of a triangle, where it has its own.
+    /// The material of a triangle, if it has its own.
     #[must_use]
     pub fn material_of(&self, part: u32) -> Option<usize> {
         let slot = *self.slots.get(part as usize)?;
@@ -81,7 +82,7 @@ impl Mesh {
         distances.min_by(|first, second| first.1.total_cmp(&second.1)).unwrap_or((0, f64::INFINITY))
     }
 
-    /// The box around one of its triangles.
+    /// The bounding box of one of its triangles.
     #[must_use]
     pub fn part_bounds(&self, part: u32) -> Bounds {
         let corners = self.triangle(part).corners;
@@ -90,20 +91,20 @@ impl Mesh {
             .into_iter()
             .fold(Bounds { least: corners[0], greatest: corners[0] }, Bounds::union)
     }
-    /// Half the diagonal of the box around it, in metres.
+    /// Half the diagonal of its bounding box, in metres.
     #[must_use]
     pub fn size(&self) -> f64 {
         0.5 * (self.bounds.greatest - self.bounds.least).length()
     }
 
-    /// How far away a point is, in sizes.
+    /// The distance of a point, in sizes.
     #[must_use]
     pub fn relative_distance(&self, point: Vector) -> f64 {
         let middle = self.bounds.least * 0.5 + self.bounds.greatest * 0.5;
         (point - middle).length() / self.size()
     }
 
-    /// What describes it.
+    /// The values that describe it.
     #[must_use]
     pub fn measures(&self) -> Vec<(&'static str, Measure)> {
         vec![

@@ -1,4 +1,4 @@
-//! Meshes in scenes: against exact arithmetic, and in their own light.
+//! Meshes in scenes: compared with exact arithmetic, and lit without shadowing themselves.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ fn ball(is_smooth: bool) -> Mesh {
         let (ring, height) = (std::f64::consts::PI * f64::from(row) / f64::from(rows)).sin_cos();
         for column in 0..columns {
             let (sine, cosine) = (std::f64::consts::TAU * f64::from(column) / f64::from(columns)).sin_cos();
-            // The poles are one point each, of which only triangles without area are made.
+            // The poles are single points, so their triangles without area are left out.
             let ring = if row == 0 || row == rows { 0.0 } else { ring };
             data.vertices.push([ring * cosine, height, ring * sine]);
         }
@@ -80,7 +80,7 @@ fn irradiance(scene: &PreparedScene) -> Vec<f64> {
     (0..map.region.size.pixels()).map(|index| values.at(index)).collect()
 }
 
-/// Its triangles touch along edges, and none stands in another one's light.
+/// Its triangles touch along edges, and none blocks another's light.
 #[test]
 fn a_convex_mesh_alone_casts_no_shadow_on_itself() {
     let [with, without] = [true, false].map(|shadows| irradiance(&scene(ball(false), shadows, "")));
@@ -88,8 +88,8 @@ fn a_convex_mesh_alone_casts_no_shadow_on_itself() {
     assert_eq!(with, without);
 }
 
-/// What is dark with shadows and light without is only a thin band at the terminator, where the triangles face away
-/// though their normals do not; and no triangle stands out.
+/// The points that are dark with shadows and lit without them form only a thin band at the terminator, where the triangles
+/// face away although their normals do not; no single triangle stands out.
 #[test]
 fn the_terminator_of_a_smooth_mesh_is_not_cut_by_its_triangles() {
     let [with, without] = [true, false].map(|shadows| irradiance(&scene(ball(true), shadows, "")));

@@ -14,23 +14,23 @@ pub struct Triangle {
     pub normals: Option<[Vector; 3]>,
 }
 
-/// Where a ray crosses the plane of a triangle, by the weights of its corners.
+/// Where a ray crosses the plane of a triangle, as weights of its corners.
 struct Crossing<T> {
-    /// Of the corners; they sum to 1.
+    /// The weights of the corners; they sum to 1.
     weights: [T; 3],
-    /// In metres.
+    /// The distance, in metres.
     distance: T,
-    /// What rounding may have cost a weight: a quarter of the bound by which hit and miss are told apart.
+    /// The possible rounding error of a weight: a quarter of the bound that decides between hit and miss.
     error: f64,
 }
 
 impl Triangle {
-    /// The corners as seen along the ray: in the plane across it, which of the three edges has the ray on which side
-    /// decides, and the same products give the weights of the corners (2.5).
+    /// Projects the corners along the ray: in the plane across it, the test is on which side of the ray each of the three
+    /// edges lies, and the same products give the weights of the corners (2.5).
     ///
-    /// What an edge says depends on nothing but its two corners and the ray, and the neighbour that shares it computes the
-    /// same number with the other sign: with ties counting as hits, a ray cannot slip between the two (Woop, Benthin and
-    /// Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013).
+    /// The result for an edge depends only on its two corners and the ray, and the neighbour that shares the edge computes
+    /// the same number with the opposite sign: since ties count as hits, a ray cannot slip between the two (Woop, Benthin
+    /// and Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013).
     pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy, mesh_size: f64) -> Intersection<T> {
         let (crossing, doubtful_from) = self.cross(ray);
         let Some(crossing) = crossing else {
@@ -63,12 +63,12 @@ impl Triangle {
         Intersection { hit: Some(hit), doubtful_from }
     }
 
-    /// Where the ray crosses the triangle, and from where on that is doubtful.
+    /// Where the ray crosses the triangle, and the distance from which that is doubtful.
     fn cross<T: Scalar>(&self, ray: &Ray<T>) -> (Option<Crossing<T>>, Option<f64>) {
         let corners = self.corners.map(|corner| (-ray.start_from(corner)).to_array());
         let direction = ray.direction.to_array();
         let steepness = direction.map(|component| component.rounded().abs());
-        // The axis along which the ray advances most: the others are sheared until it runs straight along it.
+        // The dominant axis of the ray: the other two are sheared so that the ray runs straight along it.
         let ahead = (0..3).max_by(|first, second| steepness[*first].total_cmp(&steepness[*second])).unwrap_or(0);
         let [right, up] = [(ahead + 1) % 3, (ahead + 2) % 3];
         let inverse = T::from_f64(1.0) / direction[ahead];
@@ -104,30 +104,30 @@ impl Triangle {
         (is_seen.then_some(Crossing { weights, distance, error: 0.25 * error }), doubtful_from)
     }
 
-    /// From the first corner to the others.
+    /// The vectors from the first corner to the others.
     #[inline(always)]
     fn sides<T: Scalar>(&self) -> [Vector<T>; 2] {
         let from_first = |corner: usize| Vector::from_f64(self.corners[corner]) - Vector::from_f64(self.corners[0]);
         [from_first(1), from_first(2)]
     }
 
-    /// The normals of the corners, mixed by their weights. They say which side of the triangle is the front; then all
-    /// are turned to the viewer's side together.
+    /// The normals of the corners, interpolated by the weights. They determine which side of the triangle is the front; then
+    /// all of them are turned to the viewer's side together.
     fn smooth<T: Scalar>(&self, face: Vector<T>, weights: &[T; 3], is_back: bool) -> Smooth<T> {
         let given = self.normals.map_or([face; 3], |normals| normals.map(Vector::from_f64));
         let has_none = |normal: Vector<T>| normal.dot(normal).rounded() == 0.0;
         let filled = given.map(|normal| if has_none(normal) { face } else { normal });
         let mixed = filled[0] * weights[0] + filled[1] * weights[1] + filled[2] * weights[2];
-        // Normals that cancel each other say nothing.
+        // Normals that cancel each other carry no information.
         let (corners, mixed) = if mixed.dot(mixed).rounded() < 1e-12 { ([face; 3], face) } else { (filled, mixed) };
         let faces_other_side = mixed.dot(face).is_less(T::zero());
         let turn = |normal: Vector<T>| if is_back == faces_other_side { normal } else { -normal };
         Smooth { normal: turn(mixed.normalized()), corners: corners.map(turn) }
     }
 
-    /// The way out of the triangle up to the smooth surface that its normals pretend: above the tangent planes of all
-    /// three corners. Shadow rays start there, or the triangles themselves would show at the terminator (Hanika, "Hacking
-    /// the shadow terminator", Ray Tracing Gems II, 2021).
+    /// The offset from the triangle to the smooth surface that its normals suggest: above the tangent planes of all three
+    /// corners. Shadow rays start there, or the triangles themselves would show at the terminator (Hanika, "Hacking the
+    /// shadow terminator", Ray Tracing Gems II, 2021).
     fn shadow_ray_offset<T: Scalar>(&self, smooth: &Smooth<T>, weights: &[T; 3], offset: Vector<T>) -> Vector<T> {
         let [second, third] = self.sides();
         let mut shadow_ray_offset = Vector::zero();
@@ -144,7 +144,7 @@ impl Triangle {
         (place - self.nearest_place(place).1).length()
     }
 
-    /// The point of it nearest to a point, with its front outward.
+    /// The point of it nearest to a given point, with its front outward.
     pub fn nearest(&self, point: Vector) -> NearestPoint {
         let (weights, offset) = self.nearest_place(point - self.corners[0]);
         let [second, third] = self.sides::<f64>();
@@ -167,8 +167,8 @@ impl Triangle {
         }
     }
 
-    /// The weights of the nearest point and its place, from the first corner: by the region in which the point lies
-    /// (Ericson, "Real-time collision detection", 5.1.5).
+    /// The weights of the nearest point and its position relative to the first corner, found from the region in which the
+    /// point lies (Ericson, "Real-time collision detection", 5.1.5).
     fn nearest_place(&self, place: Vector) -> ([f64; 3], Vector) {
         let [b, c] = self.sides::<f64>();
         let (to_a, to_b, to_c) = (place, place - b, place - c);
@@ -199,8 +199,8 @@ impl Triangle {
 
 /// The normals on the viewer's side.
 struct Smooth<T> {
-    /// Mixed, a unit vector.
+    /// Interpolated, a unit vector.
     normal: Vector<T>,
-    /// Of the corners.
+    /// The normals of the corners.
     corners: [Vector<T>; 3],
 }

@@ -1,4 +1,4 @@
-//! Numbers of glTF's buffers: buffer, view of a buffer, accessor of a view, each within the one before.
+//! Numbers in glTF buffers: an accessor of a view of a buffer, each within the bounds of the one before.
 
 use super::{
     document::{Accessor, Document},
@@ -34,7 +34,7 @@ impl Buffers<'_> {
         Ok(vectors)
     }
 
-    /// Indices of that many vertices.
+    /// Indices into that many vertices.
     pub fn indices(&self, index: usize, vertices: usize) -> Result<Vec<usize>, Fault> {
         let (accessor, place) = self.accessor(index)?;
         let allowed = [UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT];
@@ -63,7 +63,7 @@ impl Buffers<'_> {
         Ok((follow(&self.document.accessors, index, "a primitive", "an accessor")?, place))
     }
 
-    /// The bytes of each of an accessor's elements.
+    /// The bytes of each element of an accessor.
     fn rows(
         &self,
         accessor: &Accessor,
@@ -89,7 +89,7 @@ impl Buffers<'_> {
             let (what, allowed) = ("byteStride".into(), format!("{size} to 252"));
             return Err(at(FileProblem::Unexpected { what, found: stride.to_string(), allowed }));
         }
-        // After the last element no gap is needed.
+        // No gap is needed after the last element.
         let needed = match accessor.count {
             0 => 0,
             count => u128::from(count - 1) * u128::from(stride) + size as u128,

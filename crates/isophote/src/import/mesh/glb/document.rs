@@ -1,11 +1,11 @@
-//! What bears on the shape in a glTF document.
+//! The parts of a glTF document that affect the shape.
 
 use serde::Deserialize;
 
 use super::{follow, transform::Transform};
 use crate::import::{Fault, FilePosition, FileProblem, text::shown};
 
-/// The root of the JSON. Keys that are not here say nothing about shape.
+/// The root of the JSON. Keys that are not listed here do not affect the shape.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Document {
@@ -70,7 +70,7 @@ pub(super) struct Primitive {
     pub mode: u64,
 }
 
-/// The mode that glTF takes where none is given.
+/// The default mode of glTF.
 fn triangles() -> u64 {
     4
 }
@@ -125,7 +125,7 @@ impl Document {
         })
     }
 
-    /// Whether the shape is what its numbers say: nothing of it is compressed, and no pose or morph changes it.
+    /// Checks that the numbers describe the shape directly: nothing is compressed, and no pose or morph target changes it.
     pub fn check_supported(&self) -> Result<(), Fault> {
         let unsupported = |place: String, what: String, instead| {
             Err(FileProblem::Unsupported { what, instead }.at(FilePosition::Json(place)))
@@ -157,7 +157,7 @@ impl Document {
         Ok(())
     }
 
-    /// The nodes of the scene (the default one, else the first) with their transforms, parents before children.
+    /// The nodes of the scene (the default one, otherwise the first) with their transforms, parents before children.
     pub fn placed_nodes(&self) -> Result<Vec<(usize, Transform)>, Fault> {
         let scene = follow(&self.scenes, self.scene.unwrap_or(0), "document", "scene")?;
         let mut is_placed = vec![false; self.nodes.len()];

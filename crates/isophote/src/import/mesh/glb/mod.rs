@@ -1,6 +1,6 @@
 //! glTF 2.0 in one binary file: the triangles of a scene's nodes with the nodes' transforms applied, in glTF's axes (y up).
 //!
-//! The document is read by structures of our own that hold what bears on the shape: numbers stay doubles, and every
+//! The document is read into structures of our own, which hold what affects the shape: numbers stay doubles, and every
 //! reference is checked where it is followed. Materials are names; unnamed ones are called `material N`.
 
 mod accessor;
@@ -29,7 +29,7 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
     reader.builder.finish()
 }
 
-/// The JSON and the binary chunk; others mean nothing.
+/// The JSON and the binary chunk; other chunks are ignored.
 fn chunks(bytes: &[u8]) -> Result<(&[u8], &[u8]), FileProblem> {
     let word = |at: usize| bytes.get(at..at + 4).map(|word| u32::from_le_bytes(word.try_into().expect("four bytes")));
     let left = bytes.len() as u64;
@@ -71,11 +71,12 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], &[u8]), FileProblem> {
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
 
-/// Vertices and corners with all their repetitions: a node takes a few bytes of the file to repeat a whole mesh.
+/// The maximum number of vertices and corners, including all repetitions: a node needs only a few bytes of the file to
+/// repeat a whole mesh.
 const MOST_CORNERS: u64 = 300_000_000;
 
 fn check_corners(document: &Document, nodes: &[(usize, Transform)], bytes: u64) -> Result<(), Fault> {
-    // Each takes a byte at least. Accessors that lie, and indices that lead nowhere, are found where they are read.
+    // Each takes at least a byte. Wrong accessors and indices out of range are found when they are read.
     let count = |accessor: Option<usize>| {
         let accessor = accessor.and_then(|accessor| document.accessors.get(accessor));
         accessor.map_or(0, |accessor| accessor.count.min(bytes))
@@ -144,7 +145,7 @@ impl Reader<'_> {
     }
 }
 
-/// How indices make triangles.
+/// How indices form triangles.
 #[derive(Debug, Clone, Copy)]
 enum Mode {
     List,
@@ -153,7 +154,7 @@ enum Mode {
 }
 
 impl Mode {
-    /// None for points and lines, which have no surface.
+    /// `None` for points and lines, which have no surface.
     fn of(number: u64) -> Result<Option<Self>, FileProblem> {
         match number {
             0..=3 => Ok(None),
@@ -186,7 +187,7 @@ impl Mode {
     }
 }
 
-/// The element that a reference names.
+/// The element that a reference points to.
 fn follow<'a, T>(elements: &'a [T], index: usize, place: &str, field: &'static str) -> Result<&'a T, Fault> {
     elements.get(index).ok_or_else(|| {
         let (index, count) = (i64::try_from(index).unwrap_or(i64::MAX), elements.len() as u64);

@@ -1,4 +1,4 @@
-//! Where a node of glTF puts its mesh.
+//! The transform of a glTF node.
 
 use super::document::Node;
 use crate::import::{FileProblem, text::finite};
@@ -9,7 +9,7 @@ use crate::vector::Vector;
 pub(super) struct Transform {
     rows: [Vector; 3],
     translation: Vector,
-    /// Whether it turns left into right: corners then run the other way round.
+    /// Whether it is a reflection, which reverses the order of corners.
     pub is_mirror: bool,
 }
 
@@ -20,7 +20,7 @@ impl Transform {
         is_mirror: false,
     };
 
-    /// A node's own: a matrix, or first scale, then rotation, then translation.
+    /// A node's own transform: a matrix, or first scale, then rotation, then translation.
     pub fn of(node: &Node) -> Result<Self, FileProblem> {
         if let Some(m) = node.matrix {
             if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
@@ -37,14 +37,14 @@ impl Transform {
         Ok(Self::new(rows, node.translation.unwrap_or_default().into()))
     }
 
-    /// First `inner`, then this.
+    /// Applies `inner` first, then this.
     pub fn after(&self, inner: &Self) -> Self {
         let [a, b, c] = inner.rows;
         let rows = self.rows.map(|row| a * row.x + b * row.y + c * row.z);
         Self::new(rows, self.point(inner.translation))
     }
 
-    /// That it leaves a triangle its area.
+    /// Checks that it does not flatten triangles.
     pub fn check(&self) -> Result<(), FileProblem> {
         let determinant = determinant(self.rows);
         if determinant != 0.0 && determinant.is_finite() {
@@ -62,11 +62,11 @@ impl Transform {
         points.iter().map(place).collect()
     }
 
-    /// By the inverse transpose of A, up to a positive factor: normals stay normal to the surface under any scale, and on
-    /// its side.
+    /// Transforms normals by the inverse transpose of A, up to a positive factor: they stay normal to the surface under any
+    /// scale, and on the same side.
     pub fn normals(&self, normals: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let [a, b, c] = self.rows;
-        // Of size about 1, or products of four small scales would vanish.
+        // Scaled to about 1; otherwise products of four small scales would underflow.
         let entries = self.rows.map(Vector::to_array);
         let largest = entries.as_flattened().iter().fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
         let sign = if self.is_mirror { -1.0 } else { 1.0 };
@@ -84,7 +84,7 @@ impl Transform {
     }
 }
 
-/// By the quaternion (x, y, z, w), brought to length 1: files have it in single precision.
+/// From the quaternion (x, y, z, w), normalised because files store it in single precision.
 fn rotation(quaternion: [f64; 4]) -> Result<[Vector; 3], FileProblem> {
     let length = quaternion.iter().map(|part| part * part).sum::<f64>().sqrt();
     if !((length - 1.0).abs() < 1e-3) {
