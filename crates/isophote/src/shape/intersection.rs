@@ -143,7 +143,7 @@ pub struct TracingError {
 }
 
 impl TracingError {
-    /// For a pixel in an [outline](super::Outline), whose error does not grow with distance.
+    /// For a pixel in an [outline](crate::outline::Outline), whose error does not grow with distance.
     pub const IN_OUTLINE: Self = Self { clearance: 32.0 * f64::EPSILON, normal: 2.0 * f64::EPSILON };
 
     /// For a ray that is traced in double precision and starts `relative_distance` sizes away from the shape: in units of ε
