@@ -11,8 +11,8 @@ use pyo3::types::PyDict;
 use crate::error;
 use crate::job::{self, Progress};
 use crate::map::Map;
+use crate::names::{keyword, quantities};
 use crate::probe::Columns;
-use crate::render::{keyword, quantities};
 use crate::scene::Scene;
 
 /// The values along a row, a column, or between two points on the screen (in the scene's unit or degrees).

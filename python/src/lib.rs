@@ -7,6 +7,7 @@ mod error;
 mod formula;
 mod job;
 mod map;
+mod names;
 mod probe;
 mod read;
 mod render;

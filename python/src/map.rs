@@ -22,7 +22,7 @@ use pyo3::types::PyBytes;
 
 use crate::error;
 use crate::job::{self, Progress, Watch};
-use crate::render::keyword;
+use crate::names::keyword;
 
 /// A map of the core; its arrays are views of the map's memory.
 #[pyclass(frozen, module = "isophote._isophote")]

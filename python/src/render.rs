@@ -4,14 +4,14 @@ use std::num::NonZeroUsize;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use isophote::lanes::Precision;
-use isophote::map::{Pixel, Quantity, Region, Resolution};
+use isophote::map::{Pixel, Region, Resolution};
 use isophote::render::{RenderSettings, Renderer, SimdRenderer};
-use isophote::units::Keyword;
 use pyo3::prelude::*;
 
 use crate::error;
 use crate::job::{self, Progress};
 use crate::map::Map;
+use crate::names::{keyword, quantities};
 use crate::scene::Scene;
 
 /// Renders a scene. `region` is column, row, width, height.
@@ -48,24 +48,6 @@ pub fn render(
 
 fn region_of([column, row, width, height]: [u32; 4]) -> Region {
     Region { corner: Pixel { column, row }, size: Resolution { width, height } }
-}
-
-/// Looks up a member of a closed set by name.
-pub fn keyword<C: Keyword>(py: Python<'_>, what: &str, name: &str) -> PyResult<C> {
-    let allowed = || C::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ");
-    C::from_name(name).ok_or_else(|| error::value(py, format!("there is no {what} \"{name}\"; allowed: {}", allowed())))
-}
-
-/// Channels by name. Whether the scene has the lights they refer to is checked later, when they are computed.
-pub fn quantities(py: Python<'_>, names: &[String]) -> PyResult<Vec<Quantity>> {
-    let quantity = |name: &String| {
-        let known = Quantity::COMMON.iter().chain(&Quantity::OF_SAMPLING).chain([&Quantity::Color]);
-        let allowed = || known.map(Quantity::name).collect::<Vec<_>>().join(", ");
-        Quantity::from_name(name).ok_or_else(|| {
-            error::value(py, format!("there is no channel \"{name}\"; allowed: {}, light.NAME", allowed()))
-        })
-    };
-    names.iter().map(quantity).collect()
 }
 
 /// Renderers keep their threads, which take longer to start than a small map takes to render. The ones kept are those

@@ -12,7 +12,7 @@ use pyo3::types::PyDict;
 
 use crate::error;
 use crate::job::{self, Progress};
-use crate::render::{keyword, quantities};
+use crate::names::{keyword, quantities};
 use crate::threads::threads;
 
 /// A valid scene.

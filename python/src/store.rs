@@ -14,7 +14,7 @@ use pyo3::types::PyDict;
 
 use crate::error;
 use crate::job::{self, Progress};
-use crate::render::{keyword, quantities};
+use crate::names::{keyword, quantities};
 use crate::scene::Scene;
 
 /// What goes into a store, and how.

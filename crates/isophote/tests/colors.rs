@@ -256,25 +256,35 @@ proptest! {
     }
 }
 
+/// A pixel gets the samples that its most demanding component needs. Where that is as many as a component gets alone, its
+/// value is that of its own scene; elsewhere both are within the tolerance.
 #[test]
-fn refined_components_are_those_of_their_own_scenes() {
+fn refined_components_are_those_of_their_own_scenes_within_the_tolerance() {
+    const TOLERANCE: f64 = 0.01;
     let mut source = with_amounts(source(), dyed);
-    source.sampling = Some(SamplingSource { tolerance: Some(0.01), ..SamplingSource::default() });
-    let lanes = SimdRenderer::new(Precision::Double, NonZeroUsize::new(2));
+    source.sampling = Some(SamplingSource { tolerance: Some(TOLERANCE), ..SamplingSource::default() });
+    let renderer = SimdRenderer::new(Precision::Double, NonZeroUsize::new(2));
     let quantities = [Quantity::Color, Quantity::Samples, Quantity::Coverage, Quantity::Position, Quantity::Shape];
-    let map = render(&lanes, &prepared(source.clone()), &quantities);
-    let mut most = vec![0.0_f64; map.region.size.pixels()];
+    let map = render(&renderer, &prepared(source.clone()), &quantities);
+    let samples: Vec<f64> = map.scalar(&Quantity::Samples).unwrap().iter().collect();
+    let (mut same, mut more) = (0, 0);
     for component in Component::ALL {
         let wanted = [Quantity::Brightness, Quantity::Samples];
-        let expected = render(&lanes, &prepared(of_component(&source, *component)), &wanted);
-        for (index, most) in most.iter_mut().enumerate() {
-            let found = *Rgb::from(colors(&map)[index]).of(*component);
-            assert_eq!(found, expected.scalar(&Quantity::Brightness).unwrap().at(index));
-            *most = most.max(expected.scalar(&Quantity::Samples).unwrap().at(index));
+        let expected = render(&renderer, &prepared(of_component(&source, *component)), &wanted);
+        let brightness = expected.scalar(&Quantity::Brightness).unwrap();
+        let peak = brightness.iter().fold(0.0, f64::max);
+        for (index, samples) in samples.iter().enumerate() {
+            let (found, alone) = (*Rgb::from(colors(&map)[index]).of(*component), brightness.at(index));
+            if *samples == expected.scalar(&Quantity::Samples).unwrap().at(index) {
+                assert_eq!(found, alone, "{index}");
+                same += u32::from(*samples > 1.0);
+            } else {
+                assert!((found - alone).abs() <= TOLERANCE * peak, "{index}: {found} {alone}");
+                more += 1;
+            }
         }
     }
-    assert_eq!(map.scalar(&Quantity::Samples).unwrap().iter().collect::<Vec<_>>(), most);
-    assert!(most.iter().any(|samples| *samples > 1.0));
+    assert!(same > 10 && more > 10, "{same} {more}");
 }
 
 #[test]
