@@ -308,21 +308,15 @@ pub trait LaneJob {
         if let Some(token) = level.as_wasm_simd128() {
             return run_with(token, self);
         }
-        run_without(level, self)
+        #[cfg(any(
+            all(target_arch = "wasm32", not(target_feature = "simd128")),
+            not(any(target_arch = "x86", target_arch = "x86_64", target_arch = "aarch64", target_arch = "wasm32"))
+        ))]
+        if let Level::Fallback(token) = level {
+            return run_with(token, self);
+        }
+        unreachable!("a machine of this architecture has one of the levels above, not {level:?}")
     }
-}
-
-/// For machines without vector instructions.
-fn run_without<J: LaneJob>(level: Level, job: J) -> J::Output {
-    #[cfg(any(
-        all(target_arch = "wasm32", not(target_feature = "simd128")),
-        not(any(target_arch = "x86", target_arch = "x86_64", target_arch = "aarch64", target_arch = "wasm32"))
-    ))]
-    if let Level::Fallback(token) = level {
-        return run_with(token, job);
-    }
-    let _ = job;
-    unreachable!("every machine of this architecture has one of the levels above, not {level:?}")
 }
 
 #[inline(always)]

@@ -52,7 +52,9 @@ fn uses(crate_folder: &str) -> Uses {
         }
     }
     let known: BTreeSet<String> = uses.keys().cloned().collect();
-    uses.values_mut().for_each(|used| used.retain(|name| known.contains(name)));
+    for used in uses.values_mut() {
+        used.retain(|name| known.contains(name));
+    }
     uses
 }
 
@@ -95,9 +97,9 @@ fn no_two_modules_of_another_crate_use_each_other() {
         // Takes away what uses nothing that is left, again and again: what stays is a circle.
         while let Some(module) = uses.iter().find(|(_, used)| used.is_empty()).map(|(module, _)| module.clone()) {
             uses.remove(&module);
-            uses.values_mut().for_each(|used| {
+            for used in uses.values_mut() {
                 used.remove(&module);
-            });
+            }
         }
         assert!(uses.is_empty(), "{crate_folder}: these use each other in a circle: {uses:?}");
     }

@@ -43,7 +43,7 @@ pub fn combined(scene: &PreparedScene, quantities: &[Quantity], mut layers: Vec<
         channels.push(Channel { quantity: quantity.clone(), unit: first.unit.clone(), values });
     }
     let provenance = band::provenance(scene, layers.red.provenance.renderer.clone());
-    Map { channels, provenance, ..layers.red }
+    Map { provenance, channels, ..layers.red }
 }
 
 fn depends_on_light(quantity: &Quantity) -> bool {

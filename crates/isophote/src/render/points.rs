@@ -192,8 +192,8 @@ impl Work {
         for lane in 0..points.len().next_multiple_of(V::COUNT) {
             // The unused lanes of the last vector repeat its last point.
             let point = points[lane.min(points.len() - 1)];
-            for axis in 0..3 {
-                self.coordinates[axis][lane] = kernel.length.to_metres(point[axis]);
+            for (coordinates, coordinate) in self.coordinates.iter_mut().zip(point) {
+                coordinates[lane] = kernel.length.to_metres(coordinate);
             }
         }
         for at in (0..points.len()).step_by(V::COUNT) {
@@ -219,14 +219,14 @@ impl Work {
     fn shade<V: Lane<Element = f64>>(&mut self, token: V::Token, sphere: &PointSphere<'_>) {
         let Self { coordinates, distance, indices, points, shaded, .. } = self;
         let Some(last) = indices.last() else { return };
-        let mut picked = [[0.0; SIZE]; 4];
-        for lane in 0..indices.len().next_multiple_of(V::COUNT) {
-            let index = *indices.get(lane).unwrap_or(last);
-            for axis in 0..3 {
-                picked[axis][lane] = coordinates[axis][index];
-            }
-            picked[3][lane] = distance[index];
-        }
+        let [x, y, z] = &*coordinates;
+        let pick = |numbers: &[f64; SIZE]| {
+            let mut picked = [0.0; SIZE];
+            let indices = indices.iter().chain(std::iter::repeat(last));
+            picked.iter_mut().zip(indices).for_each(|(picked, index)| *picked = numbers[*index]);
+            picked
+        };
+        let picked = [x, y, z, distance].map(pick);
         for at in (0..indices.len()).step_by(V::COUNT) {
             let [x, y, z, distance] = picked.each_ref().map(
                 #[inline(always)]

@@ -68,6 +68,7 @@ pub struct Places<'p> {
 
 impl<E: Element> SurfaceBlock<E> {
     /// Room for points.
+    #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
     pub fn new() -> Box<Self> {
         let zeros = [E::default(); SIZE];
         Box::new(Self {
@@ -154,6 +155,7 @@ impl SurfaceBlock<f64> {
 
 impl<E: Element> ShadedBlock<E> {
     /// With room for the separate irradiances of this many lights.
+    #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
     pub fn new(lights: usize) -> Box<Self> {
         let zeros = [E::default(); SIZE];
         Box::new(Self {

@@ -1,7 +1,7 @@
 //! The emitters of a scene as seen by the points of one sphere.
 
 use crate::lanes::Element;
-use crate::light::{Emitters, Pattern, PlacedEmitter};
+use crate::light::{Emitter, Emitters, Pattern, PlacedEmitter};
 use crate::prepare::PreparedScene;
 use crate::shape::Sphere;
 use crate::vector::Vector;
@@ -105,7 +105,7 @@ fn by_place(emitters: &Emitters) -> Vec<usize> {
     if emitters.len() <= BLOCK {
         return order;
     }
-    let coordinates = || emitters.iter().filter_map(|emitter| emitter.place()).flat_map(Vector::to_array);
+    let coordinates = || emitters.iter().filter_map(Emitter::place).flat_map(Vector::to_array);
     let low = coordinates().fold(f64::INFINITY, f64::min);
     let size = (coordinates().fold(f64::NEG_INFINITY, f64::max) - low).max(f64::MIN_POSITIVE);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 2^20")]
