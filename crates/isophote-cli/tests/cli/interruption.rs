@@ -39,7 +39,8 @@ fn end_of(mut child: Child) -> (ExitStatus, String) {
 fn ctrl_c_during_a_render_ends_it_with_130_and_leaves_nothing() {
     let folder = Folder::new();
     folder.write("old.png", "old");
-    let child = start(&folder, "render --size 8000x6000 --samples 64 --threads 1 -o old.png -o new.csv --figure new.svg");
+    let child =
+        start(&folder, "render --size 8000x6000 --samples 64 --threads 1 -o old.png -o new.csv --figure new.svg");
     std::thread::sleep(Duration::from_millis(500));
     interrupt(&child);
     let since = Instant::now();

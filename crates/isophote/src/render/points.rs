@@ -2,7 +2,7 @@
 
 use super::shading::block::{POINTS, ShadedBlock, SurfaceBlock};
 use super::shading::emitters::{Chosen, Lighting, ShapeEmitters};
-use super::shading::kernel::{Lit, Unobstructed};
+use super::shading::kernel::{PerPoint, ShadeBlock};
 use super::shading::lobe::Power;
 use crate::camera::Projection;
 use crate::lanes::{Instructions, Lane, LaneJob, Precision};
@@ -154,7 +154,7 @@ impl LaneJob for Fill<'_, '_> {
             }
             for sphere in &kernel.spheres {
                 work.gather(sphere, points.len());
-                work.shade::<D>(token, sphere);
+                work.shade::<D>(token, kernel.instructions, sphere);
                 for (point, index) in work.indices.iter().enumerate() {
                     values.brightness[start + index] = work.shaded.brightness[point];
                     values.irradiance[start + index] = work.shaded.irradiance[point];
@@ -216,7 +216,7 @@ impl Work {
 
     /// Shades the gathered points.
     #[inline(always)]
-    fn shade<V: Lane<Element = f64>>(&mut self, token: V::Token, sphere: &PointSphere<'_>) {
+    fn shade<V: Lane<Element = f64>>(&mut self, token: V::Token, instructions: Instructions, sphere: &PointSphere<'_>) {
         let Self { coordinates, distance, indices, points, shaded, .. } = self;
         let Some(last) = indices.last() else { return };
         let [x, y, z] = &*coordinates;
@@ -235,15 +235,14 @@ impl Work {
             points.store_point(at, &sphere.point(token, Vector::new(x, y, z), distance));
         }
         points.ambient[..indices.len().next_multiple_of(V::COUNT)].fill(sphere.ambient);
-        let lit = Lit {
-            points: &**points,
-            count: points.count,
+        instructions.run(ShadeBlock {
+            points,
             formula: sphere.formula,
             power: &sphere.power,
             selection: sphere.emitters.selection(),
-            visibility: &Unobstructed,
-        };
-        lit.shade::<V>(token, shaded);
+            visibility: PerPoint::ALL,
+            shaded,
+        });
     }
 }
 

@@ -6,7 +6,7 @@ use super::refine::{Refinement, Wanted};
 use super::rule::{Center, NodePlaces, RowRule};
 use super::uncertain::Uncertain;
 use crate::camera::ScreenPosition;
-use crate::lanes::{Instructions, Lane, LaneJob, Precision, SimdToken};
+use crate::lanes::{Instructions, Precision};
 use crate::light::Ambient;
 use crate::map::Pixel;
 use crate::outline::Ellipse;
@@ -14,9 +14,9 @@ use crate::prepare::PreparedScene;
 use crate::reflectance::BrightnessFormula;
 use crate::render::band::ScalarChannel;
 use crate::render::rows::Candidate;
-use crate::render::shading::block::{Places, ShadedBlock, SurfaceBlock};
+use crate::render::shading::block::{Places, SeePoints, ShadedBlock, SurfaceBlock};
 use crate::render::shading::emitters::{Chosen, Lighting, ShapeEmitters};
-use crate::render::shading::kernel::{Lit, Unobstructed};
+use crate::render::shading::kernel::{PerPoint, ShadeBlock};
 use crate::render::shading::lobe::Power;
 use crate::scene::Filter;
 
@@ -143,7 +143,7 @@ impl<'s> Outlined<'s> {
         for (is_first, ((lit, averages), tolerance)) in
             std::iter::once(true).chain(std::iter::repeat(false)).zip(layers)
         {
-            self.instructions.run(Evaluate { sphere, lit, nodes, is_first });
+            self.evaluate(nodes, sphere, lit, is_first);
             let count = nodes.places.count;
             let brightness = &nodes.shaded.brightness[..count];
             let (least, greatest) = (least_of(brightness), greatest_of(brightness));
@@ -157,6 +157,28 @@ impl<'s> Outlined<'s> {
             sums.push(averages.channels().iter().map(|(_, channel)| mean(*channel)).chain([1.0]).collect());
         }
         Some(sums)
+    }
+
+    /// Shades the places in an outline, in one layer; the first one finds the points.
+    fn evaluate(&self, nodes: &mut Nodes, sphere: &OutlinedSphere<'s>, lit: &LitSphere<'s>, is_first: bool) {
+        let Nodes { places, points, shaded } = nodes;
+        let candidate = &sphere.candidate;
+        if is_first {
+            (points.count, points.primitive) = (places.count, candidate.primitive());
+            (points.anchor, points.unit) = (candidate.sphere.center, candidate.sphere.radius);
+            let NodePlaces { columns, rows, after_first, after_last, .. } = &*places;
+            let places = Places { columns, rows, after_first, after_last };
+            self.instructions.run(SeePoints { points: &mut **points, outline: candidate.ellipse, places });
+        }
+        points.ambient[..places.count.next_multiple_of(16)].fill(lit.ambient);
+        self.instructions.run(ShadeBlock {
+            points,
+            formula: lit.formula,
+            power: &lit.power,
+            selection: lit.emitters.selection(),
+            visibility: PerPoint::ALL,
+            shaded,
+        });
     }
 }
 
@@ -176,48 +198,6 @@ impl<'s> LitSphere<'s> {
         let formula = layer.formula(candidate.primitive());
         let ambient = layer.scene().ambient().map_or(0.0, Ambient::unobstructed_irradiance);
         Self { formula, power: Power::new(formula.sharpness(), Precision::Double), emitters, ambient }
-    }
-}
-
-/// Shades the nodes in an outline, in one layer; the points are computed in the first one.
-struct Evaluate<'e> {
-    sphere: &'e OutlinedSphere<'e>,
-    lit: &'e LitSphere<'e>,
-    nodes: &'e mut Nodes,
-    is_first: bool,
-}
-
-impl LaneJob for Evaluate<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S, D>(self, token: S::Token)
-    where
-        S: Lane<Element = f32>,
-        D: Lane<Element = f64, Token = S::Token>,
-    {
-        let Self { sphere, lit, nodes: Nodes { places, points, shaded }, is_first } = self;
-        let candidate = &sphere.candidate;
-        if is_first {
-            (points.count, points.primitive) = (places.count, candidate.primitive());
-            (points.anchor, points.unit) = (candidate.sphere.center, candidate.sphere.radius);
-            let NodePlaces { columns, rows, after_first, after_last, .. } = &*places;
-            let places = Places { columns, rows, after_first, after_last };
-            token.in_own_function(
-                #[inline(always)]
-                || points.see::<D::Narrow>(token, candidate.ellipse, &places),
-            );
-        }
-        points.ambient[..places.count.next_multiple_of(16)].fill(lit.ambient);
-        let lit = Lit {
-            points: &**points,
-            count: places.count,
-            formula: lit.formula,
-            power: &lit.power,
-            selection: lit.emitters.selection(),
-            visibility: &Unobstructed,
-        };
-        lit.shade::<D::Narrow>(token, shaded);
     }
 }
 

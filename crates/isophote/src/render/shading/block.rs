@@ -1,6 +1,6 @@
 //! Points of one surface that are shaded together, and the results: arrays that stay in the L1 cache.
 
-use crate::lanes::{Element, Lane};
+use crate::lanes::{Element, Lane, LaneJob};
 use crate::outline::{Ellipse, PlaceInRow, PointInRow};
 use crate::shape::{Primitive, SurfacePoint};
 use crate::vector::Vector;
@@ -9,7 +9,7 @@ use crate::vector::Vector;
 pub const POINTS: usize = 256;
 
 /// Room after the last point: vectors may extend beyond it.
-const SIZE: usize = POINTS + 32;
+pub const SIZE: usize = POINTS + 32;
 
 /// Points of a primitive in the form that the kernel reads: lengths are in units of `unit` from `anchor`. Every visibility
 /// method produces such blocks.
@@ -88,7 +88,7 @@ impl<E: Element> SurfaceBlock<E> {
     /// The points of a sphere that are visible at positions within its outline. The positions are padded to the end of a
     /// vector with anything within the outline.
     #[inline(always)]
-    pub fn see<V: Lane<Element = E>>(&mut self, token: V::Token, outline: &Ellipse, places: &Places<'_>) {
+    fn see<V: Lane<Element = E>>(&mut self, token: V::Token, outline: &Ellipse, places: &Places<'_>) {
         let outline = outline.map(
             #[inline(always)]
             |number| V::splat(token, E::from_f64(number)),
@@ -152,6 +152,37 @@ impl SurfaceBlock<f64> {
         self.anchor + Vector::new(x[index], y[index], z[index]) * self.unit
     }
 }
+
+/// Finds the points of a sphere that are seen at places within its outline: a job of its own, like
+/// [`ShadeBlock`](super::kernel::ShadeBlock).
+pub struct SeePoints<'b, E> {
+    /// Where they go; how many there are, and of which sphere, is known.
+    pub points: &'b mut SurfaceBlock<E>,
+    /// The outline of the sphere.
+    pub outline: &'b Ellipse,
+    /// The places.
+    pub places: Places<'b>,
+}
+
+macro_rules! see_points {
+    ($element:ty, $lane:ident) => {
+        impl LaneJob for SeePoints<'_, $element> {
+            type Output = ();
+
+            #[inline(always)]
+            fn run<S, D>(self, token: S::Token)
+            where
+                S: Lane<Element = f32>,
+                D: Lane<Element = f64, Token = S::Token>,
+            {
+                self.points.see::<$lane::Narrow>(token, self.outline, &self.places);
+            }
+        }
+    };
+}
+
+see_points!(f32, S);
+see_points!(f64, D);
 
 impl<E: Element> ShadedBlock<E> {
     /// With room for the separate irradiances of this many lights.

@@ -3,10 +3,10 @@
 
 use std::ops::Range;
 
-use super::block::{ShadedBlock, SurfaceBlock};
+use super::block::{SIZE, ShadedBlock, SurfaceBlock};
 use super::emitters::Selection;
 use super::lobe::{NoLobe, Power};
-use crate::lanes::{Element, Lane, SimdToken};
+use crate::lanes::{Element, Lane, LaneJob, SimdToken};
 use crate::reflectance::{BrightnessFormula, Lobe};
 use crate::shade::{Shading, light_term};
 use crate::shape::SurfacePoint;
@@ -57,12 +57,57 @@ pub struct PerPoint<'v> {
     pub stride: usize,
 }
 
+impl PerPoint<'_> {
+    /// All of every emitter.
+    pub const ALL: PerPoint<'static> = PerPoint { visible: &ONES, stride: 0 };
+}
+
+static ONES: [f64; SIZE] = [1.0; SIZE];
+
 impl<V: Lane> Visibility<V> for PerPoint<'_> {
     #[inline(always)]
     fn of(&self, token: V::Token, emitter: usize, at: usize) -> V {
         V::load_doubles(token, &self.visible[emitter * self.stride + at..])
     }
 }
+
+/// A block of points to be shaded: a job of its own, which is compiled once, whatever found the points.
+pub struct ShadeBlock<'b, E> {
+    /// The points.
+    pub points: &'b SurfaceBlock<E>,
+    /// Their convention, applied to their material.
+    pub formula: &'b BrightnessFormula,
+    /// How the lobe of the formula is computed.
+    pub power: &'b Power,
+    /// What may light any of the points.
+    pub selection: Selection<'b, E>,
+    /// What part of each of these emitters the points see.
+    pub visibility: PerPoint<'b>,
+    /// Where the results go.
+    pub shaded: &'b mut ShadedBlock<E>,
+}
+
+macro_rules! shade_block {
+    ($element:ty, $lane:ident) => {
+        impl LaneJob for ShadeBlock<'_, $element> {
+            type Output = ();
+
+            #[inline(always)]
+            fn run<S, D>(self, token: S::Token)
+            where
+                S: Lane<Element = f32>,
+                D: Lane<Element = f64, Token = S::Token>,
+            {
+                let Self { points, formula, power, selection, visibility, shaded } = self;
+                let lit = Lit { points, count: points.count, formula, power, selection, visibility: &visibility };
+                lit.shade::<$lane::Narrow>(token, shaded);
+            }
+        }
+    };
+}
+
+shade_block!(f32, S);
+shade_block!(f64, D);
 
 /// Points and the light that falls on them.
 pub struct Lit<'l, P, S, E> {

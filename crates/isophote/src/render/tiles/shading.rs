@@ -3,7 +3,7 @@
 use super::Tiles;
 use super::group::{Group, MOST};
 use super::shadow::Shadows;
-use crate::lanes::{Element, Lane, LaneJob, Precision, SimdToken};
+use crate::lanes::{Element, Instructions, Lane, LaneJob, Precision, SimdToken};
 use crate::light::{Ambient, PlacedEmitter};
 use crate::map::Pixel;
 use crate::outline::PlaceInRow;
@@ -11,9 +11,9 @@ use crate::prepare::PreparedScene;
 use crate::render::RenderError;
 use crate::render::band::Band;
 use crate::render::fan_out::{Pixels, Shaded};
-use crate::render::shading::block::{Places, ShadedBlock, SurfaceBlock};
+use crate::render::shading::block::{Places, SeePoints, ShadedBlock, SurfaceBlock};
 use crate::render::shading::emitters::{BLOCK, Chosen, Lighting, ShapeEmitters};
-use crate::render::shading::kernel::{Lit, PerPoint};
+use crate::render::shading::kernel::{PerPoint, ShadeBlock};
 use crate::render::shading::lobe::Power;
 use crate::shape::Sphere;
 use crate::vector::Vector;
@@ -118,33 +118,6 @@ impl LaneJob for See<'_, '_, '_> {
     }
 }
 
-/// Shades the points of a group in a layer of the scene.
-struct Shade<'s, 'a, 'g, 'm> {
-    shader: &'s mut Shader<'a>,
-    group: &'s Group<'g>,
-    layer: usize,
-    is_single: bool,
-    band: &'s mut Band<'m>,
-}
-
-impl LaneJob for Shade<'_, '_, '_, '_> {
-    type Output = Result<(), RenderError>;
-
-    #[inline(always)]
-    fn run<S, D>(self, token: S::Token) -> Self::Output
-    where
-        S: Lane<Element = f32>,
-        D: Lane<Element = f64, Token = S::Token>,
-    {
-        let Self { shader, group, layer, is_single, band } = self;
-        if is_single {
-            shader.shade_single::<S::Narrow>(token, group, layer, band)
-        } else {
-            shader.shade_double::<D::Narrow>(token, group, layer, band)
-        }
-    }
-}
-
 /// With more lights than this, fewer pixels are shaded together, because the visibility of each light at each pixel is
 /// stored.
 const MANY_LIGHTS: usize = 1024;
@@ -191,8 +164,7 @@ impl<'a> Shader<'a> {
                 doubtful.extend(in_doubt.map(|(_, cell)| cell.within(group.tile)));
             }
             for layer in 0..self.layers.len() {
-                let is_single = self.is_single(group, layer);
-                instructions.run(Shade { shader: &mut *self, group, layer, is_single, band })?;
+                self.shade_layer(group, layer, band)?;
             }
             if band.has_geometry() {
                 band.put_geometry(Pixels::At(&self.places.index[..pixels.len()]), &self.points);
@@ -247,39 +219,23 @@ impl<'a> Shader<'a> {
         }
     }
 
-    #[inline(always)]
-    fn shade_single<V: Lane<Element = f32>>(
-        &mut self,
-        token: V::Token,
-        group: &Group<'_>,
-        layer: usize,
-        band: &mut Band<'_>,
-    ) -> Result<(), RenderError> {
-        let ScreenPlaces { column, row, after_first, after_last, .. } = &*self.places;
-        let places = Places { columns: column, rows: row, after_first, after_last };
-        let points = &mut self.single_points;
-        token.in_own_function(
-            #[inline(always)]
-            || points.see::<V>(token, &group.seen.ellipse, &places),
-        );
-        let light = Light { layer: self.layers[layer], lighting: self.tiles.lighting, chosen: &self.chosen };
-        light.fall_on::<V>(token, points, &self.visible, &mut self.single);
-        let pixels = Pixels::At(&self.places.index[..group.pixels.len()]);
-        band.put(layer, pixels, Shaded::Single(&self.single.shaded))
-    }
-
-    #[inline(always)]
-    fn shade_double<V: Lane<Element = f64>>(
-        &mut self,
-        token: V::Token,
-        group: &Group<'_>,
-        layer: usize,
-        band: &mut Band<'_>,
-    ) -> Result<(), RenderError> {
-        let light = Light { layer: self.layers[layer], lighting: self.tiles.lighting, chosen: &self.chosen };
-        light.fall_on::<V>(token, &mut self.points, &self.visible, &mut self.double);
-        let pixels = Pixels::At(&self.places.index[..group.pixels.len()]);
-        band.put(layer, pixels, Shaded::Double(&self.double.shaded))
+    /// Shades the points of a group in a layer of the scene.
+    fn shade_layer(&mut self, group: &Group<'_>, layer: usize, band: &mut Band<'_>) -> Result<(), RenderError> {
+        let is_single = self.is_single(group, layer);
+        let Self { tiles: Tiles { lighting, instructions, .. }, layers, places, chosen, visible, .. } = self;
+        let light = Light { layer: layers[layer], lighting, chosen, visible };
+        let ScreenPlaces { index, column, row, after_first, after_last } = &**places;
+        let pixels = Pixels::At(&index[..group.pixels.len()]);
+        if is_single {
+            let places = Places { columns: column, rows: row, after_first, after_last };
+            let points = &mut *self.single_points;
+            instructions.run(SeePoints { points, outline: &group.seen.ellipse, places });
+            light.fall_on(*instructions, &mut self.single_points, &mut self.single);
+            band.put(layer, pixels, Shaded::Single(&self.single.shaded))
+        } else {
+            light.fall_on(*instructions, &mut self.points, &mut self.double);
+            band.put(layer, pixels, Shaded::Double(&self.double.shaded))
+        }
     }
 }
 
@@ -293,29 +249,27 @@ struct Light<'l> {
     layer: &'l PreparedScene,
     lighting: &'l Lighting,
     chosen: &'l [(usize, usize)],
+    visible: &'l [f64],
 }
 
 impl Light<'_> {
-    #[inline(always)]
-    fn fall_on<V: Lane>(
-        &self,
-        token: V::Token,
-        points: &mut SurfaceBlock<V::Element>,
-        visible: &[f64],
-        scratch: &mut Scratch<V::Element>,
-    ) {
-        points.ambient[..points.count.next_multiple_of(16)].fill(V::Element::from_f64(ambient(self.layer)));
+    /// Shades the points that it falls on.
+    fn fall_on<E: Element>(&self, instructions: Instructions, points: &mut SurfaceBlock<E>, scratch: &mut Scratch<E>)
+    where
+        for<'b> ShadeBlock<'b, E>: LaneJob<Output = ()>,
+    {
+        let stride = points.count.next_multiple_of(16);
+        points.ambient[..stride].fill(E::from_f64(ambient(self.layer)));
         self.choose(points.anchor, points.unit, &mut scratch.chosen);
         let formula = self.layer.formula(points.primitive);
-        let lit = Lit {
-            points: &*points,
-            count: points.count,
+        instructions.run(ShadeBlock {
+            points,
             formula,
-            power: &Power::new(formula.sharpness(), V::Element::PRECISION),
+            power: &Power::new(formula.sharpness(), E::PRECISION),
             selection: scratch.chosen.selection(),
-            visibility: &PerPoint { visible, stride: points.count.next_multiple_of(16) },
-        };
-        lit.shade::<V>(token, &mut scratch.shaded);
+            visibility: PerPoint { visible: self.visible, stride },
+            shaded: &mut scratch.shaded,
+        });
     }
 
     /// Selects the emitters, with the values that they have in this layer. Blocks are those of the full set, whichever
