@@ -2,12 +2,13 @@
 
 use std::ops::ControlFlow;
 
+use super::provenance::provenance;
 use super::{Observer, RenderError, RenderSettings, layers};
 use crate::lanes::Precision;
-use crate::map::{Channel, Map, Mask, Pixel, Provenance, Quantity, Region, Resolution, Run, Values, Window};
+use crate::map::{Channel, Map, Mask, Pixel, Quantity, Region, Resolution, Run, Values, Window};
 use crate::prepare::PreparedScene;
 use crate::scene::Scene;
-use crate::units::{Keyword, LengthUnit};
+use crate::units::LengthUnit;
 
 /// What a map shows, and how it is computed.
 pub struct Sheet {
@@ -68,18 +69,6 @@ fn empty_map(
     }
     let mask = Mask::new(region.size, Vec::new());
     Ok(Map { full, region, window, provenance: provenance(scene, sheet.renderer.clone()), mask, channels })
-}
-
-/// The provenance of a map of the scene.
-pub fn provenance(scene: &PreparedScene, renderer: String) -> Provenance {
-    Provenance {
-        program: concat!("isophote ", env!("CARGO_PKG_VERSION")).into(),
-        title: scene.scene().title.clone(),
-        scene: scene.source_text().to_owned(),
-        convention: scene.scene().convention.label(),
-        renderer,
-        color_space: scene.components().map(|components| components.space.name().to_owned()),
-    }
 }
 
 /// Checks that a region lies in the image and fits into memory.

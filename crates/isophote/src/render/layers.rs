@@ -2,7 +2,7 @@
 //!
 //! A layer is the map of one component. A scene without colours has one layer, which is its map.
 
-use super::band;
+use super::provenance::provenance;
 use crate::color::Rgb;
 use crate::map::{Channel, Map, Quantity, Scalars, Values};
 use crate::prepare::PreparedScene;
@@ -42,7 +42,7 @@ pub fn combined(scene: &PreparedScene, quantities: &[Quantity], mut layers: Vec<
         };
         channels.push(Channel { quantity: quantity.clone(), unit: first.unit.clone(), values });
     }
-    let provenance = band::provenance(scene, layers.red.provenance.renderer.clone());
+    let provenance = provenance(scene, layers.red.provenance.renderer.clone());
     Map { provenance, channels, ..layers.red }
 }
 

@@ -5,6 +5,7 @@ mod fan_out;
 pub(crate) mod hits;
 pub(crate) mod layers;
 mod points;
+mod provenance;
 mod rays;
 mod reference;
 mod rows;
