@@ -11,8 +11,16 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 /// forked process whose parent started them, the calling thread does all the work.
 #[derive(Clone, Debug)]
 pub struct Threads {
-    count: usize,
-    pool: Arc<OnceLock<Pool>>,
+    /// How many were asked for, if it was said.
+    asked_for: Option<NonZeroUsize>,
+    shared: Arc<Shared>,
+}
+
+/// What is found out when it is first needed: the system is slow to tell how many processors there are.
+#[derive(Debug, Default)]
+struct Shared {
+    count: OnceLock<usize>,
+    pool: OnceLock<Pool>,
 }
 
 /// The started threads (or the reason why they did not start) and the process that they belong to: a parent's threads do not
@@ -54,35 +62,39 @@ impl Threads {
     /// This many threads; one per processor when `None`.
     #[must_use]
     pub fn new(count: Option<NonZeroUsize>) -> Self {
-        // Set explicitly: otherwise the pool would take its size from an environment variable.
-        let count = count.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-        Self { count: if HAS_THREADS { count } else { 1 }, pool: Arc::default() }
+        Self { asked_for: count, shared: Arc::default() }
     }
 
-    /// The calling thread only.
+    /// The caller's alone.
     #[must_use]
     pub fn single() -> Self {
-        Self { count: 1, pool: Arc::default() }
+        Self::new(Some(NonZeroUsize::MIN))
     }
 
-    /// The number of threads.
+    /// How many there are.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.count
+        if !HAS_THREADS {
+            return 1;
+        }
+        // Told outright: a pool would otherwise take its size from an environment variable.
+        let available = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        self.asked_for.map_or_else(|| *self.shared.count.get_or_init(available), NonZeroUsize::get)
     }
 
     fn pool(&self) -> Result<Option<&ThreadPool>, ThreadsError> {
-        if self.count == 1 {
+        let count = self.count();
+        if count == 1 {
             return Ok(None);
         }
         let start = || Pool {
             process: std::process::id(),
-            threads: ThreadPoolBuilder::new().num_threads(self.count).build().map_err(|error| error.to_string()),
+            threads: ThreadPoolBuilder::new().num_threads(count).build().map_err(|error| error.to_string()),
         };
-        match self.pool.get_or_init(start) {
+        match self.shared.pool.get_or_init(start) {
             Pool { process, .. } if *process != std::process::id() => Ok(None),
             Pool { threads: Ok(pool), .. } => Ok(Some(pool)),
-            Pool { threads: Err(reason), .. } => Err(ThreadsError { threads: self.count, reason: reason.clone() }),
+            Pool { threads: Err(reason), .. } => Err(ThreadsError { threads: count, reason: reason.clone() }),
         }
     }
 
