@@ -101,6 +101,12 @@ impl<V: Lane<Element = f64>> ExactProduct for V {
 
 /// The number type of a lane.
 pub trait Element: Copy + Default + PartialOrd + Send + Sync + 'static {
+    /// Of a [`LaneJob`]'s two types of lane, the one that computes with these numbers.
+    type LaneOf<S, D>: Lane<Element = Self, Token = S::Token>
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Token = S::Token>;
+
     /// Its precision, which sets the degree of polynomials.
     const PRECISION: Precision;
 
@@ -142,6 +148,12 @@ impl crate::units::Keyword for Precision {
 }
 
 impl Element for f64 {
+    type LaneOf<S, D>
+        = D
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Token = S::Token>;
+
     const PRECISION: Precision = Precision::Double;
 
     #[inline(always)]
@@ -171,6 +183,12 @@ impl Element for f64 {
 }
 
 impl Element for f32 {
+    type LaneOf<S, D>
+        = S
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Token = S::Token>;
+
     const PRECISION: Precision = Precision::Single;
 
     #[inline(always)]

@@ -164,25 +164,18 @@ pub struct SeePoints<'b, E> {
     pub places: Places<'b>,
 }
 
-macro_rules! see_points {
-    ($element:ty, $lane:ident) => {
-        impl LaneJob for SeePoints<'_, $element> {
-            type Output = ();
+impl<E: Element> LaneJob for SeePoints<'_, E> {
+    type Output = ();
 
-            #[inline(always)]
-            fn run<S, D>(self, token: S::Token)
-            where
-                S: Lane<Element = f32>,
-                D: Lane<Element = f64, Token = S::Token>,
-            {
-                self.points.see::<$lane::Narrow>(token, self.outline, &self.places);
-            }
-        }
-    };
+    #[inline(always)]
+    fn run<S, D>(self, token: S::Token)
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Token = S::Token>,
+    {
+        self.points.see::<<E::LaneOf<S, D> as Lane>::Narrow>(token, self.outline, &self.places);
+    }
 }
-
-see_points!(f32, S);
-see_points!(f64, D);
 
 impl<E: Element> ShadedBlock<E> {
     /// With room for the separate irradiances of this many lights.

@@ -87,27 +87,20 @@ pub struct ShadeBlock<'b, E> {
     pub shaded: &'b mut ShadedBlock<E>,
 }
 
-macro_rules! shade_block {
-    ($element:ty, $lane:ident) => {
-        impl LaneJob for ShadeBlock<'_, $element> {
-            type Output = ();
+impl<E: Element> LaneJob for ShadeBlock<'_, E> {
+    type Output = ();
 
-            #[inline(always)]
-            fn run<S, D>(self, token: S::Token)
-            where
-                S: Lane<Element = f32>,
-                D: Lane<Element = f64, Token = S::Token>,
-            {
-                let Self { points, formula, power, selection, visibility, shaded } = self;
-                let lit = Lit { points, count: points.count, formula, power, selection, visibility: &visibility };
-                lit.shade::<$lane::Narrow>(token, shaded);
-            }
-        }
-    };
+    #[inline(always)]
+    fn run<S, D>(self, token: S::Token)
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Token = S::Token>,
+    {
+        let Self { points, formula, power, selection, visibility, shaded } = self;
+        let lit = Lit { points, count: points.count, formula, power, selection, visibility: &visibility };
+        lit.shade::<<E::LaneOf<S, D> as Lane>::Narrow>(token, shaded);
+    }
 }
-
-shade_block!(f32, S);
-shade_block!(f64, D);
 
 /// Points and the light that falls on them.
 pub struct Lit<'l, P, S, E> {

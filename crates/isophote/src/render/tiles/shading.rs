@@ -254,10 +254,7 @@ struct Light<'l> {
 
 impl Light<'_> {
     /// Shades the points that it falls on.
-    fn fall_on<E: Element>(&self, instructions: Instructions, points: &mut SurfaceBlock<E>, scratch: &mut Scratch<E>)
-    where
-        for<'b> ShadeBlock<'b, E>: LaneJob<Output = ()>,
-    {
+    fn fall_on<E: Element>(&self, instructions: Instructions, points: &mut SurfaceBlock<E>, scratch: &mut Scratch<E>) {
         let stride = points.count.next_multiple_of(16);
         points.ambient[..stride].fill(E::from_f64(ambient(self.layer)));
         self.choose(points.anchor, points.unit, &mut scratch.chosen);
