@@ -106,7 +106,7 @@ fn conforms_in_single_numbers(
     let quantities = COMPARED.into_iter().chain(geometry).chain(lights).collect();
     let settings = RenderSettings { quantities, ..RenderSettings::default() };
     let map = renderer.render(scene, &settings)?;
-    let exact = Exact::new(scene, map.region);
+    let exact = Exact::new(scene, map.region, tolerance);
     let mut deviation = Deviation { of_peak: 0.0, relative: 0.0, at_edges: 0.0, visible: 0 };
     let shapes = map.mask().shapes();
     for (index, expected) in exact.pixels.iter().enumerate() {
@@ -158,12 +158,24 @@ struct Exact {
 #[derive(Clone, Copy)]
 struct Peak {
     value: f64,
+    /// How much larger than usual the tolerance is because the map shows no more of some light than its terminator, or no
+    /// more of the shapes than their limb.
+    growth: f64,
+}
+
+/// What one light, or the ambient light, contributes to the compared channels.
+#[derive(Clone, Copy)]
+struct Share {
+    values: [f64; 5],
+    /// The smallest of cosθ_o, cosθ_i and its [own](cosine_of_emission) cosine.
     least_cosine: f64,
 }
 
 struct ExactPixel {
     shape: i32,
     values: [f64; 5],
+    /// The share of each light, and at last that of the ambient light.
+    shares: Vec<Share>,
     /// The smallest of cosθ_o, the lit lights' cosθ_i and [their own](cosine_of_emission) cosines.
     least_cosine: f64,
     /// n tanθ_h of the highlights, weighted by their share in each value.
@@ -180,45 +192,70 @@ struct ExactPixel {
 }
 
 impl Exact {
-    fn new(scene: &PreparedScene, region: Region) -> Self {
-        let mut peaks = [Peak { value: 0.0, least_cosine: 1.0 }; 5];
+    fn new(scene: &PreparedScene, region: Region, tolerance: &Tolerance) -> Self {
         let mut pixels = Vec::with_capacity(region.size.pixels());
         for row in region.corner.row..region.corner.row + region.size.height {
             for column in region.corner.column..region.corner.column + region.size.width {
-                let pixel = exact_pixel(scene, Pixel { column, row });
-                if let Some(pixel) = &pixel {
-                    for (peak, value) in peaks.iter_mut().zip(pixel.values) {
-                        if value > peak.value {
-                            *peak = Peak { value, least_cosine: pixel.least_cosine };
-                        }
-                    }
-                }
-                pixels.push(pixel);
+                pixels.push(exact_pixel(scene, Pixel { column, row }));
             }
         }
+        let peaks = std::array::from_fn(|channel| Peak::of(&pixels, channel, tolerance));
         Self { pixels, peaks }
+    }
+}
+
+impl Peak {
+    fn of(pixels: &[Option<ExactPixel>], channel: usize, tolerance: &Tolerance) -> Self {
+        let seen = || pixels.iter().flatten();
+        let value = seen().map(|pixel| pixel.values[channel]).fold(0.0, f64::max);
+        let sources = seen().next().map_or(0, |pixel| pixel.shares.len());
+        let grown = (0..sources).map(|source| {
+            let shares = seen().map(|pixel| pixel.shares[source]);
+            let brightest = shares.max_by(|one, other| one.values[channel].total_cmp(&other.values[channel]));
+            brightest.map_or(0.0, |share| tolerance.growth(share.least_cosine) * share.values[channel])
+        });
+        let grown = grown.fold(value, f64::max);
+        Self { value, growth: if value > 0.0 { grown / value } else { 1.0 } }
+    }
+
+    /// The error allowed at any pixel, as a fraction of the peak.
+    fn allowed(&self, tolerance: &Tolerance) -> f64 {
+        tolerance.of_peak * self.growth
     }
 }
 
 fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     let hit = scene.trace_precisely(crate::camera::ScreenPosition::PixelCenter(pixel))?;
-    let mut least_cosine = hit.point.cos_theta_o;
+    let mut least_cosine = hit.point.cos_theta_o.rounded();
     let mut by_light = Vec::with_capacity(scene.scene().lights().len());
     let formula = scene.formula(hit.primitive);
     let shininess = formula.sharpness().unwrap_or(0.0);
     let mut flanks = 0.0;
+    let (diffuse, specular) =
+        (formula.diffuse_factor(hit.point.cos_theta_o), formula.specular_factor(hit.point.cos_theta_o));
+    let mut shares = Vec::with_capacity(by_light.capacity() + 1);
     let shading = scene.shade_precisely(&hit, |light, term| {
         by_light.push(term.irradiance.rounded());
         let (cosine, lobe) = (term.cos_theta_h.rounded(), (term.irradiance * term.lobe).rounded());
         if lobe > 0.0 {
             flanks += shininess * (1.0 / (cosine * cosine) - 1.0).max(0.0).sqrt() * lobe;
         }
+        let of_emission = cosine_of_emission(&scene.scene().lights()[light], term);
+        let (diffuse, specular) = (term.irradiance * diffuse, term.irradiance * term.lobe * specular);
+        let share = Share {
+            values: [diffuse + specular, term.irradiance, diffuse, specular, DoubleDouble::zero()]
+                .map(DoubleDouble::rounded),
+            least_cosine: hit.point.cos_theta_o.rounded().min(term.cos_theta_i.rounded()).min(of_emission),
+        };
         if DoubleDouble::zero().is_less(term.irradiance) {
-            let of_emission = DoubleDouble::from_f64(cosine_of_emission(&scene.scene().lights()[light], term));
-            for cosine in [term.cos_theta_i, of_emission] {
-                least_cosine = DoubleDouble::select(cosine.is_less(least_cosine), cosine, least_cosine);
-            }
+            least_cosine = least_cosine.min(share.least_cosine);
         }
+        shares.push(share);
+    });
+    let ambient = shading.ambient * diffuse;
+    shares.push(Share {
+        values: [ambient, shading.ambient, ambient, DoubleDouble::zero(), shading.ambient].map(DoubleDouble::rounded),
+        least_cosine: hit.point.cos_theta_o.rounded(),
     });
     let values = [shading.brightness(), shading.irradiance, shading.diffuse, shading.specular, shading.ambient];
     let values = values.map(DoubleDouble::rounded);
@@ -227,8 +264,9 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     Some(ExactPixel {
         shape: i32::try_from(hit.primitive.shape).unwrap_or(i32::MAX),
         values,
+        shares,
         flanks: [share(values[0]), 0.0, 0.0, share(values[3]), 0.0],
-        least_cosine: least_cosine.rounded(),
+        least_cosine,
         distance: hit.distance.rounded(),
         position: rounded(hit.point.position()),
         normal: rounded(hit.point.normal),
@@ -299,13 +337,7 @@ fn compare_lights(
         let Some((quantity, Some(values))) = lights.next() else {
             return within(map.pixel(index), &Quantity::Irradiance, f64::NAN, *expected, 0.0);
         };
-        within(
-            map.pixel(index),
-            quantity,
-            values.at(index),
-            *expected,
-            tolerance.at_peak(peak.least_cosine) * peak.value,
-        )?;
+        within(map.pixel(index), quantity, values.at(index), *expected, peak.allowed(tolerance) * peak.value)?;
     }
     Ok(())
 }
@@ -343,7 +375,7 @@ impl Compared<'_> {
         }
         let of_peak = if peak > 0.0 { difference / peak } else { difference };
         deviation.of_peak = deviation.of_peak.max(of_peak);
-        let allowed = tolerance.at_peak(self.peak.least_cosine);
+        let allowed = self.peak.allowed(tolerance);
         // Written so that NaN fails.
         if !(of_peak <= allowed) {
             return Err(self.off(expected, of_peak, "of the peak", allowed));
@@ -358,7 +390,7 @@ impl Compared<'_> {
         }
         if expected > 1e-3 * peak {
             deviation.at_edges = deviation.at_edges.max(relative);
-            let allowed = tolerance.at_edge(least_cosine, self.peak.least_cosine);
+            let allowed = tolerance.at_edge(least_cosine, self.peak.growth);
             if !(relative <= allowed) {
                 return Err(self.off(expected, relative, "relative", allowed));
             }

@@ -5,8 +5,9 @@
 pub struct Tolerance {
     /// At every visible pixel, limb included, as a fraction of the map's peak.
     pub of_peak: f64,
-    /// If even the brightest pixel has a cosine below this, the picture shows only the neighbourhood of the terminator or of
-    /// the limb: all of it is then as uncertain as that cosine, and `of_peak` grows as 1/cosine.
+    /// If even where a light makes its brightest pixel a cosine is below this, the picture shows only the neighbourhood of
+    /// that light's terminator or of the limb: all that comes from the light is then as uncertain as that cosine, and `of_peak`
+    /// of the light's own peak grows as 1/cosine.
     pub peak_cosine: f64,
     /// Relative, wherever cosθ_o, cosθ_i of every lit light and cosγ of every Lambertian one exceed
     /// [`above_cosine`](Self::above_cosine), for values above [`above_value`](Self::above_value).
@@ -69,22 +70,16 @@ pub const SINGLE: Tolerance = Tolerance {
 pub const PROBE: Tolerance = Tolerance { above_cosine: 1e-3, ..DOUBLE };
 
 impl Tolerance {
-    /// [`of_peak`](Self::of_peak) for a picture whose brightest pixel has this cosine.
-    #[must_use]
-    pub fn at_peak(&self, least_cosine: f64) -> f64 {
-        self.of_peak * self.growth(least_cosine)
-    }
-
-    /// How much larger the tolerance is for a picture whose brightest pixel has this cosine.
+    /// How much larger the tolerance is for a light whose brightest pixel has this cosine.
     #[must_use]
     pub fn growth(&self, least_cosine: f64) -> f64 {
         (self.peak_cosine / least_cosine).max(1.0)
     }
 
-    /// [`at_edges`](Self::at_edges) for a value with this cosine, in a picture whose brightest pixel has
-    /// `least_cosine_of_peak`.
+    /// [`at_edges`](Self::at_edges) for a value with this cosine, in a picture whose tolerance has this
+    /// [growth](Self::growth).
     #[must_use]
-    pub fn at_edge(&self, cosine: f64, least_cosine_of_peak: f64) -> f64 {
-        self.at_edges * self.growth(least_cosine_of_peak) * (self.edge_cosine / cosine).max(1.0)
+    pub fn at_edge(&self, cosine: f64, growth: f64) -> f64 {
+        self.at_edges * growth * (self.edge_cosine / cosine).max(1.0)
     }
 }

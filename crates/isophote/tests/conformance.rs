@@ -270,6 +270,44 @@ fn grazing_rays_keep_their_digits() {
     }
 }
 
+/// A lamp so close that it would be the brightest by far lights no more than a rim of the visible side, where
+/// cosθ_i < 2e-4; the picture's peak is another light's. What comes from the lamp is as uncertain as its cosines.
+#[test]
+fn a_lamp_of_which_only_the_terminator_is_seen_has_the_digits_of_its_cosines() {
+    let scene = r#"
+        version = 1
+        length = "mm"
+        handedness = "left"
+        convention = "lab"
+        camera.eye = [-4.505183491992847, -5.711192734549307, -22.843578451498573]
+        camera.target = [0.1, -0.2, 0.05]
+        camera.up = [0.47215487460444794, 0.21631328388357854, 0.8545632437700329]
+        camera.screen = { distance = 23.973808150092957, x = [-2.0, 2.0], y = [-1.5, 1.5] }
+        camera.resolution = [32, 24]
+        material.clay = { diffuse = 0.6136702591377421, specular = 0.9648911791095501, shininess = 9.0 }
+
+        [[sphere]]
+        center = [-0.17211123267736397, 0.3017329611235427, 0.5837494529107726]
+        radius = 1.0084805266747865
+        material = "clay"
+
+        [[light]]
+        position = [3.3202386210592705, 2.717926420564469, 8.937545204742749]
+        intensity = 66.73224542120249
+
+        [[light]]
+        emission = "parallel"
+        direction = [0.0, -1.0, 0.0]
+        irradiance = 7.90674143150637
+    "#;
+    let scene = Scene::from_text("rim", scene, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+    let scene = PreparedScene::new(&scene);
+    for renderer in renderers() {
+        let deviation = conforms(renderer.as_ref(), &scene, &DOUBLE).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(deviation.visible, 198);
+    }
+}
+
 /// The same picture from a hundred, ten thousand and a million radii away, through a screen that far away.
 #[test]
 fn distant_spheres_keep_their_digits() {
