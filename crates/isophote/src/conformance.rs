@@ -167,8 +167,9 @@ struct Peak {
 #[derive(Clone, Copy)]
 struct Share {
     values: [f64; 5],
-    /// The smallest of cosθ_o, cosθ_i and its [own](cosine_of_emission) cosine.
-    least_cosine: f64,
+    /// cosθ_o times the smaller of cosθ_i and its [own](cosine_of_emission) cosine: near the limb the normal is uncertain as
+    /// 1/cosθ_o, which the terminator magnifies by 1/cosθ_i.
+    cosines: f64,
 }
 
 struct ExactPixel {
@@ -212,7 +213,7 @@ impl Peak {
         let grown = (0..sources).map(|source| {
             let shares = seen().map(|pixel| pixel.shares[source]);
             let brightest = shares.max_by(|one, other| one.values[channel].total_cmp(&other.values[channel]));
-            brightest.map_or(0.0, |share| tolerance.growth(share.least_cosine) * share.values[channel])
+            brightest.map_or(0.0, |share| tolerance.growth(share.cosines) * share.values[channel])
         });
         let grown = grown.fold(value, f64::max);
         Self { value, growth: if value > 0.0 { grown / value } else { 1.0 } }
@@ -226,7 +227,8 @@ impl Peak {
 
 fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     let hit = scene.trace_precisely(crate::camera::ScreenPosition::PixelCenter(pixel))?;
-    let mut least_cosine = hit.point.cos_theta_o.rounded();
+    let cos_theta_o = hit.point.cos_theta_o.rounded();
+    let mut least_cosine = cos_theta_o;
     let mut by_light = Vec::with_capacity(scene.scene().lights().len());
     let formula = scene.formula(hit.primitive);
     let shininess = formula.sharpness().unwrap_or(0.0);
@@ -245,17 +247,17 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
         let share = Share {
             values: [diffuse + specular, term.irradiance, diffuse, specular, DoubleDouble::zero()]
                 .map(DoubleDouble::rounded),
-            least_cosine: hit.point.cos_theta_o.rounded().min(term.cos_theta_i.rounded()).min(of_emission),
+            cosines: cos_theta_o * term.cos_theta_i.rounded().min(of_emission),
         };
         if DoubleDouble::zero().is_less(term.irradiance) {
-            least_cosine = least_cosine.min(share.least_cosine);
+            least_cosine = least_cosine.min(term.cos_theta_i.rounded()).min(of_emission);
         }
         shares.push(share);
     });
     let ambient = shading.ambient * diffuse;
     shares.push(Share {
         values: [ambient, shading.ambient, ambient, DoubleDouble::zero(), shading.ambient].map(DoubleDouble::rounded),
-        least_cosine: hit.point.cos_theta_o.rounded(),
+        cosines: cos_theta_o,
     });
     let values = [shading.brightness(), shading.irradiance, shading.diffuse, shading.specular, shading.ambient];
     let values = values.map(DoubleDouble::rounded);

@@ -5,9 +5,9 @@
 pub struct Tolerance {
     /// At every visible pixel, limb included, as a fraction of the map's peak.
     pub of_peak: f64,
-    /// If even where a light makes its brightest pixel a cosine is below this, the picture shows only the neighbourhood of
-    /// that light's terminator or of the limb: all that comes from the light is then as uncertain as that cosine, and `of_peak`
-    /// of the light's own peak grows as 1/cosine.
+    /// If even at a light's brightest pixel cosθ_o cosθ_i is below this, the picture shows only the neighbourhood of that
+    /// light's terminator or of the limb: all that comes from the light is then as uncertain as these cosines, and `of_peak` of
+    /// the light's own peak grows as 1/(cosθ_o cosθ_i).
     pub peak_cosine: f64,
     /// Relative, wherever cosθ_o, cosθ_i of every lit light and cosγ of every Lambertian one exceed
     /// [`above_cosine`](Self::above_cosine), for values above [`above_value`](Self::above_value).
@@ -70,10 +70,10 @@ pub const SINGLE: Tolerance = Tolerance {
 pub const PROBE: Tolerance = Tolerance { above_cosine: 1e-3, ..DOUBLE };
 
 impl Tolerance {
-    /// How much larger the tolerance is for a light whose brightest pixel has this cosine.
+    /// How much larger the tolerance is for a light whose brightest pixel has this cosθ_o cosθ_i.
     #[must_use]
-    pub fn growth(&self, least_cosine: f64) -> f64 {
-        (self.peak_cosine / least_cosine).max(1.0)
+    pub fn growth(&self, cosines: f64) -> f64 {
+        (self.peak_cosine / cosines).max(1.0)
     }
 
     /// [`at_edges`](Self::at_edges) for a value with this cosine, in a picture whose tolerance has this

@@ -270,6 +270,39 @@ fn grazing_rays_keep_their_digits() {
     }
 }
 
+/// A lamp far behind a sphere, of whose light a single pixel is seen: near the limb, where the normal is uncertain as
+/// 1/cosθ_o, and near the terminator, which magnifies that by 1/cosθ_i.
+#[test]
+fn a_rim_lit_from_behind_has_the_digits_of_both_cosines() {
+    let scene = r#"
+        version = 1
+        length = "cm"
+        handedness = "left"
+        convention = "lab"
+        camera.eye = [-3.1944107944705458, -2.8239897012051633, -4.547261686467446]
+        camera.target = [0.1, -0.2, 0.05]
+        camera.up = [0.5606012171559106, 0.4224177659846777, 0.7122425895043244]
+        camera.screen = { distance = 6.233519631922044, x = [-2.0, 2.0], y = [-1.5, 1.5] }
+        camera.resolution = [32, 24]
+        material.clay = { diffuse = 0.0, specular = 0.004585172349215819, shininess = 1.0 }
+
+        [[sphere]]
+        center = [-0.4788160629472567, 0.7785411150310472, 0.9362396137938241]
+        radius = 1.0363877766457497
+        material = "clay"
+
+        [[light]]
+        position = [3.0064274538017344, 3.3572734245463254, 3.0392920323174004]
+        intensity = 0.04569130665154959
+    "#;
+    let scene = Scene::from_text("rim", scene, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+    let scene = PreparedScene::new(&scene);
+    for renderer in renderers() {
+        let deviation = conforms(renderer.as_ref(), &scene, &DOUBLE).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(deviation.visible, 162);
+    }
+}
+
 /// A lamp so close that it would be the brightest by far lights no more than a rim of the visible side, where
 /// cosθ_i < 2e-4; the picture's peak is another light's. What comes from the lamp is as uncertain as its cosines.
 #[test]
