@@ -41,8 +41,8 @@ fn export(criterion: &mut Criterion) {
     group.bench_function("figure, svg and png", |bencher| {
         let options = figure::FigureOptions::new(Quantity::Brightness, "brightness");
         bencher.iter(|| {
-            let svg = figure::map_figure_svg(&map, &options).expect("it can be drawn");
-            figure::svg_to_png(&svg, 2.0, None).expect("it can be drawn")
+            let figure = figure::map_figure(&map, &options).expect("it can be drawn");
+            figure.to_png(2.0, None).expect("it can be drawn")
         });
     });
     group.finish();

@@ -8,7 +8,7 @@ use isophote::scene::Scene;
 use isophote::text::significant;
 use isophote_export::FileMetadata;
 use isophote_export::csv::Rows;
-use isophote_export::figure::{self, FigureOptions};
+use isophote_export::figure::{Figure, FigureOptions, map_figure};
 use isophote_export::png::Depth;
 
 use super::output::{
@@ -51,7 +51,7 @@ impl<'a> CellFiles<'a> {
     /// Writes everything; the channel in the options is the one pictured.
     pub fn write(&self, map: &Map, options: FigureOptions, scene: &Scene, quiet: bool) -> Result<()> {
         let main = options.quantity.clone();
-        let svg = if self.figures.is_empty() { String::new() } else { self.draw(map, options, scene)? };
+        let figure = (!self.figures.is_empty()).then(|| self.draw(map, options, scene)).transpose()?;
         let style = MapStyle {
             quantity: main.clone(),
             range: self.style.range,
@@ -68,7 +68,7 @@ impl<'a> CellFiles<'a> {
         }
         let metadata = map.channel(&main).map(|channel| FileMetadata::of_channel(map, channel));
         for (path, format) in &self.figures {
-            write_figure(&svg, metadata.as_ref(), path, *format, &mut notes)?;
+            write_figure(figure.as_ref(), metadata.as_ref(), path, *format, &mut notes)?;
         }
         if !quiet {
             for note in &notes {
@@ -78,7 +78,7 @@ impl<'a> CellFiles<'a> {
         Ok(())
     }
 
-    fn draw(&self, map: &Map, options: FigureOptions, scene: &Scene) -> Result<String> {
+    fn draw(&self, map: &Map, options: FigureOptions, scene: &Scene) -> Result<Figure> {
         /// A longer, thinner map would leave no room for its numbers.
         const MOST: f64 = 6.0;
         let title = if options.title.is_empty() { scene.title().to_owned() } else { options.title };
@@ -97,7 +97,7 @@ impl<'a> CellFiles<'a> {
             proportions: Some([(width / height).clamp(1.0 / MOST, MOST), 1.0]),
             ..options
         };
-        Ok(figure::map_figure_svg(map, &options)?)
+        Ok(map_figure(map, &options)?)
     }
 }
 

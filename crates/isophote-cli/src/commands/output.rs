@@ -11,8 +11,9 @@ use isophote::map::{Map, Quantity};
 use isophote::text::significant;
 use isophote::units::Keyword;
 use isophote_export::colormap::Colormap;
+use isophote_export::figure::Figure;
 use isophote_export::png::{Depth, PictureColor, PictureOptions};
-use isophote_export::{ExportError, FileMetadata, Format, atomic, csv, exr, figure, npy, npz, png, write_atomically};
+use isophote_export::{ExportError, FileMetadata, Format, atomic, csv, exr, npy, npz, png, write_atomically};
 
 use crate::failure::Usage;
 use crate::progress::Interruptible;
@@ -154,11 +155,11 @@ pub fn figure_format(path: &Path) -> Result<FigureFormat> {
     Ok(format)
 }
 
-/// Writes a figure.
+/// Writes a figure, if there is one.
 ///
 /// A PNG carries the metadata, if any; an SVG has no place for them that other programs would preserve.
 pub fn write_figure(
-    svg: &str,
+    figure: Option<&Figure>,
     metadata: Option<&FileMetadata>,
     path: &Path,
     format: FigureFormat,
@@ -166,15 +167,12 @@ pub fn write_figure(
 ) -> Result<()> {
     /// Dots per unit of the drawing: sharp on paper and on high-density screens.
     const SCALE: f64 = 2.0;
+    let Some(figure) = figure else { return Ok(()) };
     let bytes = match format {
-        FigureFormat::Svg => svg.as_bytes().to_vec(),
-        FigureFormat::Png => {
-            let metadata = metadata.map(FileMetadata::to_json);
-            figure::svg_to_png(svg, SCALE, metadata.as_deref())
-                .map_err(|error| anyhow!("cannot draw the figure: {error}"))?
-        }
+        FigureFormat::Svg => figure.to_svg().map(String::into_bytes),
+        FigureFormat::Png => figure.to_png(SCALE, metadata.map(FileMetadata::to_json).as_deref()),
     };
-    write_bytes(&bytes, path, notes)
+    write_bytes(&bytes.map_err(|error| anyhow!("cannot draw the figure: {error}"))?, path, notes)
 }
 
 /// Writes a file from bytes already in memory.

@@ -11,7 +11,7 @@ use isophote::scene::Scene;
 use isophote::threads::Threads;
 use isophote_export::FileMetadata;
 use isophote_export::csv::Rows;
-use isophote_export::figure::{self, FigureOptions, Mark};
+use isophote_export::figure::{FigureOptions, Mark, map_figure};
 use isophote_export::png::Depth;
 
 use super::output::{
@@ -142,18 +142,15 @@ impl<'a> Job<'a> {
 
     fn write(&self, map: &Map, scene: &PreparedScene) -> Result<Vec<String>> {
         // If a figure cannot be drawn, find out before anything is written.
-        let svg = if self.figures.is_empty() {
-            String::new()
-        } else {
-            figure::map_figure_svg(map, &self.figure_options(map, scene))?
-        };
+        let figure =
+            (!self.figures.is_empty()).then(|| map_figure(map, &self.figure_options(map, scene))).transpose()?;
         let mut notes = self.options_without_effect();
         for file in &self.files {
             file.write(map, &self.style, &mut notes)?;
         }
         let metadata = map.channel(&self.pictured).map(|channel| FileMetadata::of_channel(map, channel));
         for (path, format) in &self.figures {
-            write_figure(&svg, metadata.as_ref(), path, *format, &mut notes)?;
+            write_figure(figure.as_ref(), metadata.as_ref(), path, *format, &mut notes)?;
         }
         Ok(notes)
     }

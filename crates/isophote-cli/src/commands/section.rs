@@ -11,7 +11,7 @@ use isophote::scene::Scene;
 use isophote::text::significant;
 use isophote::units::Keyword;
 use isophote_export::atomic;
-use isophote_export::figure::{SectionOptions, SectionPoint, Series, section_figure_svg};
+use isophote_export::figure::{Figure, SectionOptions, SectionPoint, Series, section_figure};
 use serde::Serialize;
 
 use super::output::{FigureFormat, figure_format, refuse_twice, write_bytes, write_figure};
@@ -41,13 +41,13 @@ pub fn run(arguments: &SectionArguments) -> Result<String> {
     }
     // Find out what cannot be drawn before anything is written.
     let has_figure = outputs.iter().any(|(_, output)| matches!(output, Output::Figure(_)));
-    let svg = if has_figure { section.to_svg()? } else { String::new() };
+    let figure = has_figure.then(|| section.figure()).transpose()?;
     crate::progress::end_in_order();
     let mut notes = Vec::new();
     for (path, output) in outputs {
         match output {
             Output::Csv => write_bytes(section.to_csv().as_bytes(), path, &mut notes)?,
-            Output::Figure(format) => write_figure(&svg, None, path, format, &mut notes)?,
+            Output::Figure(format) => write_figure(figure.as_ref(), None, path, format, &mut notes)?,
         }
     }
     if !arguments.quiet {
@@ -190,7 +190,7 @@ impl Section<'_> {
         text
     }
 
-    fn to_svg(&self) -> Result<String> {
+    fn figure(&self) -> Result<Figure> {
         let series = |quantity: &Quantity| Series {
             name: quantity.name(),
             points: self
@@ -216,7 +216,7 @@ impl Section<'_> {
         self.draw(&series, x_label, &title, &only.name(), &y_unit)
     }
 
-    fn draw(&self, series: &[Series], x_label: &str, line: &str, y_label: &str, y_unit: &str) -> Result<String> {
+    fn draw(&self, series: &[Series], x_label: &str, line: &str, y_label: &str, y_unit: &str) -> Result<Figure> {
         let title = self.scene.title();
         let options = SectionOptions {
             title: if title.is_empty() {
@@ -230,7 +230,7 @@ impl Section<'_> {
             y_unit: y_unit.into(),
             footer: self.footer(),
         };
-        Ok(section_figure_svg(series, &options)?)
+        Ok(section_figure(series, &options)?)
     }
 
     fn footer(&self) -> String {

@@ -1,6 +1,6 @@
 //! A contour on the page, parameterised by its length.
 
-use crate::figure::svg::Place;
+use crate::figure::drawing::Place;
 
 /// A polyline on the page, with the length in px from its start to each point.
 pub(super) struct Curve {

@@ -43,9 +43,6 @@ pub enum FigureError {
         /// What is missing.
         what: &'static str,
     },
-    /// The text given to [`svg_to_png`](super::svg_to_png) is not SVG.
-    #[error("not a valid SVG: {0}")]
-    Svg(String),
     /// The PNG would have no pixels, or more than 16384 along a side.
     #[error("at `scale` {scale} the picture is {width} × {height} pixels; 1 to 16384 a side are possible")]
     PictureSize {

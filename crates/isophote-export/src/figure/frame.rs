@@ -1,13 +1,13 @@
 //! The box around a plot, with its axes.
 
-use crate::figure::svg::{Anchor, INK, Place, Rectangle, Svg, Text};
+use crate::figure::drawing::{Anchor, Drawing, INK, Place, Rectangle, Stroke, Style, Text};
 use crate::figure::text;
 use crate::figure::ticks::Ticks;
 
 pub(super) const TICK_SIZE: f64 = 10.0;
 pub(super) const TITLE_SIZE: f64 = 11.5;
 pub(super) const TICK_LENGTH: f64 = 4.0;
-pub(super) const TICK_STYLE: &str = "stroke=\"#1a1a1a\" stroke-width=\"0.8\"";
+pub(super) const TICK_STYLE: Style = Style::line(Stroke::new(INK, 0.8));
 pub(super) const NUMBER_GAP: f64 = 3.0;
 pub(super) const AXIS_TITLE_GAP: f64 = 8.0;
 
@@ -57,50 +57,50 @@ impl Frame {
     }
 
     /// Light lines at the ticks, drawn below everything else.
-    pub(super) fn draw_grid(&self, svg: &mut Svg, x: &Axis, y: &Axis) {
-        const STYLE: &str = "stroke=\"#e4e4e4\" stroke-width=\"0.8\"";
+    pub(super) fn draw_grid(&self, drawing: &mut Drawing, x: &Axis, y: &Axis) {
+        const STYLE: Style = Style::line(Stroke::new([0xe4; 3], 0.8));
         for &value in &x.ticks.values {
             let at = self.place(value, self.y[0]).x;
             let (top, bottom) = (self.rectangle.top, self.bottom());
-            svg.path(&[Place { x: at, y: top }, Place { x: at, y: bottom }], false, STYLE);
+            drawing.path(&[Place { x: at, y: top }, Place { x: at, y: bottom }], false, STYLE);
         }
         for &value in &y.ticks.values {
             let at = self.place(self.x[0], value).y;
             let (left, right) = (self.rectangle.left, self.right());
-            svg.path(&[Place { x: left, y: at }, Place { x: right, y: at }], false, STYLE);
+            drawing.path(&[Place { x: left, y: at }, Place { x: right, y: at }], false, STYLE);
         }
     }
 
     /// The box, its ticks and labels, and the titles of both axes.
-    pub(super) fn draw_axes(&self, svg: &mut Svg, x: &Axis, y: &Axis) {
-        self.draw_horizontal(svg, x);
-        self.draw_vertical(svg, y);
-        svg.rectangle(self.rectangle, &format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"0.9\""));
+    pub(super) fn draw_axes(&self, drawing: &mut Drawing, x: &Axis, y: &Axis) {
+        self.draw_horizontal(drawing, x);
+        self.draw_vertical(drawing, y);
+        drawing.rectangle(self.rectangle, Style::line(Stroke::new(INK, 0.9)));
     }
 
-    fn draw_horizontal(&self, svg: &mut Svg, axis: &Axis) {
+    fn draw_horizontal(&self, drawing: &mut Drawing, axis: &Axis) {
         let bottom = self.bottom();
         let numbers = bottom + TICK_LENGTH + NUMBER_GAP + 0.5 * TICK_SIZE;
         for (&value, label) in axis.ticks.values.iter().zip(&axis.ticks.labels) {
             let x = self.place(value, self.y[0]).x;
-            svg.path(&[Place { x, y: bottom }, Place { x, y: bottom + TICK_LENGTH }], false, TICK_STYLE);
-            svg.text(&Text::new(label, Place { x, y: numbers }, TICK_SIZE, Anchor::Middle));
+            drawing.path(&[Place { x, y: bottom }, Place { x, y: bottom + TICK_LENGTH }], false, TICK_STYLE);
+            drawing.text(Text::new(label, Place { x, y: numbers }, TICK_SIZE, Anchor::Middle));
         }
         let middle = self.rectangle.left + 0.5 * self.rectangle.width;
         let at = Place { x: middle, y: bottom + Axis::height() - 0.5 * TITLE_SIZE };
-        svg.text(&Text::new(&axis.title, at, TITLE_SIZE, Anchor::Middle));
+        drawing.text(Text::new(&axis.title, at, TITLE_SIZE, Anchor::Middle));
     }
 
-    fn draw_vertical(&self, svg: &mut Svg, axis: &Axis) {
+    fn draw_vertical(&self, drawing: &mut Drawing, axis: &Axis) {
         let left = self.rectangle.left;
         for (&value, label) in axis.ticks.values.iter().zip(&axis.ticks.labels) {
             let y = self.place(self.x[0], value).y;
-            svg.path(&[Place { x: left - TICK_LENGTH, y }, Place { x: left, y }], false, TICK_STYLE);
+            drawing.path(&[Place { x: left - TICK_LENGTH, y }, Place { x: left, y }], false, TICK_STYLE);
             let at = Place { x: left - TICK_LENGTH - NUMBER_GAP, y };
-            svg.text(&Text::new(label, at, TICK_SIZE, Anchor::End));
+            drawing.text(Text::new(label, at, TICK_SIZE, Anchor::End));
         }
         let middle = self.rectangle.top + 0.5 * self.rectangle.height;
         let at = Place { x: left - axis.width() + 0.5 * TITLE_SIZE, y: middle };
-        svg.text(&Text { degrees: -90.0, ..Text::new(&axis.title, at, TITLE_SIZE, Anchor::Middle) });
+        drawing.text(Text { degrees: -90.0, ..Text::new(&axis.title, at, TITLE_SIZE, Anchor::Middle) });
     }
 }

@@ -1,6 +1,6 @@
 //! The area that a text covers on the page, rotated with the text.
 
-use crate::figure::svg::{Place, Rectangle};
+use crate::figure::drawing::{Place, Rectangle};
 
 /// A rotated rectangle.
 #[derive(Clone, Copy, Debug)]

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use crate::figure::curve::Curve;
+use crate::figure::drawing::{Place, Rectangle};
 use crate::figure::label_box::LabelBox;
-use crate::figure::svg::{Place, Rectangle};
 
 pub(super) const LEVEL_SIZE: f64 = 9.0;
 /// Gap in px between a label and the line on either side of it.

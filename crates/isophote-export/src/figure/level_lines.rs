@@ -2,13 +2,13 @@
 
 use isophote::analysis::isophotes::Isophote;
 
-use crate::figure::color_bar::{contrast, hex};
+use crate::figure::color_bar::contrast;
 use crate::figure::curve::Curve;
+use crate::figure::drawing::{Anchor, Color, Drawing, Place, Rectangle, Stroke, Style, Text};
 use crate::figure::frame::Frame;
 use crate::figure::label_box::LabelBox;
 use crate::figure::level_labels::{LEVEL_SIZE, LevelLabel, Surroundings};
 use crate::figure::raster::Scale;
-use crate::figure::svg::{Anchor, Place, Rectangle, Svg, Text};
 use crate::figure::text;
 use crate::figure::ticks::written;
 
@@ -23,7 +23,7 @@ const RIM: f64 = 3.0;
 /// Draws all isophotes. Labels stay clear of `taken`, and where possible of areas without a surface; like those of the
 /// colour bar, their numbers are divided by 10^exponent.
 pub(super) fn draw(
-    svg: &mut Svg,
+    drawing: &mut Drawing,
     frame: &Frame,
     isophotes: &[Isophote],
     scale: Scale,
@@ -50,39 +50,36 @@ pub(super) fn draw(
     let inside = Rectangle { left: left + RIM, top: top + RIM, width: width - 2.0 * RIM, height: height - 2.0 * RIM };
     let labels = Surroundings::new(&curves, taken, inside, is_surface).place_all(&widths);
     for ((curve, label), &owner) in curves.iter().zip(&labels).zip(&owners) {
-        draw_line(svg, curve, label.as_ref(), scale.color(levels[owner]));
+        draw_line(drawing, curve, label.as_ref(), scale.color(levels[owner]));
     }
     for (label, &owner) in labels.iter().zip(&owners) {
         if let Some(label) = label {
-            draw_number(svg, &numbers[owner], label, scale.color(levels[owner]));
+            draw_number(drawing, &numbers[owner], label, scale.color(levels[owner]));
         }
     }
 }
 
 /// The colour map's colour at the level is the background of the line, which is drawn in black or white to contrast
 /// with it.
-fn draw_line(svg: &mut Svg, curve: &Curve, label: Option<&LevelLabel>, ground: [u8; 3]) {
-    let style = format!(
-        "stroke=\"{}\" stroke-width=\"0.8\" stroke-opacity=\"0.85\" stroke-linejoin=\"round\"",
-        contrast(ground)
-    );
+fn draw_line(drawing: &mut Drawing, curve: &Curve, label: Option<&LevelLabel>, ground: Color) {
+    let style = Style::line(Stroke { opacity: 0.85, ..Stroke::new(contrast(ground), 0.8).round() });
     let total = curve.length();
     match label {
-        None => svg.path(&thinned(&curve.piece(0.0, total)), false, &style),
+        None => drawing.path(&thinned(&curve.piece(0.0, total)), false, style),
         Some(label) if curve.closed => {
-            svg.path(&thinned(&curve.piece(label.to, label.from + total)), false, &style);
+            drawing.path(&thinned(&curve.piece(label.to, label.from + total)), false, style);
         }
         Some(label) => {
-            svg.path(&thinned(&curve.piece(0.0, label.from)), false, &style);
-            svg.path(&thinned(&curve.piece(label.to, total)), false, &style);
+            drawing.path(&thinned(&curve.piece(0.0, label.from)), false, style);
+            drawing.path(&thinned(&curve.piece(label.to, total)), false, style);
         }
     }
 }
 
-fn draw_number(svg: &mut Svg, number: &str, label: &LevelLabel, ground: [u8; 3]) {
+fn draw_number(drawing: &mut Drawing, number: &str, label: &LevelLabel, ground: Color) {
     let plain = Text::new(number, label.room.center, LEVEL_SIZE, Anchor::Middle);
     let degrees = label.room.turn.to_degrees();
-    svg.text(&Text { degrees, color: contrast(ground), halo: Some(hex(ground)), ..plain });
+    drawing.text(Text { degrees, color: contrast(ground), halo: Some(ground), ..plain });
 }
 
 fn thinned(places: &[Place]) -> Vec<Place> {

@@ -2,13 +2,13 @@
 
 use isophote::map::{CoordinateAxis, Map};
 
+use crate::figure::drawing::{Anchor, Drawing, Figure, INK, Place, Rectangle, Stroke, Style, Text};
 use crate::figure::error::FigureError;
 use crate::figure::frame::{Axis, Frame, TICK_SIZE};
 use crate::figure::marks::{self, PlacedMark};
 use crate::figure::options::FigureOptions;
 use crate::figure::page::{MARGIN, Page};
 use crate::figure::picture::Picture;
-use crate::figure::svg::{Anchor, INK, Place, Rectangle, Svg, Text};
 use crate::figure::text;
 use crate::figure::ticks::{self, Ticks};
 
@@ -19,7 +19,7 @@ const BAR_GAP: f64 = 18.0;
 const NARROWEST: f64 = 320.0;
 const LEGEND_SIZE: f64 = 9.5;
 
-/// A map as an SVG figure with axes in the window's units, equal scales in both directions (unless the options set
+/// A map as a figure with axes in the window's units, equal scales in both directions (unless the options set
 /// other proportions), a colour bar, isophotes labelled with their levels, and marks.
 ///
 /// Pixels without a surface are hatched, so that "no surface" is not mistaken for "dark".
@@ -27,16 +27,16 @@ const LEGEND_SIZE: f64 = 9.5;
 /// # Errors
 /// [`FigureError`]: the channel is missing, or is neither scalar nor colours; a value is not finite; the range is
 /// invalid; no surface is seen; or a mark lies outside the window.
-pub fn map_figure_svg(map: &Map, options: &FigureOptions) -> Result<String, FigureError> {
+pub fn map_figure(map: &Map, options: &FigureOptions) -> Result<Figure, FigureError> {
     let content = Content::new(map, options)?;
     let layout = Layout::new(&content);
     let marks = marks::place(&layout.frame, &options.marks)?;
-    let mut svg = Svg::new();
-    content.draw_picture(&mut svg, &layout.frame, &marks)?;
-    layout.frame.draw_axes(&mut svg, &content.x, &content.y);
-    content.draw_color_bar(&mut svg, &layout)?;
-    layout.page.draw(&mut svg, layout.frame.rectangle.left + 0.5 * layout.frame.rectangle.width, layout.bottom);
-    Ok(svg.finish(layout.width, layout.page.height(layout.bottom)))
+    let mut drawing = Drawing::default();
+    content.draw_picture(&mut drawing, &layout.frame, &marks);
+    layout.frame.draw_axes(&mut drawing, &content.x, &content.y);
+    content.draw_color_bar(&mut drawing, &layout);
+    layout.page.draw(&mut drawing, layout.frame.rectangle.left + 0.5 * layout.frame.rectangle.width, layout.bottom);
+    Ok(drawing.finish(layout.width, layout.page.height(layout.bottom)))
 }
 
 /// Everything to be drawn, before layout.
@@ -82,32 +82,29 @@ impl<'figure> Content<'figure> {
         })
     }
 
-    fn draw_picture(&self, svg: &mut Svg, frame: &Frame, marks: &[PlacedMark]) -> Result<(), FigureError> {
+    fn draw_picture(&self, drawing: &mut Drawing, frame: &Frame, marks: &[PlacedMark]) {
         if self.has_gaps {
-            svg.raw(HATCHING);
-            svg.rectangle(frame.rectangle, "fill=\"url(#no-surface)\"");
+            drawing.rectangle(frame.rectangle, Style::hatched());
         }
         let taken = marks.iter().flat_map(PlacedMark::rooms).collect();
         let is_surface = |place: Place| is_surface(self.map, &frame.rectangle, place);
-        self.picture.draw(svg, self.map, frame, taken, &is_surface)?;
+        self.picture.draw(drawing, self.map, frame, taken, &is_surface);
         for mark in marks {
-            mark.draw(svg);
+            mark.draw(drawing);
         }
-        Ok(())
     }
 
-    fn draw_color_bar(&self, svg: &mut Svg, layout: &Layout) -> Result<(), FigureError> {
+    fn draw_color_bar(&self, drawing: &mut Drawing, layout: &Layout) {
         let Rectangle { top, height, .. } = layout.frame.rectangle;
         let left = layout.frame.right() + BAR_GAP;
-        self.picture.draw_bar(svg, left, top, height)?;
+        self.picture.draw_bar(drawing, left, top, height);
         if self.has_gaps {
             let middle = layout.frame.bottom() + 20.0;
             let swatch = Rectangle { left, top: middle - 5.0, width: 16.0, height: 10.0 };
-            svg.rectangle(swatch, &format!("fill=\"url(#no-surface)\" stroke=\"{INK}\" stroke-width=\"0.6\""));
+            drawing.rectangle(swatch, Style::hatched().with_outline(Stroke::new(INK, 0.6)));
             let at = Place { x: left + 21.0, y: middle };
-            svg.text(&Text::new(&self.options.no_surface, at, LEGEND_SIZE, Anchor::Start));
+            drawing.text(Text::new(&self.options.no_surface, at, LEGEND_SIZE, Anchor::Start));
         }
-        Ok(())
     }
 
     /// Space in px to the right of the picture.
@@ -148,11 +145,6 @@ impl Layout {
         Self { page, frame: Frame { rectangle, x: content.map.window.x, y: content.map.window.y }, width, bottom }
     }
 }
-
-/// Pale, cool and striped: unlike any colour of any colour map.
-const HATCHING: &str = "<defs><pattern id=\"no-surface\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\" \
-    patternTransform=\"rotate(45)\"><rect width=\"6\" height=\"6\" fill=\"#f1f2f5\"/><rect width=\"1\" height=\"6\" \
-    fill=\"#d3d6dd\"/></pattern></defs>";
 
 /// Whether a range of angles is large enough for ticks at divisors of a right angle.
 fn goes_round(axis: CoordinateAxis, [first, last]: [f64; 2]) -> bool {

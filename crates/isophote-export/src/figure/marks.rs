@@ -1,9 +1,9 @@
 //! Probe positions on a map figure.
 
+use crate::figure::drawing::{Anchor, Drawing, INK, PAPER, Place, Stroke, Style, Text};
 use crate::figure::error::FigureError;
 use crate::figure::frame::Frame;
 use crate::figure::label_box::LabelBox;
-use crate::figure::svg::{Anchor, INK, PAPER, Place, Svg, Text};
 use crate::figure::text;
 
 const NAME_SIZE: f64 = 10.0;
@@ -60,13 +60,13 @@ impl PlacedMark<'_> {
         [dot_room(self.dot), self.room]
     }
 
-    pub(super) fn draw(&self, svg: &mut Svg) {
-        svg.circle(self.dot, RADIUS, &format!("fill=\"{PAPER}\" stroke=\"{INK}\" stroke-width=\"1.2\""));
+    pub(super) fn draw(&self, drawing: &mut Drawing) {
+        drawing.circle(self.dot, RADIUS, Style::filled(PAPER).with_outline(Stroke::new(INK, 1.2)));
         if self.name.is_empty() {
             return;
         }
         let plain = Text::new(self.name, self.room.center, NAME_SIZE, Anchor::Middle);
-        svg.text(&Text { halo: Some(PAPER.into()), ..plain });
+        drawing.text(Text { halo: Some(PAPER), ..plain });
     }
 }
 
@@ -95,7 +95,7 @@ fn name_rooms(dot: Place, width: f64) -> [LabelBox; 8] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::svg::Rectangle;
+    use crate::figure::drawing::Rectangle;
 
     fn frame() -> Frame {
         let rectangle = Rectangle { left: 50.0, top: 30.0, width: 300.0, height: 300.0 };

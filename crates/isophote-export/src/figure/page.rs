@@ -1,6 +1,6 @@
 //! What every figure has around its plot: a title above and a footer below.
 
-use crate::figure::svg::{Anchor, PALE_INK, Place, Svg, Text};
+use crate::figure::drawing::{Anchor, Drawing, PALE_INK, Place, Text};
 use crate::figure::text;
 
 /// White margin of the page in px.
@@ -37,18 +37,18 @@ impl Page {
     }
 
     /// Writes the title centred above `middle`, shifted sideways if it would not fit, and the footer below `bottom`.
-    pub(super) fn draw(&self, svg: &mut Svg, middle: f64, bottom: f64) {
+    pub(super) fn draw(&self, drawing: &mut Drawing, middle: f64, bottom: f64) {
         let half = 0.5 * text::widest(&self.title, TITLE_SIZE);
         let x = middle.min(self.width - MARGIN - half).max(MARGIN + half);
         let mut y = MARGIN + 0.5 * TITLE_LINE;
         for line in &self.title {
-            svg.text(&Text::new(line, Place { x, y }, TITLE_SIZE, Anchor::Middle));
+            drawing.text(Text::new(line, Place { x, y }, TITLE_SIZE, Anchor::Middle));
             y += TITLE_LINE;
         }
         y = bottom + 10.0 + 0.5 * FOOTER_LINE;
         for line in &self.footer {
             let at = Place { x: MARGIN, y };
-            svg.text(&Text { color: PALE_INK, ..Text::new(line, at, FOOTER_SIZE, Anchor::Start) });
+            drawing.text(Text { color: PALE_INK, ..Text::new(line, at, FOOTER_SIZE, Anchor::Start) });
             y += FOOTER_LINE;
         }
     }

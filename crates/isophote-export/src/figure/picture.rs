@@ -6,12 +6,12 @@ use isophote::text::significant;
 
 use crate::color_scale::ColorScale;
 use crate::figure::color_bar::ColorBar;
+use crate::figure::drawing::{Drawing, Place};
 use crate::figure::error::FigureError;
 use crate::figure::frame::{Frame, TITLE_SIZE};
 use crate::figure::label_box::LabelBox;
 use crate::figure::options::FigureOptions;
 use crate::figure::raster::{self, Scale};
-use crate::figure::svg::{Place, Svg};
 use crate::figure::ticks::{self, Ticks};
 use crate::figure::{level_lines, text};
 
@@ -66,30 +66,28 @@ impl<'figure> Picture<'figure> {
 
     pub(super) fn draw(
         &self,
-        svg: &mut Svg,
+        drawing: &mut Drawing,
         map: &Map,
         frame: &Frame,
         taken: Vec<LabelBox>,
         is_surface: &dyn Fn(Place) -> bool,
-    ) -> Result<(), FigureError> {
+    ) {
         match self {
             Self::Numbers { values, isophotes, bar } => {
-                raster::draw_map(svg, map, |index| bar.scale.color(values.at(index)), frame.rectangle)?;
-                level_lines::draw(svg, frame, isophotes, bar.scale, bar.ticks.exponent, taken, is_surface);
-                Ok(())
+                raster::draw_map(drawing, map, |index| bar.scale.color(values.at(index)), frame.rectangle);
+                level_lines::draw(drawing, frame, isophotes, bar.scale, bar.ticks.exponent, taken, is_surface);
             }
             Self::Colors { colors, scale, .. } => {
                 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
                 let byte = |level: f64| (255.0 * level).round() as u8;
-                raster::draw_map(svg, map, |index| scale.shown(colors[index]).encoded.map(byte), frame.rectangle)
+                raster::draw_map(drawing, map, |index| scale.shown(colors[index]).encoded.map(byte), frame.rectangle);
             }
         }
     }
 
-    pub(super) fn draw_bar(&self, svg: &mut Svg, left: f64, top: f64, height: f64) -> Result<(), FigureError> {
-        match self {
-            Self::Numbers { bar, .. } => bar.draw(svg, left, top, height),
-            Self::Colors { .. } => Ok(()),
+    pub(super) fn draw_bar(&self, drawing: &mut Drawing, left: f64, top: f64, height: f64) {
+        if let Self::Numbers { bar, .. } = self {
+            bar.draw(drawing, left, top, height);
         }
     }
 

@@ -2,10 +2,10 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use resvg::usvg::roxmltree::{Document, Node};
+use roxmltree::{Document, Node};
 
+use crate::figure::drawing::{Place, Rectangle};
 use crate::figure::label_box::LabelBox;
-use crate::figure::svg::{Place, Rectangle};
 use crate::figure::text;
 
 pub(super) struct WrittenText {

@@ -1,9 +1,9 @@
 //! Values along a line as a figure.
 
+use crate::figure::drawing::{Anchor, BLACK, Color, Drawing, Figure, Place, Rectangle, Stroke, Style, Text};
 use crate::figure::error::FigureError;
 use crate::figure::frame::{Axis, Frame, TICK_SIZE};
 use crate::figure::page::{MARGIN, Page};
-use crate::figure::svg::{Anchor, Place, Rectangle, Svg, Text};
 use crate::figure::text;
 use crate::figure::ticks::{self, Ticks};
 
@@ -17,9 +17,17 @@ const LEGEND_GAP: f64 = 20.0;
 
 /// M. Okabe and K. Ito, "Color universal design", 2008: seven colours that people with colour blindness can
 /// distinguish.
-const COLORS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000"];
+const COLORS: [Color; 7] = [
+    [0x00, 0x72, 0xb2],
+    [0xd5, 0x5e, 0x00],
+    [0x00, 0x9e, 0x73],
+    [0xcc, 0x79, 0xa7],
+    [0x56, 0xb4, 0xe9],
+    [0xe6, 0x9f, 0x00],
+    BLACK,
+];
 /// One per round of the colours, so that 28 series are distinct.
-const DASHES: [&str; 4] = ["", "6 3", "2 2.5", "8 3 2 3"];
+const DASHES: [&[f64]; 4] = [&[], &[6.0, 3.0], &[2.0, 2.5], &[8.0, 3.0, 2.0, 3.0]];
 
 /// One line of a section figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,14 +64,14 @@ pub struct SectionOptions {
     pub footer: String,
 }
 
-/// Series of values along a line as an SVG figure: axes with units, a light grid, gaps where nothing is seen, and a
+/// Series of values along a line as a figure: axes with units, a light grid, gaps where nothing is seen, and a
 /// legend above the plot if there are several series.
 ///
 /// The vertical axis starts at 0 if that costs little space.
 ///
 /// # Errors
 /// [`FigureError`]: a number is not finite, there are fewer than two positions, or there is no value at all.
-pub fn section_figure_svg(series: &[Series], options: &SectionOptions) -> Result<String, FigureError> {
+pub fn section_figure(series: &[Series], options: &SectionOptions) -> Result<Figure, FigureError> {
     let [x_range, y_range] = ranges(series)?;
     let x_ticks = Ticks::side_by_side(x_range, WIDTH, TICK_SIZE);
     let y_ticks = Ticks::stacked(y_range, HEIGHT);
@@ -81,21 +89,21 @@ pub fn section_figure_svg(series: &[Series], options: &SectionOptions) -> Result
     let frame = Frame { rectangle, x: x_range, y: y_range };
     let bottom = frame.bottom() + Axis::height();
 
-    let mut svg = Svg::new();
-    frame.draw_grid(&mut svg, &x, &y);
+    let mut drawing = Drawing::default();
+    frame.draw_grid(&mut drawing, &x, &y);
     for (index, line) in series.iter().enumerate() {
-        draw_series(&mut svg, &frame, &line.points, index);
+        draw_series(&mut drawing, &frame, &line.points, index);
     }
-    frame.draw_axes(&mut svg, &x, &y);
+    frame.draw_axes(&mut drawing, &x, &y);
     for (index, (entry, line)) in legend.iter().zip(series).enumerate() {
         let y = page.top() + entry.y + 0.4 * LEGEND_LINE;
         let sample = [Place { x: entry.x, y }, Place { x: entry.x + SAMPLE[0], y }];
-        svg.path(&sample, false, &line_style(index));
+        drawing.path(&sample, false, line_style(index));
         let at = Place { x: entry.x + SAMPLE[0] + SAMPLE[1], y };
-        svg.text(&Text::new(&line.name, at, LEGEND_SIZE, Anchor::Start));
+        drawing.text(Text::new(&line.name, at, LEGEND_SIZE, Anchor::Start));
     }
-    page.draw(&mut svg, left + 0.5 * WIDTH, bottom);
-    Ok(svg.finish(width, page.height(bottom)))
+    page.draw(&mut drawing, left + 0.5 * WIDTH, bottom);
+    Ok(drawing.finish(width, page.height(bottom)))
 }
 
 /// The ranges of both axes.
@@ -133,24 +141,20 @@ fn padded([low, high]: [f64; 2]) -> [f64; 2] {
 }
 
 /// Draws each unbroken run as a line, and a value with gaps on both sides as a dot.
-fn draw_series(svg: &mut Svg, frame: &Frame, points: &[SectionPoint], index: usize) {
+fn draw_series(drawing: &mut Drawing, frame: &Frame, points: &[SectionPoint], index: usize) {
     for run in points.split(|point| point.value.is_none()) {
         let places: Vec<Place> = run.iter().filter_map(|point| Some(frame.place(point.x, point.value?))).collect();
         match places[..] {
             [] => {}
-            [alone] => svg.circle(alone, 1.6, &format!("fill=\"{}\"", COLORS[index % COLORS.len()])),
-            _ => svg.path(&places, false, &line_style(index)),
+            [alone] => drawing.circle(alone, 1.6, Style::filled(COLORS[index % COLORS.len()])),
+            _ => drawing.path(&places, false, line_style(index)),
         }
     }
 }
 
-fn line_style(index: usize) -> String {
-    let color = COLORS[index % COLORS.len()];
-    let dash = match DASHES[index / COLORS.len() % DASHES.len()] {
-        "" => String::new(),
-        dash => format!(" stroke-dasharray=\"{dash}\""),
-    };
-    format!("stroke=\"{color}\" stroke-width=\"1.5\" stroke-linejoin=\"round\"{dash}")
+fn line_style(index: usize) -> Style {
+    let dashes = DASHES[index / COLORS.len() % DASHES.len()];
+    Style::line(Stroke { dashes, ..Stroke::new(COLORS[index % COLORS.len()], 1.5).round() })
 }
 
 /// Positions of the legend's entries, `y` measured from its top; empty for a single series.

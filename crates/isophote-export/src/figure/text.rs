@@ -1,23 +1,81 @@
-//! Measures text in the embedded font, and breaks it into lines.
+//! Text in the embedded font: its width, its lines, its letters' outlines.
 
 use std::sync::OnceLock;
 
-use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, MetadataProvider};
+use tiny_skia::{Path, PathBuilder};
+use ttf_parser::{Face, GlyphId, OutlineBuilder};
+
+use crate::figure::drawing::Place;
+use crate::figure::picture_file::single;
 
 /// `DejaVu Sans`, subset to the characters used in figures; see `font/README.md`.
-pub(super) const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
+const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
 
 /// Advance of a character missing from the font: that of a wide capital, as a fraction of the font size.
 const UNKNOWN_WIDTH: f64 = 0.8;
 
-/// Width of a line of text in px, without kerning: at most a few per cent too wide.
+/// Width of a line of text in px. Letters are not kerned.
 pub(super) fn width(text: &str, size: f64) -> f64 {
-    let font = font();
-    let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
-    let characters = font.charmap();
-    let advance = |character| characters.map(character).and_then(|glyph| metrics.advance_width(glyph));
-    size * text.chars().map(|character| advance(character).map_or(UNKNOWN_WIDTH, f64::from)).sum::<f64>()
+    text.chars().map(|character| size * advance(character)).sum()
+}
+
+/// The outlines of a line's letters; none if nothing of it is to be seen. It starts at a point of its base line.
+pub(super) fn outline(text: &str, size: f64, start: Place) -> Option<Path> {
+    let unit = size / f64::from(font().units_per_em());
+    let mut outline = Letters { path: PathBuilder::new(), start, unit };
+    for character in text.chars() {
+        // The first glyph stands for every character that the font lacks.
+        let glyph = font().glyph_index(character).unwrap_or(GlyphId(0));
+        font().outline_glyph(glyph, &mut outline);
+        outline.start.x += size * advance(character);
+    }
+    outline.path.finish()
+}
+
+/// As a fraction of the font size.
+fn advance(character: char) -> f64 {
+    let advance = font().glyph_index(character).and_then(|glyph| font().glyph_hor_advance(glyph));
+    advance.map_or(UNKNOWN_WIDTH, |advance| f64::from(advance) / f64::from(font().units_per_em()))
+}
+
+/// Outlines on the page, from those in the font, where y points up.
+struct Letters {
+    path: PathBuilder,
+    start: Place,
+    /// Size of the font's unit in px.
+    unit: f64,
+}
+
+impl Letters {
+    fn place(&self, x: f32, y: f32) -> [f32; 2] {
+        [self.start.x + self.unit * f64::from(x), self.start.y - self.unit * f64::from(y)].map(single)
+    }
+}
+
+impl OutlineBuilder for Letters {
+    fn move_to(&mut self, x: f32, y: f32) {
+        let [x, y] = self.place(x, y);
+        self.path.move_to(x, y);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        let [x, y] = self.place(x, y);
+        self.path.line_to(x, y);
+    }
+
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        let ([x1, y1], [x, y]) = (self.place(x1, y1), self.place(x, y));
+        self.path.quad_to(x1, y1, x, y);
+    }
+
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        let ([x1, y1], [x2, y2], [x, y]) = (self.place(x1, y1), self.place(x2, y2), self.place(x, y));
+        self.path.cubic_to(x1, y1, x2, y2, x, y);
+    }
+
+    fn close(&mut self) {
+        self.path.close();
+    }
 }
 
 /// Width of the widest of several lines in px.
@@ -46,9 +104,9 @@ pub(super) fn wrap(text: &str, size: f64, room: f64) -> Vec<String> {
     lines
 }
 
-fn font() -> &'static FontRef<'static> {
-    static PARSED: OnceLock<FontRef<'static>> = OnceLock::new();
-    PARSED.get_or_init(|| FontRef::new(FONT).unwrap_or_else(|error| unreachable!("the embedded font: {error}")))
+fn font() -> &'static Face<'static> {
+    static PARSED: OnceLock<Face<'static>> = OnceLock::new();
+    PARSED.get_or_init(|| Face::parse(FONT, 0).unwrap_or_else(|error| unreachable!("the embedded font: {error}")))
 }
 
 #[cfg(test)]
@@ -65,8 +123,7 @@ mod tests {
     #[test]
     fn the_font_has_every_sign_that_a_figure_uses() {
         let figure = "AZaz09 éß°·×± АЯЁаяё ²³⁰⁻⁹₀₉ αωΣΩθφρ ←→↑↓ −≤≥≈∞∑√∫‖ «»„“–—… №";
-        let missing: Vec<char> =
-            figure.chars().filter(|&character| font().charmap().map(character).is_none()).collect();
+        let missing: Vec<char> = figure.chars().filter(|&character| font().glyph_index(character).is_none()).collect();
         assert!(missing.is_empty(), "{missing:?}");
     }
 

@@ -7,7 +7,7 @@ use isophote::units::Keyword;
 
 use super::exr::{channels, image};
 use super::{encoded, sample, with_channels};
-use crate::figure::{FigureOptions, map_figure_svg};
+use crate::figure::{FigureOptions, map_figure};
 use crate::png::{Depth, PictureColor, PictureOptions, PictureReport, write};
 use crate::{ExportError, FileMetadata, Format};
 
@@ -107,7 +107,8 @@ fn the_description_names_the_space_and_none_where_there_is_none() {
 
 #[test]
 fn a_figure_of_colours_has_axes_and_no_colour_bar() {
-    let svg = map_figure_svg(&colored(ColorSpace::Rec709), &FigureOptions::new(Quantity::Color, "color")).unwrap();
+    let figure = map_figure(&colored(ColorSpace::Rec709), &FigureOptions::new(Quantity::Color, "color")).unwrap();
+    let svg = figure.to_svg().unwrap();
     assert_eq!(svg.matches("<image").count(), 1, "the picture alone");
     assert!(svg.contains("rec709"), "{svg}");
 }

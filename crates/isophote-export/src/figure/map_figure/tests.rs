@@ -6,11 +6,14 @@ use crate::colormap::Colormap;
 use crate::figure::color_bar::ColorBar;
 use crate::figure::marks::Mark;
 use crate::figure::read_back::{WrittenText, decode, images, page, texts};
-use crate::figure::svg_to_png;
 use crate::sample_map::{Seen, everywhere, map_over, square_map};
 
 fn options() -> FigureOptions {
     FigureOptions::new(Quantity::Brightness, "brightness B, lab (3.3)")
+}
+
+fn svg_of(map: &Map, options: &FigureOptions) -> String {
+    map_figure(map, options).unwrap().to_svg().unwrap()
 }
 
 fn bar<'c>(content: &'c Content<'_>) -> &'c ColorBar {
@@ -49,7 +52,7 @@ fn find<'texts>(texts: &'texts [WrittenText], content: &str) -> Vec<&'texts Writ
 #[test]
 fn the_embedded_image_holds_the_maps_pixels_and_nothing_where_no_surface_is_seen() {
     let map = ball(31);
-    let svg = map_figure_svg(&map, &FigureOptions { range: Some([0.0, 1.0]), ..options() }).unwrap();
+    let svg = svg_of(&map, &FigureOptions { range: Some([0.0, 1.0]), ..options() });
     let image = &images(&svg)[0];
     assert_eq!(image.size, [31, 31]);
     let values = map.scalar(&Quantity::Brightness).unwrap();
@@ -64,7 +67,7 @@ fn the_embedded_image_holds_the_maps_pixels_and_nothing_where_no_surface_is_seen
 #[test]
 fn numbers_stand_at_the_pixels_of_their_values_and_scales_are_equal() {
     let map = wave([120, 80], [-60.0, 60.0], [10.0, 90.0], 1.0);
-    let svg = map_figure_svg(&map, &options()).unwrap();
+    let svg = svg_of(&map, &options());
     let place = images(&svg)[0].place;
     assert!((place.width / place.height - 120.0 / 80.0).abs() < 1e-9, "equal scales");
     let texts = texts(&svg);
@@ -82,7 +85,7 @@ fn numbers_stand_at_the_pixels_of_their_values_and_scales_are_equal() {
 #[test]
 fn every_level_is_written_on_its_line_along_it_and_upright() {
     let map = square_map(200, 1.0, everywhere(|x, y| x * x + y * y));
-    let svg = map_figure_svg(&map, &FigureOptions { isophotes: 6, ..options() }).unwrap();
+    let svg = svg_of(&map, &FigureOptions { isophotes: 6, ..options() });
     let place = images(&svg)[0].place;
     let texts = texts(&svg);
     let is_inside = |text: &&WrittenText| text.room.lies_in(&place);
@@ -106,7 +109,7 @@ fn every_level_is_written_on_its_line_along_it_and_upright() {
 #[test]
 fn a_line_leaves_a_gap_for_its_number() {
     let map = square_map(100, 1.0, everywhere(|_, y| y));
-    let svg = map_figure_svg(&map, &FigureOptions { isophotes: 1, ..options() }).unwrap();
+    let svg = svg_of(&map, &FigureOptions { isophotes: 1, ..options() });
     let place = images(&svg)[0].place;
     let number = texts(&svg).into_iter().find(|text| text.room.lies_in(&place)).unwrap();
     assert_eq!(number.content, "0");
@@ -148,7 +151,7 @@ fn no_text_leaves_the_page_or_touches_another() {
         map.provenance.renderer.clear();
         let x = map.window.x;
         let marks = vec![mark("P1", x[0], 0.0), mark("probe", 0.6 * x[0] + 0.4 * x[1], 0.0)];
-        let svg = map_figure_svg(&map, &FigureOptions { marks, ..options }).unwrap();
+        let svg = svg_of(&map, &FigureOptions { marks, ..options });
         let page = page(&svg);
         let texts = texts(&svg);
         for (position, text) in texts.iter().enumerate() {
@@ -163,10 +166,10 @@ fn no_text_leaves_the_page_or_touches_another() {
 
 #[test]
 fn gaps_are_hatched_and_explained_only_where_there_are_any() {
-    let with = map_figure_svg(&ball(20), &FigureOptions { no_surface: "фон".into(), ..options() }).unwrap();
+    let with = svg_of(&ball(20), &FigureOptions { no_surface: "фон".into(), ..options() });
     assert_eq!(with.matches("url(#no-surface)").count(), 2, "the picture's ground and the legend");
     assert_eq!(find(&texts(&with), "фон").len(), 1);
-    let without = map_figure_svg(&square_map(20, 1.0, everywhere(|x, _| x)), &options()).unwrap();
+    let without = svg_of(&square_map(20, 1.0, everywhere(|x, _| x)), &options());
     assert!(!without.contains("no-surface") && !without.contains("no surface"));
 }
 
@@ -180,7 +183,7 @@ fn title_marks_units_and_version_are_written_as_given() {
         marks: vec![mark("P<1>", 0.2, 0.1)],
         ..options()
     };
-    let svg = map_figure_svg(&ball(40), &options).unwrap();
+    let svg = svg_of(&ball(40), &options);
     let texts = texts(&svg);
     let wanted = [title, "P<1>", "x, м", "brightness B, lab (3.3), Вт/м²", "isophote 0.1.0 · double reference"];
     for content in wanted {
@@ -206,17 +209,17 @@ fn a_constant_map_has_a_range_around_its_value() {
         let options = options();
         let content = Content::new(&map, &options).unwrap();
         assert_eq!(bar(&content).scale.range.map(f64::to_bits), wanted.map(f64::to_bits));
-        assert!(map_figure_svg(&map, &options).is_ok());
+        assert!(map_figure(&map, &options).is_ok());
     }
 }
 
 #[test]
 fn what_cannot_be_drawn_is_refused_by_name() {
-    let refuse = |map: &Map, options: FigureOptions| map_figure_svg(map, &options).unwrap_err().to_string();
+    let refuse = |map: &Map, options: FigureOptions| map_figure(map, &options).unwrap_err().to_string();
     let map = ball(20);
     let nothing = square_map(8, 1.0, |_, _| None);
     assert!(refuse(&nothing, options()).contains("give one"));
-    assert!(map_figure_svg(&nothing, &FigureOptions { range: Some([0.0, 1.0]), ..options() }).is_ok());
+    assert!(map_figure(&nothing, &FigureOptions { range: Some([0.0, 1.0]), ..options() }).is_ok());
     for range in [[1.0, 1.0], [2.0, 1.0], [0.0, f64::INFINITY], [f64::NAN, 1.0]] {
         assert!(refuse(&map, FigureOptions { range: Some(range), ..options() }).starts_with("`range` is"));
     }
@@ -230,8 +233,9 @@ fn what_cannot_be_drawn_is_refused_by_name() {
 
 #[test]
 fn the_png_shows_the_colours_and_the_texts_of_the_svg() {
-    let svg = map_figure_svg(&ball(20), &FigureOptions { isophotes: 0, ..options() }).unwrap();
-    let (size, rgba) = decode(&svg_to_png(&svg, 0.5, None).unwrap());
+    let figure = map_figure(&ball(20), &FigureOptions { isophotes: 0, ..options() }).unwrap();
+    let svg = figure.to_svg().unwrap();
+    let (size, rgba) = decode(&figure.to_png(0.5, None).unwrap());
     let page = page(&svg);
     let sides = [(size[0], page.width), (size[1], page.height)];
     assert!(sides.iter().all(|(pixels, side)| (f64::from(*pixels) - 0.5 * side).abs() <= 0.5), "{size:?}");

@@ -1,4 +1,5 @@
 use super::*;
+use crate::figure::color_bar::hex;
 use crate::figure::read_back::{page, texts};
 
 fn options() -> SectionOptions {
@@ -12,14 +13,18 @@ fn options() -> SectionOptions {
     }
 }
 
+fn svg_of(series: &[Series], options: &SectionOptions) -> String {
+    section_figure(series, options).unwrap().to_svg().unwrap()
+}
+
 fn series(name: &str, values: &[Option<f64>]) -> Series {
     let points = (0_u32..).zip(values).map(|(index, &value)| SectionPoint { x: f64::from(index), value }).collect();
     Series { name: name.into(), points }
 }
 
 /// Coordinates of the paths in a series' colour.
-fn lines(svg: &str, color: &str) -> Vec<Vec<f64>> {
-    let paths = svg.lines().filter(|line| line.starts_with("<path") && line.contains(color));
+fn lines(svg: &str, color: Color) -> Vec<Vec<f64>> {
+    let paths = svg.lines().filter(|line| line.starts_with("<path") && line.contains(&hex(color)));
     paths
         .filter_map(|line| line.split('"').nth(1))
         .map(|data| data.split(|sign: char| "ML ".contains(sign)).filter_map(|word| word.parse().ok()).collect())
@@ -29,7 +34,7 @@ fn lines(svg: &str, color: &str) -> Vec<Vec<f64>> {
 #[test]
 fn a_line_is_interrupted_where_nothing_is_seen() {
     let values = [Some(1.0), Some(2.0), None, Some(3.0), None, None, Some(2.0), Some(1.0), Some(4.0)];
-    let svg = section_figure_svg(&[series("B", &values)], &options()).unwrap();
+    let svg = svg_of(&[series("B", &values)], &options());
     let lines = lines(&svg, COLORS[0]);
     assert_eq!(lines.iter().map(Vec::len).collect::<Vec<_>>(), [4, 6], "two places and three places");
     assert_eq!(svg.matches("<circle").count(), 1, "the value alone between two gaps");
@@ -37,7 +42,7 @@ fn a_line_is_interrupted_where_nothing_is_seen() {
 
 #[test]
 fn values_stand_where_the_numbers_of_the_axes_say() {
-    let svg = section_figure_svg(&[series("B", &[Some(0.0), Some(10.0), Some(5.0)])], &options()).unwrap();
+    let svg = svg_of(&[series("B", &[Some(0.0), Some(10.0), Some(5.0)])], &options());
     let line = &lines(&svg, COLORS[0])[0];
     let texts = texts(&svg);
     let number = |wanted: f64, is_below: bool| {
@@ -52,11 +57,11 @@ fn values_stand_where_the_numbers_of_the_axes_say() {
 #[test]
 fn a_legend_names_several_series_and_keeps_clear_of_everything() {
     let values = [Some(1e-5), Some(4e-5), Some(2e-5)];
-    let one = section_figure_svg(&[series("alone", &values)], &options()).unwrap();
+    let one = svg_of(&[series("alone", &values)], &options());
     assert!(!one.contains("alone"));
     let names = ["lamp 1", "lamp 2, показатель 40", "the sum of all lamps of the scene", "reference & bound", "5"];
     let several: Vec<Series> = names.iter().map(|name| series(name, &values)).collect();
-    let svg = section_figure_svg(&several, &options()).unwrap();
+    let svg = svg_of(&several, &options());
     let (page, texts) = (page(&svg), texts(&svg));
     let line = &lines(&svg, COLORS[0])[0];
     let highest = line.chunks(2).map(|place| place[1]).fold(f64::INFINITY, f64::min);
@@ -72,7 +77,7 @@ fn a_legend_names_several_series_and_keeps_clear_of_everything() {
 
 #[test]
 fn twenty_eight_series_differ_in_colour_or_dash() {
-    let styles: std::collections::HashSet<String> = (0..28).map(line_style).collect();
+    let styles: std::collections::HashSet<String> = (0..28).map(|index| format!("{:?}", line_style(index))).collect();
     assert_eq!(styles.len(), 28);
 }
 
@@ -88,7 +93,7 @@ fn the_vertical_axis_begins_at_zero_only_where_values_come_near_it() {
 
 #[test]
 fn a_section_without_a_line_is_refused() {
-    let refuse = |series: &[Series]| section_figure_svg(series, &options()).unwrap_err().to_string();
+    let refuse = |series: &[Series]| section_figure(series, &options()).unwrap_err().to_string();
     assert!(refuse(&[]).contains("no two places"));
     assert!(refuse(&[series("B", &[Some(1.0)])]).contains("no two places"));
     assert!(refuse(&[series("B", &[None, None])]).contains("no value"));
