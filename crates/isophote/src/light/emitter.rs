@@ -45,12 +45,14 @@ impl Emitters {
     /// The emitters of these lights.
     #[must_use]
     pub fn of(lights: &[Light]) -> Self {
-        Self::new(lights.iter().map(|light| vec![light.emitter()]))
+        Self::new(lights.iter().map(|light| [light.emitter()]))
     }
 
     /// From the emitters of each light.
-    fn new(of_lights: impl Iterator<Item = Vec<Emitter>>) -> Self {
-        let (mut all, mut first) = (Vec::new(), vec![0]);
+    fn new<E: IntoIterator<Item = Emitter>>(of_lights: impl ExactSizeIterator<Item = E>) -> Self {
+        let lights = of_lights.len();
+        let (mut all, mut first) = (Vec::with_capacity(lights), Vec::with_capacity(lights + 1));
+        first.push(0);
         for (light, emitters) in of_lights.enumerate() {
             all.extend(emitters.into_iter().map(|emitter| Emitter { light, ..emitter }));
             first.push(all.len());
@@ -76,7 +78,7 @@ impl Emitters {
     pub(crate) fn halved(&self) -> Self {
         let halves = |light| {
             let half = |emitter: &Emitter| Emitter { intensity: 0.5 * emitter.intensity, ..*emitter };
-            self.all[self.of_light(light)].iter().flat_map(|emitter| [half(emitter); 2]).collect()
+            self.all[self.of_light(light)].iter().flat_map(|emitter| [half(emitter); 2]).collect::<Vec<_>>()
         };
         Self::new((0..self.first.len() - 1).map(halves))
     }

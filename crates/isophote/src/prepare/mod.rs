@@ -104,7 +104,8 @@ impl PreparedScene {
             outline: OnceLock::new(),
         });
         let shapes: Vec<PreparedShape> = shapes.collect();
-        let mut first_primitives = vec![0];
+        let mut first_primitives = Vec::with_capacity(shapes.len() + 1);
+        first_primitives.push(0);
         first_primitives.extend(shapes.iter().scan(0, |count, shape| {
             *count += shape.geometry.parts();
             Some(*count)
