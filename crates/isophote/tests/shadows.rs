@@ -5,7 +5,7 @@ use isophote::lanes::Precision;
 use isophote::map::{Map, Quantity};
 use isophote::prepare::PreparedScene;
 use isophote::render::{ReferenceRenderer, RenderSettings, Renderer, SimdRenderer};
-use isophote::scene::{Scene, Syntax};
+use isophote::scene::{MemoryFiles, Scene, Syntax};
 use isophote::vector::Vector;
 
 fn prepared(text: &str) -> PreparedScene {
@@ -202,5 +202,111 @@ fn a_lamp_in_a_ball_lights_only_the_inside_of_it() {
         for (expected, found) in expected.iter().zip(&found) {
             assert!((found - expected).abs() <= 1e-12 * expected, "{found} instead of {expected}");
         }
+    }
+}
+
+/// An icosahedron of radius 1 about the origin, with the normals of the sphere around it.
+fn icosahedron() -> MemoryFiles {
+    use std::fmt::Write;
+
+    let golden = f64::midpoint(1.0, 5.0_f64.sqrt());
+    let mut corners: Vec<Vector> = Vec::new();
+    for (one, other) in [(1.0, golden), (1.0, -golden), (-1.0, golden), (-1.0, -golden)] {
+        corners.extend([Vector::new(0.0, one, other), Vector::new(one, other, 0.0), Vector::new(other, 0.0, one)]);
+    }
+    let side = 2.0;
+    let mut file = String::new();
+    for corner in &corners {
+        let Vector { x, y, z } = corner.normalized();
+        let _ = write!(file, "v {x} {y} {z}\nvn {x} {y} {z}\n");
+    }
+    let is_side = |a: usize, b: usize| ((corners[a] - corners[b]).length() - side).abs() < 1e-9;
+    for a in 0..12 {
+        for b in a + 1..12 {
+            for c in b + 1..12 {
+                if is_side(a, b) && is_side(b, c) && is_side(c, a) {
+                    let outward = (corners[b] - corners[a]).cross(corners[c] - corners[a]).dot(corners[a]) > 0.0;
+                    let [b, c] = if outward { [b, c] } else { [c, b] };
+                    let _ = writeln!(file, "f {0}//{0} {1}//{1} {2}//{2}", a + 1, b + 1, c + 1);
+                }
+            }
+        }
+    }
+    assert_eq!(file.matches('f').count(), 20);
+    MemoryFiles::from_iter([("icosahedron.obj", file)])
+}
+
+/// The icosahedron with smooth normals, shadows, and more.
+fn smooth_ball(more: &str) -> PreparedScene {
+    let text = format!(
+        "version = 1\nlength = \"m\"\nconvention = \"irradiance\"\nshadows = true
+        [camera]\neye = [3, 5, -5]\ntarget = [0, 0, 0]\nresolution = [200, 150]
+        screen = {{ distance = 1, x = [-0.2, 0.2], y = [-0.15, 0.15] }}
+        [[mesh]]\nname = \"ball\"\nfile = \"icosahedron.obj\"\nsmooth = true
+        {more}"
+    );
+    let scene = Scene::from_text_with(&icosahedron(), None, "test", &text, Syntax::Toml);
+    PreparedScene::new(&scene.unwrap_or_else(|error| panic!("{error}\n{text}")))
+}
+
+/// The middle of a facet, and its normal: the facet's plane is 0.795 from the centre, the smooth surface about 1.
+const FACET: f64 = 0.794_654_472_291_766_1;
+
+fn facet_normal() -> Vector {
+    Vector::new(1.0, 1.0, 1.0).normalized()
+}
+
+/// Shadow rays of a smooth mesh start above its facets; near the terminator that may be above the horizon of a light that the
+/// point still sees.
+#[test]
+fn a_lamp_in_a_closed_crate_lights_nothing_outside() {
+    for lamp in [[0.8, 1.2, -0.8], [2.0, 0.3, -1.0], [0.0, 1.3, -0.4]] {
+        let [x, y, z] = lamp;
+        let scene = smooth_ball(&format!(
+            "[[box]]\nname = \"crate\"\ncenter = [{x}, {y}, {z}]\nsize = [0.1, 0.1, 0.1]
+            [[light]]\nposition = [{x}, {y}, {z}]\nintensity = 1"
+        ));
+        let map = map(&scene);
+        let irradiance = map.scalar(&Quantity::Irradiance).expect("it was asked for");
+        let lit = map.mask().indices().filter(|&index| irradiance.at(index) > 0.0).count();
+        assert_eq!(lit, 0, "lamp at {lamp:?}");
+    }
+}
+
+/// What stands between a facet and the smooth surface above it shades the facet.
+#[test]
+fn a_plate_close_to_a_facet_shades_it() {
+    let normal = facet_normal();
+    let at = |distance: f64| {
+        let Vector { x, y, z } = normal * distance;
+        format!("[{x}, {y}, {z}]")
+    };
+    let irradiance = |plate: f64, lamp: f64| {
+        let scene = smooth_ball(&format!(
+            "[[disk]]\nname = \"plate\"\ncenter = {}\nnormal = [1, 1, 1]\nradius = 0.1
+            [[light]]\nposition = {}\nintensity = 1",
+            at(plate),
+            at(lamp)
+        ));
+        let reading = scene.probe(&ProbePosition::Point(normal * FACET)).expect("it is on the ball");
+        reading.shading.irradiance
+    };
+    let lit = |lamp: f64| 1.0 / (lamp - FACET).powi(2);
+    for (plate, lamp, is_lit) in [
+        (0.8, 3.0, false),
+        (0.9, 3.0, false),
+        (0.99, 3.0, false),
+        (1.2, 3.0, false),
+        // The lamp itself is that close: below the plate and above it.
+        (0.9, 0.85, true),
+        (0.99, 0.8, true),
+        (0.8, 0.85, false),
+    ] {
+        let expected = if is_lit { lit(lamp) } else { 0.0 };
+        let found = irradiance(plate, lamp);
+        assert!(
+            (found - expected).abs() <= 1e-9 * expected,
+            "plate at {plate}, lamp at {lamp}: {found}, not {expected}"
+        );
     }
 }

@@ -16,7 +16,7 @@ pub struct Hit<T = f64> {
     pub point: SurfacePoint<T>,
     /// Whether a closed shape is seen from inside.
     pub from_inside: bool,
-    /// See [`ShapeHit::shadow_ray_offset`](crate::shape::ShapeHit::shadow_ray_offset).
+    /// [`ShapeHit::shadow_ray_offset`](crate::shape::ShapeHit::shadow_ray_offset), shorter where something stands that close.
     pub shadow_ray_offset: Vector<T>,
 }
 

@@ -71,6 +71,7 @@ impl PreparedScene {
             cos_theta_o: normal.dot(view),
         };
         let primitive = Primitive { shape: located.shape, part: nearest.part };
-        Hit { primitive, distance, point, from_inside, shadow_ray_offset }
+        let hit = Hit { primitive, distance, point, from_inside, shadow_ray_offset };
+        Hit { shadow_ray_offset: self.clear_shadow_ray_offset(&hit).0, ..hit }
     }
 }

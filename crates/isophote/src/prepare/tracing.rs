@@ -65,7 +65,13 @@ impl PreparedScene {
     fn nearest<T: Scalar>(&self, ray: &Ray<T>) -> Traced<T> {
         let mut search = Search::new(self, ray);
         self.along_ray(ray, f64::INFINITY, |primitive| search.test(primitive));
-        search.finish()
+        let mut traced = search.finish();
+        if let Some(hit) = &mut traced.hit {
+            let (offset, is_doubtful) = self.clear_shadow_ray_offset(hit);
+            hit.shadow_ray_offset = offset;
+            traced.is_doubtful |= is_doubtful;
+        }
+        traced
     }
 }
 

@@ -50,11 +50,17 @@ impl PreparedScene {
         emitter: usize,
     ) -> Blocking {
         let source = &self.emitters.all()[emitter];
-        let start = point.offset + shadow_ray_offset;
-        let to_light = source.from_place(point.anchor, start);
-        if !T::zero().is_less(point.normal.dot(to_light)) {
+        let from_point = source.from_place(point.anchor, point.offset);
+        if !T::zero().is_less(point.normal.dot(from_point)) {
             return Blocking::NONE;
         }
+        // Not beyond a light that is closer than the offset is long.
+        let reach = T::from_f64(0.5) * from_point.length();
+        let offset_length = shadow_ray_offset.length();
+        let is_beyond = source.place().is_some() && reach.is_less(offset_length);
+        let shadow_ray_offset = if is_beyond { shadow_ray_offset * (reach / offset_length) } else { shadow_ray_offset };
+        let start = point.offset + shadow_ray_offset;
+        let to_light = source.from_place(point.anchor, start);
         let distance = to_light.length();
         let direction = to_light * (T::from_f64(1.0) / distance);
         let ray = Ray { anchor: Vector::from_f64(point.anchor), offset: start, direction };
@@ -64,6 +70,26 @@ impl PreparedScene {
     /// What stands between the start of a ray, on its `own` primitives, and a light at this distance; without a distance (a
     /// parallel light), the light is beyond everything.
     pub(super) fn nearest_blocker<T: Scalar>(&self, own: &[Primitive], ray: &Ray<T>, distance: Option<T>) -> Blocking {
+        let Obstacle { nearest, is_doubtful } = self.nearest_obstacle(own, ray, distance);
+        Blocking { blocker: nearest.map(|(_, primitive)| primitive), is_doubtful }
+    }
+
+    /// The offset of a hit's shadow rays, shortened where something is in the way: their start must not be beyond what stands
+    /// close to the surface. Also whether more digits could change it.
+    pub(super) fn clear_shadow_ray_offset<T: Scalar>(&self, hit: &Hit<T>) -> (Vector<T>, bool) {
+        let offset = hit.shadow_ray_offset;
+        let length = offset.length();
+        if !T::zero().is_less(length) || !self.casts_shadows_between_shapes() {
+            return (offset, false);
+        }
+        let direction = offset * (T::from_f64(1.0) / length);
+        let ray = Ray { anchor: Vector::from_f64(hit.point.anchor), offset: hit.point.offset, direction };
+        let Obstacle { nearest, is_doubtful } = self.nearest_obstacle(&[hit.primitive], &ray, Some(length));
+        let clear = nearest.map_or(offset, |(at, _)| direction * (T::from_f64(0.5) * at));
+        (clear, is_doubtful)
+    }
+
+    fn nearest_obstacle<T: Scalar>(&self, own: &[Primitive], ray: &Ray<T>, distance: Option<T>) -> Obstacle<T> {
         // Anything closer to the light than this may as well be behind it.
         let bounds = |distance: T| {
             let uncertain = distance * T::from_f64(ERROR_OF_DISTANCE);
@@ -102,6 +128,13 @@ impl PreparedScene {
         // Beyond a certain blocker, doubt does not matter.
         let blocks_for_sure = |from: T| nearest.is_some_and(|(at, _)| at.is_less(from));
         let is_doubtful = doubtful_from.is_some_and(|from| !blocks_for_sure(from));
-        Blocking { blocker: nearest.map(|(_, primitive)| primitive), is_doubtful }
+        Obstacle { nearest, is_doubtful }
     }
+}
+
+/// What a ray meets first on its way to a light.
+struct Obstacle<T> {
+    /// Its distance from the start of the ray, in metres.
+    nearest: Option<(T, Primitive)>,
+    is_doubtful: bool,
 }
