@@ -88,6 +88,60 @@ fn what_casts_or_receives_no_shadow_is_lit() {
     }
 }
 
+/// Two spheres of one cloud, the upper one between the lamp and the lower: its flags hold for its shadow on itself too.
+#[test]
+fn what_casts_or_receives_no_shadow_does_not_shadow_itself() {
+    let lowest = |flags: &str| {
+        let files = MemoryFiles::from_iter([("two.csv", "x,y,z,radius\n0,0,0,0.5\n0,2,0,0.5\n")]);
+        let text = format!(
+            "version = 1\nlength = \"m\"\nconvention = \"irradiance\"\nshadows = true
+            [camera]\neye = [0, 6, -12]\ntarget = [0, 0, 0]\nscreen = {{ distance = 1, x = [-0.4, 0.4], y = [-0.3, 0.3] }}
+            [[spheres]]\nname = \"pair\"\nfile = \"two.csv\"\n{flags}
+            [[light]]\nposition = [0, 3.5, 0]\nintensity = 90"
+        );
+        let scene = Scene::from_text_with(&files, None, "test", &text, Syntax::Toml);
+        let scene = PreparedScene::new(&scene.unwrap_or_else(|error| panic!("{error}")));
+        let reading = scene.probe(&ProbePosition::Point(Vector::new(0.0, 0.5, 0.0))).expect("it is on the lower one");
+        reading.shading.irradiance
+    };
+    assert_eq!(lowest(""), 0.0);
+    for flags in ["casts_shadow = false", "receives_shadow = false"] {
+        assert!((lowest(flags) - 10.0).abs() < 1e-14, "{flags}: 90 W/sr at 3 m");
+    }
+}
+
+/// On a floor around a box, the ambient light from a few directions is within two standard errors of that from many nearly
+/// everywhere, also where none of the few is blocked.
+#[test]
+fn the_standard_error_of_ambient_light_is_one() {
+    let scene = |samples: u32| {
+        prepared(&format!(
+            "version = 1\nlength = \"m\"\nconvention = \"irradiance\"
+            ambient = {{ radiance = 1, obstructed = true, samples = {samples} }}
+            [camera]\neye = [0, 6, -12]\ntarget = [0, 0, 0]\nscreen = {{ distance = 1, x = [-0.4, 0.4], y = [-0.3, 0.3] }}
+            [[rectangle]]\nname = \"floor\"\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nup = [0, 0, 1]\nwidth = 20\nheight = 20
+            [[box]]\nname = \"block\"\ncenter = [0, 1, 0]\nsize = [1, 2, 1]"
+        ))
+    };
+    let true_light = scene(4096);
+    for samples in [16, 64] {
+        let few = scene(samples);
+        let mut beyond = 0;
+        for index in 0..400_u32 {
+            let place = |index: u32| (f64::from(index) + 0.5) / 20.0 * 8.0 + 0.6;
+            let point = ProbePosition::Point(Vector::new(place(index % 20), 0.0, place(index / 20) - 4.6));
+            let of = |scene: &PreparedScene| {
+                let reading = scene.probe(&point).expect("it is on the floor");
+                scene.ambient_irradiance(&reading.hit)
+            };
+            let (estimate, exact) = (of(&few), of(&true_light));
+            assert!(estimate.standard_error > 0.0);
+            beyond += i32::from((estimate.irradiance - exact.irradiance).abs() > 2.0 * estimate.standard_error);
+        }
+        assert!(beyond <= 20, "{samples} directions: {beyond} of 400 points are off by more than two standard errors");
+    }
+}
+
 /// One sphere alone, seen under grazing light as well.
 fn lone_sphere(size: f64, offset: f64, shadows: bool, more: &str) -> PreparedScene {
     let at =

@@ -40,8 +40,8 @@ impl PreparedScene {
     /// ```
     ///
     /// Of n directions, spread over the hemisphere with a density proportional to cosθ and always the same relative to the
-    /// normal, m hit nothing. The standard error is that of n independent directions, π L_a √(p(1 − p)/n) with p = m/n;
-    /// evenly spread directions do better.
+    /// normal, m hit nothing. The standard error is that of n independent directions, π L_a √(p(1 − p)/n) with p = (m + 1)/(n
+    /// + 2), Laplace's estimate, which is never certain; evenly spread directions do better.
     #[must_use]
     pub fn ambient_irradiance(&self, hit: &Hit) -> AmbientIrradiance {
         self.ambient_share(hit).of(self.scene.ambient())
@@ -100,8 +100,8 @@ pub(super) fn sampled(
     let free = hemisphere.about(normal).filter(|direction| sees_the_environment(*direction)).count();
     #[expect(clippy::cast_precision_loss, reason = "there are few")]
     let (free, samples) = (free as f64, hemisphere.directions.len() as f64);
-    let share = free / samples;
-    AmbientShare { share, standard_error: (share * (1.0 - share) / samples).sqrt() }
+    let estimate = (free + 1.0) / (samples + 2.0);
+    AmbientShare { share: free / samples, standard_error: (estimate * (1.0 - estimate) / samples).sqrt() }
 }
 
 /// Two unit vectors perpendicular to a unit vector and to each other. (Duff et al., "Building an orthonormal basis,

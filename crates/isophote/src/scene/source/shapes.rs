@@ -187,10 +187,10 @@ tables! {
     /// What a shape has to do with the shadows of a scene that has them.
     #[derive(Copy)]
     pub struct ShadowSource {
-        /// Whether it stands in other shapes' light.
+        /// Whether it stands in the light of shapes, itself included.
         #[schemars(extend("default" = true))]
         pub casts_shadow: Option<bool>,
-        /// Whether other shapes stand in its light.
+        /// Whether shapes stand in its light, itself included.
         #[schemars(extend("default" = true))]
         pub receives_shadow: Option<bool>,
     }
