@@ -77,7 +77,9 @@ pub enum NonConformance {
 /// The channels whose error is measured.
 const COMPARED: [Quantity; 5] =
     [Quantity::Brightness, Quantity::Irradiance, Quantity::Diffuse, Quantity::Specular, Quantity::Ambient];
+const BRIGHTNESS: usize = 0;
 const IRRADIANCE: usize = 1;
+const SPECULAR: usize = 3;
 
 /// Compares a renderer with the same formulas in 32 digits, pixel by pixel: the visible shapes, and zeros where there is no
 /// surface; brightness, irradiance and its parts, including those of single lights; depth, position and normal. In a scene
@@ -158,8 +160,8 @@ struct Exact {
 #[derive(Clone, Copy)]
 struct Peak {
     value: f64,
-    /// How much larger than usual the tolerance is because the map shows no more of some light than its terminator, or no
-    /// more of the shapes than their limb.
+    /// How much larger than usual the tolerance is because the map shows no more of some light than its terminator or the
+    /// flank of its highlight, or no more of the shapes than their limb.
     growth: f64,
 }
 
@@ -170,6 +172,20 @@ struct Share {
     /// cosθ_o times the smaller of cosθ_i and its [own](cosine_of_emission) cosine: near the limb the normal is uncertain as
     /// 1/cosθ_o, which the terminator magnifies by 1/cosθ_i.
     cosines: f64,
+    /// n tanθ_h of its highlight.
+    flank: f64,
+}
+
+impl Share {
+    /// How much larger the tolerance of this share is than that of a place that loses no digits.
+    fn growth(&self, channel: usize, tolerance: &Tolerance) -> f64 {
+        let of_highlight = if matches!(channel, BRIGHTNESS | SPECULAR) && self.values[channel] > 0.0 {
+            self.values[SPECULAR] / self.values[channel]
+        } else {
+            0.0
+        };
+        tolerance.growth(self.cosines) * (1.0 + of_highlight * self.flank / tolerance.flank)
+    }
 }
 
 struct ExactPixel {
@@ -213,7 +229,7 @@ impl Peak {
         let grown = (0..sources).map(|source| {
             let shares = seen().map(|pixel| pixel.shares[source]);
             let brightest = shares.max_by(|one, other| one.values[channel].total_cmp(&other.values[channel]));
-            brightest.map_or(0.0, |share| tolerance.growth(share.cosines) * share.values[channel])
+            brightest.map_or(0.0, |share| share.growth(channel, tolerance) * share.values[channel])
         });
         let grown = grown.fold(value, f64::max);
         Self { value, growth: if value > 0.0 { grown / value } else { 1.0 } }
@@ -239,15 +255,15 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     let shading = scene.shade_precisely(&hit, |light, term| {
         by_light.push(term.irradiance.rounded());
         let (cosine, lobe) = (term.cos_theta_h.rounded(), (term.irradiance * term.lobe).rounded());
-        if lobe > 0.0 {
-            flanks += shininess * (1.0 / (cosine * cosine) - 1.0).max(0.0).sqrt() * lobe;
-        }
+        let flank = if lobe > 0.0 { shininess * (1.0 / (cosine * cosine) - 1.0).max(0.0).sqrt() } else { 0.0 };
+        flanks += flank * lobe;
         let of_emission = cosine_of_emission(&scene.scene().lights()[light], term);
         let (diffuse, specular) = (term.irradiance * diffuse, term.irradiance * term.lobe * specular);
         let share = Share {
             values: [diffuse + specular, term.irradiance, diffuse, specular, DoubleDouble::zero()]
                 .map(DoubleDouble::rounded),
             cosines: cos_theta_o * term.cos_theta_i.rounded().min(of_emission),
+            flank,
         };
         if DoubleDouble::zero().is_less(term.irradiance) {
             least_cosine = least_cosine.min(term.cos_theta_i.rounded()).min(of_emission);
@@ -258,6 +274,7 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     shares.push(Share {
         values: [ambient, shading.ambient, ambient, DoubleDouble::zero(), shading.ambient].map(DoubleDouble::rounded),
         cosines: cos_theta_o,
+        flank: 0.0,
     });
     let values = [shading.brightness(), shading.irradiance, shading.diffuse, shading.specular, shading.ambient];
     let values = values.map(DoubleDouble::rounded);

@@ -18,7 +18,8 @@ pub struct Tolerance {
     /// Towards the limb and the terminator, the problem itself loses digits, as 1/cosine.
     pub above_cosine: f64,
     /// On the flank of a highlight, the problem itself loses digits too, as n tanθ_h (weighted by the share of each
-    /// highlight in the value): `relative` increases by its own amount for every such flank.
+    /// highlight in the value): `relative` increases by its own amount for every such flank, and so does `of_peak` if even a
+    /// light's brightest pixel is on one.
     pub flank: f64,
     /// If a channel's peak is smaller than this, its numbers have already lost digits through being so small.
     pub least_peak: f64,

@@ -303,6 +303,41 @@ fn a_rim_lit_from_behind_has_the_digits_of_both_cosines() {
     }
 }
 
+/// A map whose only lit pixel is far down the flank of a highlight: 32 bits leave it the digits that n tanθ_h leaves.
+#[test]
+fn the_flank_of_a_highlight_alone_has_the_digits_of_a_flank() {
+    let scene = r#"
+        version = 1
+        length = "mm"
+        handedness = "left"
+        convention = "lab"
+        camera.eye = [2.099748036103266, 2.6030306400445893, 4.417951137598115]
+        camera.target = [0.1, -0.2, 0.05]
+        camera.up = [1.0, 0.0, 0.0]
+        camera.screen = { distance = 5.541029018362469, x = [-2.0, 2.0], y = [-1.5, 1.5] }
+        camera.resolution = [32, 24]
+        material.clay = { diffuse = 0.0, specular = 0.7008702469231558, shininess = 13.0 }
+
+        [[sphere]]
+        center = [0.456710219847021, -0.019254653650458982, 0.7905032935362961]
+        radius = 1.1638955745622808
+        material = "clay"
+
+        [[sphere]]
+        center = [0.0, 0.929657233505472, 0.0]
+        radius = 1.1433339435246908
+        material = "clay"
+
+        [[light]]
+        position = [-4.640288470136054, 1.3426498229082426, -5.38797912461627]
+        intensity = 78.46999000368378
+    "#;
+    let scene = Scene::from_text("flank", scene, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+    let renderer = SimdRenderer::new(Precision::Single, None);
+    let deviation = conforms(&renderer, &PreparedScene::new(&scene), &SINGLE).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(deviation.visible, 566);
+}
+
 /// A lamp so close that it would be the brightest by far lights no more than a rim of the visible side, where
 /// cosθ_i < 2e-4; the picture's peak is another light's. What comes from the lamp is as uncertain as its cosines.
 #[test]
