@@ -27,8 +27,9 @@ pub fn rendered(quantities: &[Quantity]) -> Vec<Quantity> {
     quantities.iter().cloned().chain([Quantity::Irradiance]).collect()
 }
 
-/// Bytes per pixel needed while a shard is made: all channels of the map, plus, for the largest channel, the copy at
-/// the edge of the image, the encoded chunks and the encoded shard.
+/// Bytes per pixel that a shard is allowed while it is made: all channels of the map, and three times the largest one,
+/// for the file of a channel that cannot be compressed and as a reserve. New stores are planned by this number: with
+/// another one, the shards of the same map may have another size.
 pub fn need_per_pixel(sample: &Map) -> u64 {
     let sizes = || sample.channels().iter().map(|channel| NumberFormat::of(&channel.values).size() as u64);
     sizes().sum::<u64>() + 3 * sizes().max().unwrap_or(0)
@@ -55,20 +56,16 @@ pub fn metadata(sample: &Map, scene: &PreparedScene, quantities: &[Quantity]) ->
 }
 
 /// The arrays of the channels, by their names in the store.
-pub fn sample_arrays(
-    sample: &Map,
-    metadata: &FileMetadata,
-    plan: Plan,
-) -> Result<Vec<(String, ChannelArray)>, StoreError> {
+pub fn sample_arrays(sample: &Map, metadata: &FileMetadata, plan: Plan) -> Vec<(String, ChannelArray)> {
     let mut arrays = Vec::new();
     for description in &metadata.channels {
         let channel = sample.channels().iter().find(|channel| channel.quantity.name() == description.name);
         let (Some(channel), Some(name)) = (channel, description.stored_as.first()) else { continue };
         let format = NumberFormat::of(&channel.values);
-        let array = ChannelArray::new(channel.quantity.clone(), name, &channel.unit, format, plan)?;
+        let array = ChannelArray::new(channel.quantity.clone(), name, &channel.unit, format, plan);
         arrays.push((name.clone(), array));
     }
-    Ok(arrays)
+    arrays
 }
 
 /// The arrays of a store, according to its own description.
@@ -83,8 +80,8 @@ pub fn stored_arrays(identity: &Identity, path: &Path) -> Result<Vec<ChannelArra
         let described = identity.arrays.get(name).ok_or_else(|| damaged(name))?;
         let format = NumberFormat::from_metadata(described).ok_or_else(|| damaged(name))?;
         let quantity = Quantity::from_name(&channel.name).ok_or_else(|| damaged(name))?;
-        let array = ChannelArray::new(quantity, name, &channel.unit, format, identity.plan)?;
-        if array.metadata()? != *described {
+        let array = ChannelArray::new(quantity, name, &channel.unit, format, identity.plan);
+        if array.metadata() != *described {
             return Err(damaged(name));
         }
         arrays.push(array);

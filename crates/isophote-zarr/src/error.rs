@@ -99,12 +99,12 @@ pub enum StoreError {
     /// The preview could not be made.
     #[error("the preview: {0}")]
     Preview(#[from] ExportError),
-    /// The Zarr library rejected an array or a shard.
+    /// A shard could not be compressed, or the preview's map could not be made.
     #[error("the channel ‘{}’ cannot be encoded: {reason}", quantity.name())]
     Encode {
         /// The channel.
         quantity: Quantity,
-        /// The library's error.
+        /// What went wrong.
         reason: String,
     },
 }

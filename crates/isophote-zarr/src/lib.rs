@@ -5,7 +5,6 @@
 //! [divided](Part) among processes and computers, and finally [merged and checked](Store::merge), and the bytes are
 //! always those of one uninterrupted run.
 
-mod alone;
 mod array;
 mod change;
 mod describe;
@@ -17,6 +16,7 @@ mod plan;
 mod preview;
 mod record;
 mod render;
+mod shard;
 mod statistics;
 mod store;
 

@@ -8,7 +8,6 @@ use std::sync::{Mutex, PoisonError};
 use isophote::prepare::PreparedScene;
 use isophote::render::{Observer, RenderError, RenderSettings, Renderer};
 use isophote::threads::ThreadsError;
-use rayon::ThreadPool;
 
 use crate::describe::{need, rendered};
 use crate::error::StoreError;
@@ -91,7 +90,7 @@ impl Store {
             is_stopped: AtomicBool::new(false),
             error: Mutex::new(None),
         };
-        on_each(&pools(count)?, &work);
+        work.on_threads(count)?;
         if let Some(error) = work.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
             return Err(error);
         }
@@ -115,23 +114,6 @@ impl Store {
             return Err(StoreError::Memory { limit: limit / MIB, needed: (base + shard).div_ceil(MIB) });
         }
         Ok(workers.threads.get().min(usize::try_from(count).unwrap_or(usize::MAX)))
-    }
-}
-
-/// Pools of one thread each. Inside its own pool, a worker does not share the libraries' work with all processors.
-fn pools(count: usize) -> Result<Vec<ThreadPool>, RenderError> {
-    let pool = |_| rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let pools = (0..count).map(pool).collect::<Result<_, _>>();
-    pools.map_err(|error| ThreadsError { threads: count, reason: error.to_string() }.into())
-}
-
-/// Runs the work on the thread of each pool, at the same time.
-fn on_each(pools: &[ThreadPool], work: &Work<'_>) {
-    if let Some((pool, others)) = pools.split_first() {
-        pool.in_place_scope(|scope| {
-            scope.spawn(|_| work.run());
-            on_each(others, work);
-        });
     }
 }
 
@@ -162,6 +144,19 @@ struct Work<'w> {
 }
 
 impl Work<'_> {
+    /// Runs on so many threads at the same time.
+    fn on_threads(&self, count: usize) -> Result<(), RenderError> {
+        std::thread::scope(|scope| {
+            for _ in 0..count {
+                if let Err(error) = std::thread::Builder::new().spawn_scoped(scope, || self.run()) {
+                    self.is_stopped.store(true, Ordering::Relaxed);
+                    return Err(ThreadsError { threads: count, reason: error.to_string() }.into());
+                }
+            }
+            Ok(())
+        })
+    }
+
     fn run(&self) {
         while let Some(&shard) = self.due.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             if let Err(error) = self.shard(shard) {

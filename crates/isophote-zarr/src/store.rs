@@ -89,12 +89,11 @@ impl Store {
             (None, None) => Plan::new(full, describe::need_per_pixel(&sample)),
         };
         let metadata = describe::metadata(&sample, scene, &request.quantities);
-        let arrays = describe::sample_arrays(&sample, &metadata, plan)?;
+        let arrays = describe::sample_arrays(&sample, &metadata, plan);
         let coordinates = describe::coordinates(scene, &metadata.window)?;
-        let described = arrays.iter().map(|(name, array)| Ok((name.clone(), array.metadata()?)));
-        let described = described.collect::<Result<Vec<_>, StoreError>>()?;
+        let described = arrays.iter().map(|(name, array)| (name.clone(), array.metadata()));
         let centres = coordinates.iter().map(|(name, metadata, _)| ((*name).to_owned(), metadata.clone()));
-        let identity = Identity { metadata, plan, arrays: described.into_iter().chain(centres).collect() };
+        let identity = Identity { metadata, plan, arrays: described.chain(centres).collect() };
         if let Some(stored) = &stored {
             refuse_changes(stored, &identity, path)?;
         }

@@ -51,6 +51,23 @@ fn damage_is_found_by_its_file_and_mended_by_continuing() {
     }
 }
 
+#[test]
+fn a_damaged_chunk_is_named_even_if_the_record_fits() {
+    let scene = scene(TWO_LIGHTS, 70, 50);
+    let (folder, _) = Job::default().complete(&scene);
+    let [file, record] = ["normal/c/1/2/0", ".isophote/shards/1/2.json"].map(|name| folder.file(name));
+    // The first byte of the last chunk.
+    let bytes = fs::read(&file).unwrap();
+    let last = bytes.len() - 4 - 16;
+    flip(&file, usize::from(u16::from_le_bytes([bytes[last], bytes[last + 1]])));
+    let mut json: serde_json::Value = serde_json::from_slice(&fs::read(&record).unwrap()).unwrap();
+    json["files"][2]["crc32c"] = crc32c::crc32c(&fs::read(&file).unwrap()).into();
+    fs::write(&record, json.to_string()).unwrap();
+    let found = damages(&folder, Check::Content);
+    let expected = "normal/c/1/2/0 cannot be decoded: its chunk in row 3, column 3 has the checksum ";
+    assert!(found.len() == 1 && found[0].starts_with(expected), "{found:?}");
+}
+
 fn put(path: &Path) {
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     fs::write(path, "ghost").unwrap();
