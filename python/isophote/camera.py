@@ -32,7 +32,8 @@ class Window(Part):
 class Camera(Part):
     """The observer (2.1), (2.3).
 
-    Looks along ``forward``, or at the point ``target``. ``projection`` is ``"perspective"`` (with a ``screen`` or a
+    Looks along ``forward``, at the point ``target``, or in the direction of the angles ``tilt`` (from −z: 0 is straight down)
+    and ``azimuth`` (from +x towards +y), in degrees. ``up`` is the top of the image: +y, unless the view is along it. ``projection`` is ``"perspective"`` (with a ``screen`` or a
     ``field_of_view`` in degrees), ``"orthographic"`` (with a ``window``, 2.7), ``"fisheye-equidistant"`` (2.8) or
     ``"fisheye-equal-area"`` (2.9; both with a ``field_of_view``), or ``"panorama"`` (with ``longitude`` and
     ``latitude``, 2.10). ``resolution`` is the number of columns and of rows.
@@ -41,7 +42,9 @@ class Camera(Part):
     eye: Vector
     forward: Vector | None = None
     target: Vector | None = None
-    up: Vector = (0.0, 1.0, 0.0)
+    tilt: Number | None = None
+    azimuth: Number | None = None
+    up: Vector | None = None
     projection: Word = "perspective"
     screen: Screen | None = None
     field_of_view: Number | None = None

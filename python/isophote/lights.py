@@ -17,10 +17,11 @@ __all__ = ["Ambient", "LambertianLight", "Light", "ParallelLight", "PointLight",
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Light(Part):
-    """The fields common to all lights: a name, and whether shapes block their light."""
+    """The fields common to all lights: a name, whether shapes block their light, and whether they are switched on."""
 
     name: Word | None = None
     casts_shadows: Flag = True
+    on: Flag = True
 
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
@@ -36,7 +37,7 @@ class PointLight(Light):
 class LambertianLight(Light):
     """A point that emits I₀ cosγ (3.1), with γ the angle from its axis: either ``intensity`` I₀, or ``power`` = π I₀.
 
-    It is aimed by its ``axis``, or by the point ``target``."""
+    It is aimed by its ``axis``, by the point ``target``, or by angles: ``tilt`` from −z, ``azimuth`` from +x towards +y."""
 
     _FIXED = MappingProxyType({"emission": "lambertian"})
     position: Vector
@@ -44,12 +45,15 @@ class LambertianLight(Light):
     power: Amount | None = None
     axis: Vector | None = None
     target: Vector | None = None
+    tilt: Number | None = None
+    azimuth: Number | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class SpotLight(Light):
     """A point that emits its full intensity up to ``inner_angle`` from its axis, nothing beyond ``outer_angle``, and a
-    smooth transition in between (3.7); aimed by its ``axis``, or by the point ``target``."""
+    smooth transition in between (3.7); aimed by its ``axis``, by the point ``target``, or by ``tilt``
+    and ``azimuth``."""
 
     _FIXED = MappingProxyType({"emission": "spot"})
     position: Vector
@@ -59,16 +63,20 @@ class SpotLight(Light):
     power: Amount | None = None
     axis: Vector | None = None
     target: Vector | None = None
+    tilt: Number | None = None
+    azimuth: Number | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class ParallelLight(Light):
-    """Light from one direction without attenuation, like sunlight (3.8): ``direction`` is the one in which it travels,
-    ``irradiance`` the irradiance on a plane perpendicular to it, in W/m² or lx."""
+    """Light from one direction without attenuation, like sunlight (3.8): ``direction`` is the one in which it travels, which
+    ``tilt`` and ``azimuth`` may say instead; ``irradiance`` is that on a plane perpendicular to it, in W/m² or lx."""
 
     _FIXED = MappingProxyType({"emission": "parallel"})
-    direction: Vector
+    direction: Vector | None = None
     irradiance: Amount
+    tilt: Number | None = None
+    azimuth: Number | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)

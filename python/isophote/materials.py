@@ -31,6 +31,8 @@ class Convention(str, Enum):
     COURSE = "course"
     COURSE_PI = "course-pi"
     RADIANCE = "radiance"
+    BLINN_PHONG = "blinn-phong"
+    BLINN_PHONG_PI = "blinn-phong-pi"
 
     @property
     def number(self) -> str:

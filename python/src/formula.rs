@@ -17,7 +17,7 @@ use crate::threads::threads;
 /// Points per chunk; each chunk is computed by one thread.
 const CHUNK: usize = 4096;
 
-/// The brightness (3.1) to (3.6) at points with given normals (n × 3 each, lengths in metres, unit normals), using the
+/// The brightness by a convention, (3.1) to (3.12), at points with given normals (n × 3 each, lengths in metres, unit normals), using the
 /// lights, the convention and the first material of a scene, without shadows. `eyes` has one row, or one per point.
 #[pyfunction]
 pub fn brightness<'py>(

@@ -1,4 +1,4 @@
-"""The formulas (2.1), (2.2) and (3.1) to (3.6) once more, in NumPy, from the documentation and not from the program."""
+"""The formulas (2.1), (2.2) and (3.1) to (3.6), (3.11) and (3.12) once more, in NumPy, from the documentation and not from the program."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ def rays(camera, handedness):
     """The eye, and the direction through the centre of each pixel: height × width × 3."""
     eye = np.array(camera.eye)
     forward = np.array(camera.forward) / np.linalg.norm(camera.forward)
-    up = np.array(camera.up) - np.dot(camera.up, forward) * forward
+    top = np.array(camera.up or (0.0, 1.0, 0.0))
+    up = top - np.dot(top, forward) * forward
     up /= np.linalg.norm(up)
     right = np.cross(up, forward) if handedness == "left" else np.cross(forward, up)
     width, height = camera.resolution
@@ -52,7 +53,7 @@ def brightness(normal, point, eye, lights, material, convention):
     to_eye = eye - point
     view = to_eye / np.linalg.norm(to_eye, axis=-1, keepdims=True)
     cos_o = np.maximum(np.sum(normal * view, axis=-1), 0.0)
-    total, highlights = np.zeros(len(point)), np.zeros(len(point))
+    total, highlights, without_cosine = (np.zeros(len(point)) for _ in range(3))
     for position, intensity in lights:
         to_light = np.array(position) - point
         distance = np.linalg.norm(to_light, axis=-1)
@@ -64,6 +65,7 @@ def brightness(normal, point, eye, lights, material, convention):
         cos_h = np.maximum(np.sum(normal * half, axis=-1), 0.0)
         total += irradiance
         highlights += irradiance * cos_h**shininess
+        without_cosine += (cos_i > 0) * intensity / distance**2 * cos_h**shininess
     seen = cos_o > 0
     by_convention = {
         "irradiance": total,
@@ -72,5 +74,7 @@ def brightness(normal, point, eye, lights, material, convention):
         "course": seen * (diffuse * total + specular * highlights),
         "course-pi": seen * (diffuse * total + specular * highlights) / np.pi,
         "radiance": seen * (diffuse / np.pi * total + specular * lobe_constant(shininess) * highlights),
+        "blinn-phong": seen * (diffuse * total + specular * without_cosine),
+        "blinn-phong-pi": seen * (diffuse * total + specular * without_cosine) / np.pi,
     }
     return total, by_convention[convention]

@@ -112,13 +112,17 @@ def test_what_is_wrong_with_a_sweep_is_known_before_it_begins(small, tmp_path):
     assert not store.exists()
 
 
+@pytest.mark.filterwarnings("ignore::isophote.SceneWarning")
 def test_units_and_places_that_differ_are_told(small):
     found = iso.sweep(small, {"convention": list(iso.Convention)[2:], "material.clay.diffuse": [0.2, 0.4]})
     assert "units" not in found["brightness"].attrs and "convention" not in found.attrs
-    assert found["convention"].values.tolist() == ["lab", "course", "course-pi", "radiance"]
+    assert found["convention"].values.tolist() == [
+        *("lab", "course", "course-pi", "radiance"),
+        *("blinn-phong", "blinn-phong-pi"),
+    ]
     units = found["brightness.units"]
     assert units.dims == ("convention", "material.clay.diffuse")
-    assert units.values[:, 0].tolist() == ["W/m²", *["W/(m²·sr)"] * 3]
+    assert units.values[:, 0].tolist() == ["W/m²", *["W/(m²·sr)"] * 5]
     zoomed = iso.sweep(small, {"camera.screen.x": [(-4, 4), (-2, 2)], "camera.screen.y": [(-3, 3), (-1.5, 1.5)]})
     assert zoomed["x"].values.tolist() == list(range(80)) and zoomed["x"].attrs["long_name"] == "column, from 0"
     same = iso.sweep(small, {"camera.eye": [(0, 0, 0), (0, 0, -1)]})

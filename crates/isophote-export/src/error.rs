@@ -68,6 +68,14 @@ pub enum ExportError {
         /// The values of black and white.
         range: [f64; 2],
     },
+    /// A logarithm needs positive numbers.
+    #[error("range {} to {} of ‘{name}’: on a logarithmic scale black must be above 0", range[0], range[1])]
+    LogRange {
+        /// The requested channel.
+        name: String,
+        /// The values of black and white.
+        range: [f64; 2],
+    },
     /// The exponent is not a positive number.
     #[error("gamma {gamma}: must be finite and above 0")]
     Gamma {

@@ -51,6 +51,9 @@ pub struct ChannelMetadata {
 pub struct PictureMetadata {
     /// The values of black and white, in the channel's unit.
     pub range: [f64; 2],
+    /// How values become levels: `max`, `minmax` or `log`; older files do not say, and are proportional.
+    #[serde(default = "proportional", skip_serializing_if = "is_proportional")]
+    pub normalization: String,
     /// A value at a fraction v of the way from black to white is shown as v^(1/gamma); 1 is proportional.
     pub gamma: f64,
     /// Bits per sample: 8 or 16.
@@ -60,6 +63,17 @@ pub struct PictureMetadata {
     /// The encoding of such colours: `sRGB`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub encoding: Option<String>,
+}
+
+/// The name of the proportional normalization.
+const PROPORTIONAL: &str = "max";
+
+fn proportional() -> String {
+    PROPORTIONAL.into()
+}
+
+fn is_proportional(normalization: &str) -> bool {
+    normalization == PROPORTIONAL
 }
 
 impl FileMetadata {

@@ -1,4 +1,4 @@
-//! From irradiance to brightness: the conventions (3.1) to (3.6).
+//! From irradiance to brightness: the conventions (3.1) to (3.6), (3.11) and (3.12).
 
 use std::f64::consts::PI;
 
@@ -25,11 +25,24 @@ pub enum Convention {
     CoursePi,
     /// B = Σ E_j (k_d/π + k_s c(n) (N·H_j)ⁿ) (3.6), W/(m²·sr), with [`lobe_constant`] c(n).
     Radiance,
+    /// B = Σ (k_d E_j + k_s v_j I_j/r_j² (N·H_j)ⁿ) where cosθ_i > 0 (3.11), W/(m²·sr) with coefficients in sr⁻¹: the
+    /// Blinn–Phong formula of real-time graphics, whose highlight has no cosθ_i.
+    BlinnPhong,
+    /// The same divided by π (3.12), W/(m²·sr).
+    BlinnPhongPi,
 }
 
 impl Keyword for Convention {
-    const ALL: &'static [Self] =
-        &[Self::Irradiance, Self::Lambert, Self::Lab, Self::Course, Self::CoursePi, Self::Radiance];
+    const ALL: &'static [Self] = &[
+        Self::Irradiance,
+        Self::Lambert,
+        Self::Lab,
+        Self::Course,
+        Self::CoursePi,
+        Self::Radiance,
+        Self::BlinnPhong,
+        Self::BlinnPhongPi,
+    ];
 
     fn name(self) -> &'static str {
         match self {
@@ -39,6 +52,8 @@ impl Keyword for Convention {
             Self::Course => "course",
             Self::CoursePi => "course-pi",
             Self::Radiance => "radiance",
+            Self::BlinnPhong => "blinn-phong",
+            Self::BlinnPhongPi => "blinn-phong-pi",
         }
     }
 }
@@ -54,6 +69,8 @@ impl Convention {
             Self::Course => "3.4",
             Self::CoursePi => "3.5",
             Self::Radiance => "3.6",
+            Self::BlinnPhong => "3.11",
+            Self::BlinnPhongPi => "3.12",
         }
     }
 
@@ -67,6 +84,8 @@ impl Convention {
             Self::Course => "B = Σ E_j (k_d + k_s (N·H_j)^n)",
             Self::CoursePi => "B = (1/π) Σ E_j (k_d + k_s (N·H_j)^n)",
             Self::Radiance => "B = Σ E_j (k_d/π + k_s c(n) (N·H_j)^n)",
+            Self::BlinnPhong => "B = Σ (k_d E_j + k_s v_j I_j/r_j² (N·H_j)^n)",
+            Self::BlinnPhongPi => "B = (1/π) Σ (k_d E_j + k_s v_j I_j/r_j² (N·H_j)^n)",
         }
     }
 
@@ -81,7 +100,9 @@ impl Convention {
     pub fn unit(self, units: UnitSystem) -> &'static str {
         match self {
             Self::Irradiance | Self::Lambert | Self::Lab => units.irradiance_unit(),
-            Self::Course | Self::CoursePi | Self::Radiance => units.radiance_unit(),
+            Self::Course | Self::CoursePi | Self::Radiance | Self::BlinnPhong | Self::BlinnPhongPi => {
+                units.radiance_unit()
+            }
         }
     }
 
@@ -95,6 +116,51 @@ impl Convention {
     #[must_use]
     pub fn has_specular_part(self) -> bool {
         !matches!(self, Self::Irradiance | Self::Lambert)
+    }
+
+    /// Whether k_d is an albedo: the fraction of light that the diffuse part reflects, so at most 1.
+    #[must_use]
+    pub fn bounds_diffuse(self) -> bool {
+        matches!(self, Self::Lambert | Self::CoursePi | Self::Radiance | Self::BlinnPhongPi)
+    }
+
+    /// Whether k_s is an albedo: the fraction of light that the highlight reflects at normal incidence, so at most 1.
+    #[must_use]
+    pub fn bounds_specular(self) -> bool {
+        self == Self::Radiance
+    }
+
+    /// The albedo of a material at normal incidence: the fraction of light that it reflects, in all directions together. For
+    /// `lab`, whose B is no radiance, the largest B/E; 0 without a material.
+    #[must_use]
+    pub fn albedo(self, material: &Reflectance) -> f64 {
+        let Reflectance { diffuse, specular, shininess } = *material;
+        let of_lobe = || specular / lobe_constant(shininess);
+        match self {
+            Self::Irradiance => 0.0,
+            Self::Lambert => diffuse,
+            Self::Lab | Self::Radiance => diffuse + specular,
+            Self::Course | Self::BlinnPhong => PI * diffuse + of_lobe(),
+            Self::CoursePi | Self::BlinnPhongPi => diffuse + of_lobe() / PI,
+        }
+    }
+
+    /// The [albedo](Self::albedo) in readable form, with A(n) = 1/c(n).
+    #[must_use]
+    pub fn albedo_formula(self) -> &'static str {
+        match self {
+            Self::Irradiance => "0",
+            Self::Lambert => "k_d",
+            Self::Lab | Self::Radiance => "k_d + k_s",
+            Self::Course | Self::BlinnPhong => "π k_d + k_s A(n)",
+            Self::CoursePi | Self::BlinnPhongPi => "k_d + k_s A(n)/π",
+        }
+    }
+
+    /// Whether its highlight is multiplied by cosθ_i like the rest of E_j. Where it is not, it jumps at the terminator.
+    #[must_use]
+    pub fn has_cosine_in_highlight(self) -> bool {
+        !matches!(self, Self::BlinnPhong | Self::BlinnPhongPi)
     }
 }
 
@@ -111,9 +177,9 @@ pub fn lobe_constant(shininess: f64) -> f64 {
 /// The material coefficients of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reflectance {
-    /// k_d, 0…1 (sr⁻¹ in the `course` convention).
+    /// k_d: up to 1 where the convention makes it an albedo; in sr⁻¹ in `course` and `blinn-phong`.
     pub diffuse: f64,
-    /// k_s, 0…1 (sr⁻¹ in the `course` convention).
+    /// k_s, likewise.
     pub specular: f64,
     /// n > 0.
     pub shininess: f64,
@@ -129,12 +195,26 @@ pub trait Lobe<T: Real> {
 
     /// (N·H)ⁿ, given 1/[`denominator`](Self::denominator).
     fn value(&self, cos_squared: T, sin_squared: T, inverse: T) -> T;
+
+    /// What the lobe is multiplied by besides v I/r², times r: cosθ_i r, given that (at least 0) and r.
+    #[inline(always)]
+    fn weight(&self, along_lit: T, _distance: T) -> T {
+        along_lit
+    }
+}
+
+/// The [weight](Lobe::weight) of a highlight without cosθ_i, (3.11) and (3.12): r above the horizon, 0 below.
+#[inline(always)]
+pub fn weight_without_cosine<T: Real>(along_lit: T, distance: T) -> T {
+    let zero = along_lit.splat_like(0.0);
+    T::select(zero.is_less(along_lit), distance, zero)
 }
 
 /// The lobe for single numbers; without a shininess there is none, and it is 0 everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScalarLobe {
     shininess: Option<f64>,
+    has_cosine: bool,
 }
 
 impl<T: Scalar> Lobe<T> for ScalarLobe {
@@ -147,10 +227,15 @@ impl<T: Scalar> Lobe<T> for ScalarLobe {
             None => T::zero(),
         }
     }
+
+    #[inline(always)]
+    fn weight(&self, along_lit: T, distance: T) -> T {
+        if self.has_cosine { along_lit } else { weight_without_cosine(along_lit, distance) }
+    }
 }
 
 /// A convention applied to a material: every formula of section 3 is
-/// B = Σ E_j (a + b cosθ_o + s (N·H_j)ⁿ) with its own a, b and s.
+/// B = Σ E_j (a + b cosθ_o + s (N·H_j)ⁿ) with its own a, b and s; (3.11) and (3.12) have E_j/cosθ_i in the last term.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrightnessFormula {
     diffuse_constant: f64,
@@ -159,6 +244,7 @@ pub struct BrightnessFormula {
     pub(crate) specular: f64,
     /// n.
     pub(crate) shininess: f64,
+    has_cosine_in_highlight: bool,
     depends_on_viewer: bool,
 }
 
@@ -171,12 +257,13 @@ impl BrightnessFormula {
             Convention::Irradiance => (1.0, 0.0, 0.0),
             Convention::Lambert => (diffuse, 0.0, 0.0),
             Convention::Lab => (0.0, diffuse, specular),
-            Convention::Course => (diffuse, 0.0, specular),
-            Convention::CoursePi => (diffuse / PI, 0.0, specular / PI),
+            Convention::Course | Convention::BlinnPhong => (diffuse, 0.0, specular),
+            Convention::CoursePi | Convention::BlinnPhongPi => (diffuse / PI, 0.0, specular / PI),
             Convention::Radiance => (diffuse / PI, 0.0, specular * lobe_constant(shininess)),
         };
         let depends_on_viewer = convention.uses_material();
-        Self { diffuse_constant, diffuse_cosine, specular, shininess, depends_on_viewer }
+        let has_cosine_in_highlight = convention.has_cosine_in_highlight();
+        Self { diffuse_constant, diffuse_cosine, specular, shininess, has_cosine_in_highlight, depends_on_viewer }
     }
 
     /// The factor of E in the diffuse part. Zero where the surface faces away from the viewer (θ_o ≥ 90°), except for the
@@ -188,7 +275,7 @@ impl BrightnessFormula {
         if self.depends_on_viewer { Self::towards_viewer(cos_theta_o, factor) } else { factor }
     }
 
-    /// The factor of Σ E_j (N·H_j)ⁿ in the specular part; zero where the surface faces away from the viewer.
+    /// The factor of Σ E_j (N·H_j)ⁿ (of Σ v_j I_j/r_j² (N·H_j)ⁿ in (3.11) and (3.12)) in the specular part; zero where the surface faces away from the viewer.
     #[inline(always)]
     pub fn specular_factor<T: Real>(&self, cos_theta_o: T) -> T {
         Self::towards_viewer(cos_theta_o, cos_theta_o.splat_like(self.specular))
@@ -203,7 +290,13 @@ impl BrightnessFormula {
     /// (N·H)ⁿ for single numbers.
     #[must_use]
     pub fn lobe(&self) -> ScalarLobe {
-        ScalarLobe { shininess: self.sharpness() }
+        ScalarLobe { shininess: self.sharpness(), has_cosine: self.has_cosine_in_highlight }
+    }
+
+    /// Whether B jumps at the terminator: it has a highlight that is not multiplied by cosθ_i.
+    #[must_use]
+    pub fn jumps_at_terminator(&self) -> bool {
+        self.specular != 0.0 && !self.has_cosine_in_highlight
     }
 
     #[inline(always)]
@@ -216,6 +309,27 @@ impl BrightnessFormula {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// By Simpson's rule in cosθ at normal incidence, where θ_h = θ/2.
+    #[test]
+    fn the_albedo_is_the_integral_of_what_is_reflected() {
+        let (diffuse, specular, shininess) = (0.7, 0.9, 40.0);
+        let material = Reflectance { diffuse, specular, shininess };
+        for convention in Convention::ALL.iter().skip(3) {
+            let formula = BrightnessFormula::new(*convention, &material);
+            let steps = 20_000;
+            let integrand = |k: i32| {
+                let cosine = f64::from(k) / f64::from(steps);
+                let lobe = f64::midpoint(1.0, cosine).powf(0.5 * shininess);
+                (formula.diffuse_factor(cosine) + formula.specular_factor(cosine) * lobe) * cosine * 2.0 * PI
+            };
+            let inner: f64 = (1..steps).map(|k| integrand(k) * if k % 2 == 1 { 4.0 } else { 2.0 }).sum();
+            let expected = (integrand(0) + integrand(steps) + inner) / (3.0 * f64::from(steps));
+            let found = convention.albedo(&material);
+            assert!((found - expected).abs() < 1e-10, "{convention:?}: {found} {expected}");
+        }
+        assert!((Convention::CoursePi.albedo(&material) - 0.856).abs() < 5e-4);
+    }
 
     #[test]
     fn the_lobe_constant_has_its_published_value() {

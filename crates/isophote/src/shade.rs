@@ -1,4 +1,4 @@
-//! The brightness formulas (3.1) to (3.9), implemented once for every number type.
+//! The brightness formulas (3.1) to (3.12), implemented once for every number type.
 
 use crate::color::Rgb;
 use crate::light::{Emitter, PlacedEmitter};
@@ -70,7 +70,7 @@ pub fn shade<T: Scalar>(
     for (index, emitter) in emitters.iter().enumerate() {
         let term = light_term(point, &emitter.seen_from(point.anchor), visibility(index), &lobe);
         irradiance.add(term.irradiance);
-        lobes.add(term.irradiance * term.lobe);
+        lobes.add(term.lobe_irradiance * term.lobe);
         each(emitter.light, &term);
     }
     irradiance.add(ambient);
@@ -125,6 +125,8 @@ pub struct LightTerm<T = f64> {
     pub cos_theta_h: T,
     /// E_j (3.1), W/m² or lx.
     pub irradiance: T,
+    /// What the lobe is multiplied by: E_j, or v_j I_j/r_j² where cosθ_i > 0 in (3.11) and (3.12), W/m² or lx.
+    pub lobe_irradiance: T,
     /// (N·H_j)ⁿ; 0 where the formula has no highlight.
     pub lobe: T,
 }
@@ -132,10 +134,11 @@ pub struct LightTerm<T = f64> {
 impl LightTerm {
     /// Adds the term of another emitter of the same light. Directions and cosines stay those of the first one.
     pub fn add(&mut self, other: &Self) {
-        let (before, intensity) = (self.irradiance * self.lobe, self.intensity + other.intensity);
+        let (before, intensity) = (self.lobe_irradiance * self.lobe, self.intensity + other.intensity);
         self.irradiance += other.irradiance;
-        if self.irradiance > 0.0 {
-            self.lobe = (before + other.irradiance * other.lobe) / self.irradiance;
+        self.lobe_irradiance += other.lobe_irradiance;
+        if self.lobe_irradiance > 0.0 {
+            self.lobe = (before + other.lobe_irradiance * other.lobe) / self.lobe_irradiance;
         }
         if intensity > 0.0 {
             self.visibility = (self.visibility * self.intensity + other.visibility * other.intensity) / intensity;
@@ -152,11 +155,11 @@ impl<T: Real> LightTerm<T> {
 
     /// This light's share of the specular part of B, in the convention's unit.
     pub fn specular(&self, formula: &BrightnessFormula, point: &SurfacePoint<T>) -> T {
-        self.irradiance * self.lobe * formula.specular_factor(point.cos_theta_o)
+        self.lobe_irradiance * self.lobe * formula.specular_factor(point.cos_theta_o)
     }
 }
 
-/// E_j = v_j I_j cosθ_i / r_j² (3.1) or v_j E₀ cosθ_i (3.8), and the lobe (N·H_j)ⁿ of (3.3) to (3.6).
+/// E_j = v_j I_j cosθ_i / r_j² (3.1) or v_j E₀ cosθ_i (3.8), and the lobe (N·H_j)ⁿ of (3.3) to (3.6), (3.11) and (3.12).
 ///
 /// Neither L nor H is normalised. r H is split into its component along N, (cosθ_i + cosθ_o) r, and the component across;
 /// the squares of the two are in the ratio of cos²θ_h to sin²θ_h. Each component stays accurate where the other one is
@@ -202,6 +205,7 @@ pub fn light_term<T: Real>(
         half: direction + point.view,
         cos_theta_h: half_along / (cos_squared + sin_squared).max(negligible).sqrt(),
         irradiance: visibility * intensity * along_lit * inverse_cubed,
+        lobe_irradiance: visibility * intensity * lobe.weight(along_lit, distance) * inverse_cubed,
         lobe: lobe.value(cos_squared, sin_squared, inverse_squares),
     }
 }

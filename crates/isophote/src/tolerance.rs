@@ -70,6 +70,11 @@ pub const SINGLE: Tolerance = Tolerance {
 /// Values at a given point: no accuracy is lost in finding the point, so the cosines may be smaller.
 pub const PROBE: Tolerance = Tolerance { above_cosine: 1e-3, ..DOUBLE };
 
+/// A highlight without cosθ_i, (3.11) and (3.12), jumps where cosθ_i = 0. Where |N·L| is smaller than this, the rounding of
+/// a double (a few 1e-16 for N and L, a few times that for a grid of pixels far from the origin) may put a point on
+/// the other side of the jump. In a picture a pixel is there about once in 1e12.
+pub const AT_JUMP: f64 = 1e-14;
+
 impl Tolerance {
     /// How much larger the tolerance is for a light whose brightest pixel has this cosθ_o cosθ_i.
     #[must_use]

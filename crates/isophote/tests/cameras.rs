@@ -183,3 +183,48 @@ fn a_field_of_view_is_a_window() {
         assert!(by_angle.mask().visible() > 30);
     }
 }
+
+/// The axes of a camera at the origin: right, up, forward.
+fn axes(camera: CameraSource) -> [[f64; 3]; 3] {
+    let screen = ScreenSource { distance: Some(1.0), x: Some([-1.0, 1.0]), y: Some([-1.0, 1.0]) };
+    let mut source = source(5.0, CameraSource::default());
+    let eye = Some([0.0, 0.0, 0.0]);
+    source.camera = Some(CameraSource { eye, screen: Some(screen), resolution: Some([2, 2]), ..camera });
+    let frame = *prepared(source).frame();
+    [frame.right, frame.up, frame.forward].map(Vector::to_array)
+}
+
+/// Tilt 0 is straight down −z with +y on top; the view then rises towards the azimuth, and the top of the picture with it.
+#[test]
+fn a_camera_looks_along_the_direction_of_its_angles() {
+    let by_angles =
+        |tilt: f64, azimuth: Option<f64>| axes(CameraSource { tilt: Some(tilt), azimuth, ..CameraSource::default() });
+    assert_eq!(by_angles(0.0, None), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]);
+    assert_eq!(by_angles(180.0, None), [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]);
+    assert_eq!(by_angles(90.0, Some(90.0)), [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(by_angles(90.0, Some(0.0)), [[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
+    assert_eq!(by_angles(90.0, Some(-90.0))[2], [0.0, -1.0, 0.0]);
+    // A quarter turn of the azimuth turns the picture of a view straight down.
+    assert_eq!(by_angles(0.0, Some(0.0))[1], [1.0, 0.0, 0.0]);
+    let [right, up, forward] = by_angles(30.0, Some(60.0));
+    let (sin, cos) = (0.5, 0.75_f64.sqrt());
+    for (found, expected) in
+        [(forward, [sin * 0.5, sin * cos, -cos]), (up, [cos * 0.5, cos * cos, sin]), (right, [cos, -0.5, 0.0])]
+    {
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-15, "{found} {expected}");
+        }
+    }
+}
+
+/// Straight down −y or up +y, the top is what +y becomes when a level view along −z is turned that far.
+#[test]
+fn a_view_straight_down_or_up_has_a_top() {
+    let along = |y: f64| axes(CameraSource { forward: Some([0.0, y, 0.0]), ..CameraSource::default() });
+    assert_eq!(along(-2.0), [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]]);
+    assert_eq!(along(1.0), [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]);
+    let nearly = axes(CameraSource { forward: Some([0.0, -1.0, -1e-5]), ..CameraSource::default() });
+    for (found, expected) in nearly.as_flattened().iter().zip(along(-1.0).as_flattened()) {
+        assert!((found - expected).abs() < 2e-5, "{nearly:?}");
+    }
+}

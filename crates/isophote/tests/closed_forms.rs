@@ -4,7 +4,7 @@ use isophote::analysis::probe::ProbePosition;
 use isophote::light::{Emission, Emitters, Light, LightKind, PointLight};
 use isophote::prepare::PreparedScene;
 use isophote::reflectance::{BrightnessFormula, Convention, Reflectance};
-use isophote::scene::Scene;
+use isophote::scene::{Scene, Syntax};
 use isophote::shade::light_term;
 use isophote::shape::SurfacePoint;
 use isophote::vector::Vector;
@@ -88,6 +88,68 @@ fn the_flux_on_a_sphere_is_that_of_the_closed_form() {
     }
 }
 
+/// (5.8): the eye is where the lamp is, so that H = L = V and N·H = cosθ_i; the highlight does not fade at the terminator.
+#[test]
+fn the_highlight_of_blinn_phong_is_not_multiplied_by_the_cosine() {
+    for (convention, divisor) in [("blinn-phong", 1.0), ("blinn-phong-pi", std::f64::consts::PI)] {
+        let text = format!(
+            r#"
+            version = 1
+            length = "m"
+            convention = "{convention}"
+            camera.eye = [0, 0, 1.6]
+            camera.target = [0, 0, 0]
+            camera.up = [0, 1, 0]
+            camera.screen = {{ distance = 1.6, x = [-0.4, 0.4], y = [-0.4, 0.4] }}
+            material.clay = {{ diffuse = 0.7, specular = 0.3, shininess = 20 }}
+            [[sphere]]
+            center = [0, 0, 0]
+            radius = 0.25
+            material = "clay"
+            [[light]]
+            position = [0, 0, 1.6]
+            intensity = 100
+            "#
+        );
+        let scene = Scene::from_text("beside the lamp", &text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+        let prepared = PreparedScene::new(&scene);
+        for degrees in [0.0, 10.0, 30.0, 60.0, 75.0, 81.0, 81.1, 120.0_f64] {
+            let beta = degrees.to_radians();
+            let point = Vector::new(0.25 * beta.sin(), 0.0, 0.25 * beta.cos());
+            let reading = prepared.probe(&ProbePosition::NearestTo(point)).expect("it is there");
+            let squared: f64 = 0.25 * 0.25 + 1.6 * 1.6 - 2.0 * 0.25 * 1.6 * beta.cos();
+            let cosine = (1.6 * beta.cos() - 0.25) / squared.sqrt();
+            let across = 100.0 / squared;
+            let expected = if cosine > 0.0 { across * (0.7 * cosine + 0.3 * cosine.powf(20.0)) / divisor } else { 0.0 };
+            let allowed = if cosine < 0.1 { 1e-12 * across } else { 1e-12 * expected };
+            let found = reading.shading.brightness();
+            assert!((found - expected).abs() <= allowed, "{convention}, {degrees}°: {found:e} {expected:e}");
+        }
+    }
+}
+
+/// (3.11): just above the horizon the highlight is all there, I/r² k_s (N·H)ⁿ; below it there is none.
+#[test]
+fn the_highlight_of_blinn_phong_jumps_at_the_terminator() {
+    let material = Reflectance { diffuse: 0.7, specular: 0.3, shininess: 2.0 };
+    let formula = BrightnessFormula::new(Convention::BlinnPhong, &material);
+    let light = |height: f64| {
+        let kind = LightKind::Point(PointLight {
+            position: Vector::new(2.0, height, 0.0),
+            intensity: 100.0,
+            emission: Emission::Isotropic,
+        });
+        let light = Light { name: "source".into(), kind, casts_shadows: true, is_on: true };
+        let normal = Vector::new(0.0, 1.0, 0.0);
+        let (anchor, offset) = (Vector::default(), Vector::default());
+        let point = SurfacePoint { anchor, offset, normal, view: normal, cos_theta_o: 1.0 };
+        isophote::shade::shade(&point, Emitters::of(&[light]).all(), &formula, 0.0, |_| 1.0, |_, _| {}).specular
+    };
+    // N·H = cos 45°, and n is 2.
+    assert_relative(light(1e-9), 100.0 / 4.0 * 0.3 * 0.5, 1e-8, "above the horizon");
+    assert_eq!([light(0.0), light(-1e-9)], [0.0, 0.0]);
+}
+
 /// (5.4): a plane under a Lambertian source; the plane's point is made by hand, the formula is the one in use.
 #[test]
 fn a_plane_under_a_lambertian_source_has_the_irradiance_of_cie_171_case_5_2() {
@@ -102,6 +164,7 @@ fn a_plane_under_a_lambertian_source_has_the_irradiance_of_cie_171_case_5_2() {
             emission: Emission::Lambertian { axis },
         }),
         casts_shadows: true,
+        is_on: true,
     };
     let [emitter] = *Emitters::of(&[light]).all() else { panic!("a point light is one emitter") };
     let material = Reflectance { diffuse: 0.0, specular: 0.0, shininess: 1.0 };

@@ -8,11 +8,13 @@ use isophote::double_double::DoubleDouble;
 use isophote::lanes::{Instructions, Precision};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::{Hit, PreparedScene};
+use isophote::reflectance::Convention;
 use isophote::render::{ReferenceRenderer, RenderError, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::source::{EmissionName, LightSource, MaterialSource, ProjectionName, WindowSource};
 use isophote::scene::{Scene, SceneSource, Syntax};
 use isophote::shape::{Geometry, Primitive, SurfacePoint};
 use isophote::tolerance::{DOUBLE, PROBE, SINGLE};
+use isophote::units::Keyword;
 use isophote::vector::Vector;
 use proptest::prelude::*;
 
@@ -81,6 +83,36 @@ fn the_scenes_of_the_repository_are_rendered_within_tolerance() {
             let deviation = conforms(renderer.as_ref(), &scene, &DOUBLE)
                 .unwrap_or_else(|error| panic!("{name}, {}: {error}", renderer.name()));
             assert!(deviation.visible > 100, "{name}: {deviation:?}");
+        }
+    }
+}
+
+#[test]
+fn every_convention_is_rendered_within_tolerance() {
+    for name in ["two-lights.toml", "lab.toml", "spheres.toml", "solids.toml", "sun.toml", "color.toml"] {
+        for convention in Convention::ALL {
+            let mut source = scene_file(name);
+            source.sampling = None;
+            source.convention = Some(*convention);
+            if source.material.is_empty() {
+                source.material = scene_file("lab.toml").material;
+                for sphere in &mut source.sphere {
+                    sphere.material = Some("clay".into());
+                }
+                for plane in &mut source.plane {
+                    plane.material = Some("clay".into());
+                }
+            }
+            source.camera.get_or_insert_default().resolution = Some([63, 47]);
+            let scene = prepared(source);
+            let single = SimdRenderer::new(Precision::Single, None);
+            for (renderer, tolerance) in
+                renderers().iter().map(|one| (one.as_ref(), &DOUBLE)).chain([(&single as &dyn Renderer, &SINGLE)])
+            {
+                let deviation = conforms(renderer, &scene, tolerance)
+                    .unwrap_or_else(|error| panic!("{name}, {convention:?}, {}: {error}", renderer.name()));
+                assert!(deviation.visible > 15, "{name}: {deviation:?}");
+            }
         }
     }
 }
@@ -254,7 +286,7 @@ fn a_map_in_the_memory_of_an_earlier_one_is_the_same() {
 #[test]
 fn grazing_rays_keep_their_digits() {
     let mut source = scene_file("closed-form-5.6.toml");
-    source.convention = Some(isophote::reflectance::Convention::Lab);
+    source.convention = Some(Convention::Lab);
     source.material = scene_file("lab.toml").material;
     source.sphere[0].material = Some("clay".into());
     source.light[0].position = Some([0.3, 0.0, 0.0]);

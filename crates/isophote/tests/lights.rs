@@ -167,3 +167,57 @@ fn the_sun_does_not_shine_into_a_closed_sphere() {
     assert!(reading.terms[0].cos_theta_i > 0.9, "it would shine on it");
     assert_eq!(reading.shading.irradiance, 0.0);
 }
+
+/// A light aimed by tilt and azimuth is the same as one aimed by the axis that they mean.
+#[test]
+fn a_light_shines_along_the_direction_of_its_angles() {
+    let by_axis = |axis: [f64; 3]| LightSource { axis: Some(axis), ..LightSource::default() };
+    let by_angles =
+        |tilt: f64, azimuth: Option<f64>| LightSource { tilt: Some(tilt), azimuth, ..LightSource::default() };
+    let (sin, cos) = (0.5, 0.75_f64.sqrt());
+    for (angles, axis) in [
+        (by_angles(0.0, None), [0.0, 0.0, -1.0]),
+        (by_angles(0.0, Some(10.0)), [0.0, 0.0, -1.0]),
+        (by_angles(90.0, Some(180.0)), [-1.0, 0.0, 0.0]),
+        (by_angles(30.0, Some(60.0)), [sin * 0.5, sin * cos, -cos]),
+    ] {
+        let with = |light: LightSource| {
+            let mut source = scene_file("sun.toml");
+            let place = axis.map(|coordinate: f64| -3.0 * coordinate);
+            let (position, intensity) = (Some(place), Some(100.0.into()));
+            source.light = vec![LightSource { emission: Some(EmissionName::Lambertian), position, intensity, ..light }];
+            prepared(source)
+        };
+        let [found, expected] =
+            [with(angles), with(by_axis(axis))].map(|scene| irradiance(&scene, Vector::from(axis) * -1.0));
+        assert!((expected - 25.0).abs() < 1e-12 && (found - expected).abs() < 1e-13, "{axis:?}: {found} {expected}");
+    }
+}
+
+/// A light that is switched off is as good as none, in every renderer, but keeps its name.
+#[test]
+fn a_light_that_is_off_gives_no_light() {
+    let with = |change: fn(&mut Vec<LightSource>)| {
+        let mut source = scene_file("two-lights.toml");
+        source.camera.get_or_insert_default().resolution = Some([60, 45]);
+        change(&mut source.light);
+        prepared(source)
+    };
+    let off = with(|lights| lights[1].on = Some(false));
+    let without = with(|lights| drop(lights.pop()));
+    assert_eq!(off.scene().lights().len(), 2);
+    assert!(!off.scene().lights()[1].is_on && off.scene().lights()[0].is_on);
+    let renderers: [&dyn Renderer; 2] = [&ReferenceRenderer, &SimdRenderer::new(Precision::Double, None)];
+    for renderer in renderers {
+        let settings = RenderSettings { quantities: Quantity::COMMON.to_vec(), ..RenderSettings::default() };
+        let [off, without] = [&off, &without].map(|scene| renderer.render(scene, &settings).expect("it renders"));
+        for (off, without) in off.channels().iter().zip(without.channels()) {
+            assert!(off.values == without.values, "{}", off.quantity.name());
+        }
+    }
+    let reading = off.probe(&ProbePosition::Pixel(isophote::map::Pixel { column: 20, row: 20 }));
+    if let Ok(reading) = reading {
+        assert_eq!(reading.terms[1].irradiance, 0.0);
+        assert!(reading.explain(&off, "here").contains("switched off"));
+    }
+}

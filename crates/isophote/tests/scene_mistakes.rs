@@ -59,7 +59,15 @@ mistakes! {
     a_negative_radius: "radius = 1" => "radius = -1", 1;
     a_direction_without_length: "forward = [0, 0, 1]" => "forward = [0, 0, 0]", 1;
     up_parallel_to_forward: "up = [0, 1, 0]" => "up = [0, 0, -2]", 1;
-    the_default_up_parallel_to_forward: "forward = [0, 0, 1]       # or a point to look at: target = [0, 0, 5]\nup = [0, 1, 0]" => "forward = [0, 1, 0]", 1;
+    a_view_by_angles_and_a_direction: "up = [0, 1, 0]" => "tilt = 30", 1;
+    a_tilt_without_azimuth: "forward = [0, 0, 1]" => "tilt = 30", 1;
+    an_azimuth_without_tilt: "forward = [0, 0, 1]" => "azimuth = 30", 1;
+    angles_out_of_bounds: "forward = [0, 0, 1]" => "tilt = -1\nazimuth = 361", 2;
+    a_tilt_of_an_isotropic_light: "emission = \"isotropic\"" => "tilt = 0", 1;
+    a_decimal_comma: "diffuse = 0.7" => "diffuse = 0,7", 1;
+    a_negative_number_with_a_decimal_comma: "screen = { distance = 5" => "screen = { distance = -5,25", 1;
+    a_point_with_decimal_commas: "center = [0, 0, 5]" => "center = [0,5, 0, 5]", 1;
+    a_light_that_is_neither_on_nor_off: "intensity = 100" => "on = \"no\"\nintensity = 100", 1;
     forward_and_target: "up = [0, 1, 0]" => "target = [0, 0, 5]", 1;
     neither_forward_nor_target: "forward = [0, 0, 1]" => "", 1;
     a_target_at_the_eye: "forward = [0, 0, 1]" => "target = [0, 0, 0]", 1;
@@ -72,7 +80,7 @@ mistakes! {
     a_light_on_a_surface: "position = [5, 5, -10]" => "position = [0, 1, 5]", 1;
     a_light_inside_a_sphere: "position = [5, 5, -10]" => "position = [0, 0.5, 5]", 1;
     an_eye_on_a_surface: "eye = [0, 0, 0]" => "eye = [0, 0, 4]", 1;
-    a_coefficient_above_one: "diffuse = 0.7" => "diffuse = 1.7", 1;
+    a_coefficient_beyond_bounds: "diffuse = 0.7" => "diffuse = 1.7e6", 1;
     a_negative_coefficient: "specular = 0.3" => "specular = -0.3", 1;
     a_shininess_of_zero: "shininess = 20" => "shininess = 0", 1;
     a_negative_shininess: "shininess = 20" => "shininess = -5", 1;
@@ -114,7 +122,7 @@ mistakes! {
     a_text_in_a_color: "diffuse = 0.7" => "diffuse = [0.7, \"green\", 0.2]", 1;
     a_color_that_is_a_text: "diffuse = 0.7" => "diffuse = \"red\"", 1;
     a_color_with_nan: "intensity = 100" => "intensity = [100, nan, 30]", 1;
-    a_color_out_of_bounds_twice: "diffuse = 0.7" => "diffuse = [1.7, 0.2, -0.1]", 2;
+    a_color_out_of_bounds_twice: "diffuse = 0.7" => "diffuse = [1.7e6, 0.2, -0.1]", 2;
     a_negative_light_of_one_color: "intensity = 100" => "intensity = [100, -1, 30]", 1;
     a_shininess_of_three_numbers: "shininess = 20" => "shininess = [20, 30, 40]", 1;
     a_color_space_without_color: "version = 1" => "version = 1\ncolor_space = \"rec2020\"", 1;
@@ -406,4 +414,65 @@ proptest! {
             }
         }
     }
+}
+
+/// k_d and k_s are bounded by 1 where the convention makes them albedos, and nowhere else.
+#[test]
+fn only_albedos_are_bounded_by_one() {
+    for (convention, diffuse, specular) in [
+        ("irradiance", false, false),
+        ("lambert", true, false),
+        ("lab", false, false),
+        ("course", false, false),
+        ("course-pi", true, false),
+        ("radiance", true, true),
+        ("blinn-phong", false, false),
+        ("blinn-phong-pi", true, false),
+    ] {
+        let scene = changed(LAB, "convention = \"lab\"", &format!("convention = \"{convention}\""));
+        for (key, from, is_bounded) in [("diffuse", "diffuse = 0.7", diffuse), ("specular", "specular = 0.3", specular)]
+        {
+            let text = changed(&scene, from, &format!("{key} = 1.25"));
+            let found = Scene::from_text("lab.toml", &text, Syntax::Toml);
+            assert_eq!(found.is_err(), is_bounded, "{convention}, {key}");
+            if let Err(error) = found {
+                let report = error.report(false);
+                assert!(report.contains("is 1.25") && report.contains("allowed: 0 to 1:"), "{report}");
+            }
+        }
+    }
+}
+
+/// The warning goes by the albedo at normal incidence: (0.7, 0.9, 40) in (3.5) reflects 0.856.
+#[test]
+fn a_material_that_reflects_more_than_it_receives_is_warned_of_by_its_albedo() {
+    let warnings = |convention: &str, [diffuse, specular, shininess]: [f64; 3]| {
+        let scene = changed(LAB, "convention = \"lab\"", &format!("convention = \"{convention}\""));
+        let scene = changed(&scene, "diffuse = 0.7", &format!("diffuse = {diffuse}"));
+        let scene = changed(&scene, "specular = 0.3", &format!("specular = {specular}"));
+        let scene = changed(&scene, "shininess = 20", &format!("shininess = {shininess}"));
+        let scene = Scene::from_text("lab.toml", &scene, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+        scene.warnings().iter().map(|warning| warning.message.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(warnings("course-pi", [0.7, 0.9, 40.0]), Vec::<String>::new());
+    assert_eq!(warnings("blinn-phong-pi", [0.7, 0.9, 40.0]), Vec::<String>::new());
+    assert_eq!(warnings("lambert", [0.7, 0.9, 40.0]), Vec::<String>::new());
+    for (convention, material, albedo) in [
+        ("course-pi", [0.7, 3.0, 40.0], "k_d + k_s A(n)/π = 1.21948"),
+        ("course", [0.7, 0.9, 40.0], "π k_d + k_s A(n) = 2.68871"),
+        ("blinn-phong", [0.7, 0.9, 40.0], "π k_d + k_s A(n) = 2.68871"),
+        ("radiance", [0.7, 0.9, 40.0], "k_d + k_s = 1.6"),
+        ("lab", [0.7, 0.9, 40.0], "k_d + k_s = 1.6"),
+    ] {
+        let found = warnings(convention, material);
+        assert!(matches!(&found[..], [one] if one.ends_with(albedo)), "{convention}: {found:?}");
+    }
+}
+
+#[test]
+fn a_decimal_comma_in_json_is_told_too() {
+    let error =
+        refused("lab.json", "{\"version\": 1, \"length\": \"m\", \"camera\": {\"field_of_view\": 0,5}}", Syntax::Json);
+    let report = error.report(false);
+    assert!(report.contains("a number has a decimal point, not a comma: write 0.5"), "{report}");
 }

@@ -28,6 +28,11 @@ pub(super) fn angles(text: &str) -> Result<[f64; 2], String> {
     numbers::finite(text, "THETA,PHI in degrees, such as 45,90")
 }
 
+pub(super) fn number(text: &str) -> Result<f64, String> {
+    let [number] = numbers::finite(text, "a number, such as 0.5")?;
+    Ok(number)
+}
+
 pub(super) fn line(text: &str) -> Result<[f64; 4], String> {
     numbers::finite(text, "X0,Y0,X1,Y1, such as -1,0,1,0")
 }

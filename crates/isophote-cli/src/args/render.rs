@@ -7,6 +7,7 @@ use clap::Args;
 use isophote::lanes::Precision;
 use isophote::map::{Region, Resolution};
 use isophote_export::colormap::Colormap;
+use isophote_export::png::Normalization;
 
 use crate::args::parse;
 use crate::args::sampling::SamplingArguments;
@@ -61,6 +62,11 @@ pub struct RenderArguments {
     /// the maximum)
     #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = parse::range)]
     pub range: Option<[f64; 2]>,
+
+    /// How a .png picture makes levels of values: proportional to them, with the maximum white (max), from the minimum to
+    /// the maximum (minmax), or by their logarithm, over three decades up to the maximum (log); --range sets other ends
+    #[arg(long, value_name = "HOW", default_value = "max", value_parser = parse::keyword::<Normalization>())]
+    pub normalize: Normalization,
 
     /// Brighten the middle tones of .png pictures: v becomes v^(1/GAMMA)
     #[arg(long, value_name = "GAMMA", default_value_t = 1.0, value_parser = parse::gamma)]

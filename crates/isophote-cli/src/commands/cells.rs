@@ -9,7 +9,7 @@ use isophote::text::significant;
 use isophote_export::FileMetadata;
 use isophote_export::csv::Rows;
 use isophote_export::figure::{Figure, FigureOptions, map_figure};
-use isophote_export::png::Depth;
+use isophote_export::png::{Depth, Normalization};
 
 use super::output::{
     FigureFormat, MapFile, MapStyle, figure_format, formula_label, refuse_colormap, refuse_twice, write_figure,
@@ -55,6 +55,7 @@ impl<'a> CellFiles<'a> {
         let style = MapStyle {
             quantity: main.clone(),
             range: self.style.range,
+            normalization: Normalization::Max,
             gamma: 1.0,
             depth: Depth::Eight,
             colormap: self.style.colormap,

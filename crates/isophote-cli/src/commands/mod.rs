@@ -10,6 +10,7 @@ mod reading_json;
 mod reading_table;
 mod render;
 mod section;
+mod section_lines;
 mod show;
 mod store;
 mod summary;

@@ -12,7 +12,7 @@ use isophote::text::significant;
 use isophote::units::Keyword;
 use isophote_export::colormap::Colormap;
 use isophote_export::figure::Figure;
-use isophote_export::png::{Depth, PictureColor, PictureOptions};
+use isophote_export::png::{Depth, Normalization, PictureColor, PictureOptions};
 use isophote_export::{ExportError, FileMetadata, Format, atomic, csv, exr, npy, npz, png, write_atomically};
 
 use crate::failure::Usage;
@@ -28,6 +28,7 @@ pub struct MapFile {
 pub struct MapStyle {
     pub quantity: Quantity,
     pub range: Option<[f64; 2]>,
+    pub normalization: Normalization,
     pub gamma: f64,
     pub depth: Depth,
     pub colormap: Option<Colormap>,
@@ -91,6 +92,7 @@ fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<S
     let options = PictureOptions {
         quantity: style.quantity.clone(),
         range: style.range,
+        normalization: style.normalization,
         gamma: style.gamma,
         depth: style.depth,
         color: color.as_ref().map(|color| PictureColor { name, color }),
@@ -98,7 +100,8 @@ fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<S
     let report = png::write(map, &options, file)?;
     let unit = map.channel(&style.quantity).map_or("", |channel| &channel.unit);
     let [black, white] = report.range.map(|value| significant(value, 6));
-    let mut note = format!(": {black} to {white} {unit} from black to white");
+    let scale = if style.normalization == Normalization::Log { ", by the logarithm" } else { "" };
+    let mut note = format!(": {black} to {white} {unit} from black to white{scale}");
     for (count, side) in [(report.clamped_below, "below"), (report.clamped_above, "above")] {
         if count > 0 {
             // Writing to a string cannot fail.

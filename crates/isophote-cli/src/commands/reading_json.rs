@@ -13,6 +13,9 @@ pub struct ProbeJson {
     normal: [f64; 3],
     shape: String,
     seen: bool,
+    /// Why it is not seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unseen_because: Option<String>,
     cos_theta_o: f64,
     channels: ChannelsJson,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -91,6 +94,7 @@ impl ProbeJson {
             normal: reading.hit.point.normal.to_array(),
             shape: description.name_of(reading.hit.primitive),
             seen: reading.is_seen(),
+            unseen_because: reading.why_unseen(description),
             cos_theta_o: reading.hit.point.cos_theta_o,
             channels: ChannelsJson {
                 brightness: brightness(Shading::brightness),

@@ -2,10 +2,9 @@
 
 use std::fmt::Write;
 
-use isophote::analysis::probe::{ProbeReading, SeenFromEye};
+use isophote::analysis::probe::ProbeReading;
 use isophote::color::Component;
 use isophote::prepare::PreparedScene;
-use isophote::scene::Scene;
 use isophote::text::significant;
 use isophote::units::Keyword;
 
@@ -30,6 +29,11 @@ pub fn text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &PreparedSce
     if has_published {
         columns.push(("published", Align::Right));
     }
+    // Their values are as exact as others, but no picture has them.
+    let has_unseen = readings.iter().any(|(_, reading, _)| !reading.is_seen());
+    if has_unseen {
+        columns.push(("seen", Align::Left));
+    }
     let row = |(name, reading, published): &(&str, &ProbeReading, Option<f64>)| {
         let [x, y, z] = reading.position(length).map(|coordinate| significant(coordinate, 6));
         let mut row = vec![
@@ -41,11 +45,14 @@ pub fn text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &PreparedSce
         if has_published {
             row.push(published.map_or("–".into(), |value| significant(value, 15)));
         }
+        if has_unseen {
+            row.push(if reading.is_seen() { "yes" } else { "NO" }.into());
+        }
         row
     };
     let rows = readings.iter().flat_map(|reading| std::iter::once(row(reading)).chain(color_rows(reading.1)));
-    // Published values are never given per component, so those rows end before that column.
-    let filled = |row: Vec<String>| row.into_iter().chain(has_published.then(String::new)).take(columns.len());
+    // Rows of components end before the columns of published values and of what is seen.
+    let filled = |row: Vec<String>| row.into_iter().chain(std::iter::repeat(String::new())).take(columns.len());
     let rows: Vec<Vec<String>> = rows.map(|row| filled(row).collect()).collect();
     let mut text = table(&columns, &rows);
     if let Some(color) = description.color_label() {
@@ -53,7 +60,7 @@ pub fn text(readings: &[(&str, &ProbeReading, Option<f64>)], scene: &PreparedSce
         let _ = writeln!(text, "  {color}");
     }
     for (name, reading, _) in readings {
-        if let Some(note) = unseen_note(reading, description) {
+        if let Some(note) = reading.why_unseen(description) {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  {name} is not seen from the eye: {note}");
         }
@@ -70,13 +77,4 @@ fn color_rows(reading: &ProbeReading) -> Vec<Vec<String>> {
         vec![format!("  {}", component.name()), String::new(), irradiance, brightness]
     };
     Component::ALL.iter().map(row).collect()
-}
-
-fn unseen_note(reading: &ProbeReading, scene: &Scene) -> Option<String> {
-    match reading.seen {
-        SeenFromEye::Seen => None,
-        SeenFromEye::Behind => Some("it is behind the plane of the eye".into()),
-        SeenFromEye::FacesAway => Some("the surface faces away there (θ_o ≥ 90°)".into()),
-        SeenFromEye::HiddenBy(other) => Some(format!("\"{}\" stands before it", scene.name_of(other))),
-    }
 }

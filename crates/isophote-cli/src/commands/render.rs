@@ -12,7 +12,7 @@ use isophote::threads::Threads;
 use isophote_export::FileMetadata;
 use isophote_export::csv::Rows;
 use isophote_export::figure::{FigureOptions, Mark, map_figure};
-use isophote_export::png::Depth;
+use isophote_export::png::{Depth, Normalization};
 
 use super::output::{
     FigureFormat, MapFile, MapStyle, figure_format, formula_label, refuse_colormap, refuse_twice, write_figure,
@@ -90,6 +90,7 @@ impl<'a> Job<'a> {
         let style = MapStyle {
             quantity: pictured.clone(),
             range: arguments.range,
+            normalization: arguments.normalize,
             gamma: arguments.gamma,
             depth,
             colormap: arguments.colormap,
@@ -109,6 +110,16 @@ impl<'a> Job<'a> {
             let message =
                 "--gamma does not go with the channel `color`, which is shown with sRGB's; put -c brightness first";
             return Err(Usage(message.into()));
+        }
+        if self.pictured == Quantity::Color && self.style.normalization != Normalization::Max {
+            let message = "--normalize does not go with the channel `color`, whose components share one scale from 0 to the \
+                largest; put -c brightness first";
+            return Err(Usage(message.into()));
+        }
+        let logarithm_of = |black: f64| self.style.normalization == Normalization::Log && black <= 0.0;
+        if let Some([black, _]) = self.style.range.filter(|[black, _]| logarithm_of(*black)) {
+            let message = format!("--range starts at {black}; with --normalize log it has to start above 0");
+            return Err(Usage(message));
         }
         let can_be_picture = self.pictured.can_be_picture();
         if !can_be_picture && (has_picture || !self.figures.is_empty()) {
@@ -168,6 +179,7 @@ impl<'a> Job<'a> {
             note(!has_either && arguments.range.is_some(), "--range", ".png or figure"),
             note(!has_either && arguments.colormap.is_some(), "--colormap", ".png or figure"),
             note(!has_isophotes && arguments.isophotes != DEFAULT_ISOPHOTES, "--isophotes", "figure of numbers"),
+            note(!has_picture && arguments.normalize != Normalization::Max, "--normalize", ".png"),
             note(!has_picture && arguments.gamma != 1.0, "--gamma", ".png"),
             note(!has_picture && self.style.depth == Depth::Sixteen, "--bits", ".png"),
             note(arguments.visible_only && !self.files.iter().any(MapFile::is_table), "--visible-only", ".csv"),

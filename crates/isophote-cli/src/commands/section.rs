@@ -1,10 +1,10 @@
-//! `isophote section`: values along a line.
+//! `isophote section`: values along lines.
 
 use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::Result;
-use isophote::analysis::section::{Sample, SectionLine};
+use isophote::analysis::section::Sample;
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::scene::Scene;
@@ -15,47 +15,49 @@ use isophote_export::figure::{Figure, SectionOptions, SectionPoint, Series, sect
 use serde::Serialize;
 
 use super::output::{FigureFormat, figure_format, refuse_twice, write_bytes, write_figure};
+use super::section_lines::{self, Axis, Line};
 use crate::args::SectionArguments;
 use crate::channels::{named, unit};
 use crate::failure::{self, Usage};
 use crate::table::{Align, table};
 use crate::{load, numbers};
 
-/// Default number of points on a line.
-const DEFAULT_SAMPLES: u32 = 513;
-
-/// Computes a section and prints or writes it.
+/// Computes sections and prints or writes them.
 pub fn run(arguments: &SectionArguments) -> Result<String> {
     let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.quiet)?);
-    let line = line(arguments, scene.scene());
-    if arguments.samples.is_some() && arguments.line.line.is_none() {
-        return Err(Usage("--samples goes with --line: a row or a column has a sample for each pixel".into()).into());
-    }
+    let lines = section_lines::lines(arguments, &scene)?;
     let quantities = quantities(arguments, scene.scene())?;
     refuse_twice(&arguments.output)?;
     let outputs: Vec<(&Path, Output)> = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<_>>()?;
-    let samples = scene.section(line).map_err(|error| Usage(error.to_string()))?;
-    let section = Section { scene: scene.scene(), line, quantities, samples };
+    let mut notes: Vec<String> = lines.iter().filter_map(|line| line.note.clone()).collect();
+    let section = |line: Line| -> Result<Section<'_>> {
+        let samples = scene.section(line.along).map_err(|error| Usage(error.to_string()))?;
+        Ok(Section { scene: scene.scene(), line, quantities: &quantities, samples })
+    };
+    let sections = Sections { scene: scene.scene(), all: lines.into_iter().map(section).collect::<Result<_>>()? };
+    let printed = || if arguments.json { sections.to_json() } else { Ok(sections.to_table()) };
     if outputs.is_empty() {
-        return if arguments.json { numbers::json(&section.to_json()) } else { Ok(section.to_table()) };
+        told(&notes, arguments.quiet);
+        return printed();
     }
     // Find out what cannot be drawn before anything is written.
     let has_figure = outputs.iter().any(|(_, output)| matches!(output, Output::Figure(_)));
-    let figure = has_figure.then(|| section.figure()).transpose()?;
+    let figure = has_figure.then(|| sections.figure()).transpose()?;
     crate::progress::end_in_order();
-    let mut notes = Vec::new();
     for (path, output) in outputs {
         match output {
-            Output::Csv => write_bytes(section.to_csv().as_bytes(), path, &mut notes)?,
+            Output::Csv => write_bytes(sections.to_csv().as_bytes(), path, &mut notes)?,
             Output::Figure(format) => write_figure(figure.as_ref(), None, path, format, &mut notes)?,
         }
     }
-    if !arguments.quiet {
-        for note in &notes {
-            failure::note(note);
-        }
+    told(&notes, arguments.quiet);
+    if arguments.json { sections.to_json() } else { Ok(String::new()) }
+}
+
+fn told(notes: &[String], is_quiet: bool) {
+    for note in notes.iter().filter(|_| !is_quiet) {
+        failure::note(note);
     }
-    if arguments.json { numbers::json(&section.to_json()) } else { Ok(String::new()) }
 }
 
 enum Output {
@@ -81,18 +83,6 @@ impl Output {
     }
 }
 
-fn line(arguments: &SectionArguments, scene: &Scene) -> SectionLine {
-    let chosen = &arguments.line;
-    match (chosen.row, chosen.column, chosen.line) {
-        (Some(row), ..) => SectionLine::Row(row),
-        (_, Some(column), _) => SectionLine::Column(column),
-        (_, _, line) => {
-            let [x0, y0, x1, y1] = line.unwrap_or_default().map(|place| scene.screen_unit().to_internal(place));
-            SectionLine::Between { from: [x0, y0], to: [x1, y1], samples: arguments.samples.unwrap_or(DEFAULT_SAMPLES) }
-        }
-    }
-}
-
 fn quantities(arguments: &SectionArguments, scene: &Scene) -> Result<Vec<Quantity>> {
     let quantities = named(&arguments.channel, scene)?;
     let unsuitable = |quantity: &&Quantity| {
@@ -105,12 +95,19 @@ fn quantities(arguments: &SectionArguments, scene: &Scene) -> Result<Vec<Quantit
     Ok(if quantities.is_empty() { vec![Quantity::Brightness] } else { quantities })
 }
 
-/// Samples, and how they are shown.
+/// The samples of a line.
 struct Section<'s> {
     scene: &'s Scene,
-    line: SectionLine,
-    quantities: Vec<Quantity>,
+    line: Line,
+    quantities: &'s [Quantity],
     samples: Vec<Sample>,
+}
+
+/// All lines, and how they are shown together.
+struct Sections<'s> {
+    scene: &'s Scene,
+    /// At least one; all of the same quantities.
+    all: Vec<Section<'s>>,
 }
 
 impl Section<'_> {
@@ -130,26 +127,22 @@ impl Section<'_> {
         sample.screen.map(|coordinate| self.scene.screen_unit().from_internal(coordinate))
     }
 
-    /// The coordinate along the line: x in a row, y in a column, otherwise the distance from the first point.
+    /// The coordinate along the line.
     fn along(&self, sample: &Sample) -> f64 {
         let [x, y] = self.screen(sample);
-        match self.line {
-            SectionLine::Row(_) => x,
-            SectionLine::Column(_) => y,
-            SectionLine::Between { .. } => {
+        match self.line.axis {
+            Axis::X => x,
+            Axis::Y => y,
+            Axis::Distance => {
                 let [x0, y0] = self.samples.first().map_or([x, y], |first| self.screen(first));
                 (x - x0).hypot(y - y0)
             }
         }
     }
 
-    fn heading(&self, quantity: &Quantity) -> String {
-        format!("{}, {}", quantity.name(), unit(quantity, self.scene))
-    }
-
     fn to_table(&self) -> String {
         let unit = self.scene.screen_unit().name();
-        let headings: Vec<String> = self.quantities.iter().map(|quantity| self.heading(quantity)).collect();
+        let headings: Vec<String> = self.quantities.iter().map(|quantity| heading(quantity, self.scene)).collect();
         let (x, y) = (format!("x, {unit}"), format!("y, {unit}"));
         let mut columns = vec![(x.as_str(), Align::Right), (y.as_str(), Align::Right)];
         columns.extend(headings.iter().map(|heading| (heading.as_str(), Align::Right)));
@@ -165,21 +158,13 @@ impl Section<'_> {
         table(&columns, &self.samples.iter().map(row).collect::<Vec<_>>())
     }
 
-    fn to_csv(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "# {}", self.footer());
-        let _ = writeln!(text, "# {}", self.scene.title().replace(char::is_control, " "));
-        let _ = writeln!(text, "# units: x, y in {}", self.scene.screen_unit().name());
-        for quantity in &self.quantities {
-            let _ = writeln!(text, "# units: {} in {}", quantity.name(), unit(quantity, self.scene));
-        }
-        let names: Vec<String> = self.quantities.iter().map(Quantity::name).collect();
-        let _ = writeln!(text, "x,y,{}", names.join(","));
+    /// The rows of a CSV file, each after the given beginning.
+    fn write_rows(&self, beginning: &str, text: &mut String) {
         for sample in &self.samples {
             let [x, y] = self.screen(sample);
-            let _ = write!(text, "{x},{y}");
-            for quantity in &self.quantities {
+            // Writing to a string cannot fail.
+            let _ = write!(text, "{beginning}{x},{y}");
+            for quantity in self.quantities {
                 match self.value(sample, quantity) {
                     Some(value) => drop(write!(text, ",{}", significant(value, 17))),
                     None => text.push(','),
@@ -187,54 +172,11 @@ impl Section<'_> {
             }
             text.push('\n');
         }
-        text
     }
 
-    fn figure(&self) -> Result<Figure> {
-        let series = |quantity: &Quantity| Series {
-            name: quantity.name(),
-            points: self
-                .samples
-                .iter()
-                .map(|sample| SectionPoint { x: self.along(sample), value: self.value(sample, quantity) })
-                .collect(),
-        };
-        let series: Vec<Series> = self.quantities.iter().map(series).collect();
-        let y_unit = unit(&self.quantities[0], self.scene);
-        if self.quantities.iter().any(|quantity| unit(quantity, self.scene) != y_unit) {
-            let channels: Vec<String> = self.quantities.iter().map(|quantity| self.heading(quantity)).collect();
-            return Err(Usage(format!("one plot cannot show different units: {}", channels.join("; "))).into());
-        }
-        let (x_label, title) = match self.line {
-            SectionLine::Row(row) => ("x", format!("row {row}")),
-            SectionLine::Column(column) => ("y", format!("column {column}")),
-            SectionLine::Between { .. } => ("distance along the line", "a line".into()),
-        };
-        let [only] = self.quantities.as_slice() else {
-            return self.draw(&series, x_label, &title, "values", &y_unit);
-        };
-        self.draw(&series, x_label, &title, &only.name(), &y_unit)
-    }
-
-    fn draw(&self, series: &[Series], x_label: &str, line: &str, y_label: &str, y_unit: &str) -> Result<Figure> {
-        let title = self.scene.title();
-        let options = SectionOptions {
-            title: if title.is_empty() {
-                format!("Section along {line}")
-            } else {
-                format!("{title}: section along {line}")
-            },
-            x_label: x_label.into(),
-            x_unit: self.scene.screen_unit().name().into(),
-            y_label: y_label.into(),
-            y_unit: y_unit.into(),
-            footer: self.footer(),
-        };
-        Ok(section_figure(series, &options)?)
-    }
-
-    fn footer(&self) -> String {
-        format!(concat!("isophote ", env!("CARGO_PKG_VERSION"), ", convention {}"), self.scene.convention().label())
+    fn series(&self, quantity: &Quantity, name: String) -> Series {
+        let point = |sample: &Sample| SectionPoint { x: self.along(sample), value: self.value(sample, quantity) };
+        Series { name, points: self.samples.iter().map(point).collect() }
     }
 
     fn to_json(&self) -> SectionJson {
@@ -244,6 +186,7 @@ impl Section<'_> {
             values: self.samples.iter().map(|sample| self.value(sample, quantity)).collect(),
         });
         SectionJson {
+            line: self.line.name.clone(),
             length: self.scene.length().name(),
             screen_unit: self.scene.screen_unit().name(),
             convention: self.scene.convention().name(),
@@ -253,8 +196,116 @@ impl Section<'_> {
     }
 }
 
+impl Sections<'_> {
+    fn quantities(&self) -> &[Quantity] {
+        self.all.first().map_or(&[], |section| section.quantities)
+    }
+
+    /// The only line, if there is but one.
+    fn only(&self) -> Option<&Section<'_>> {
+        if let [only] = self.all.as_slice() { Some(only) } else { None }
+    }
+
+    fn to_table(&self) -> String {
+        if let Some(only) = self.only() {
+            return only.to_table();
+        }
+        let tables = self.all.iter().map(|section| format!("{}\n{}", section.line.name, section.to_table()));
+        tables.collect::<Vec<_>>().join("\n")
+    }
+
+    fn to_json(&self) -> Result<String> {
+        match self.only() {
+            Some(only) => numbers::json(&only.to_json()),
+            None => numbers::json(&SectionsJson { sections: self.all.iter().map(Section::to_json).collect() }),
+        }
+    }
+
+    fn to_csv(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "# {}", self.footer());
+        let _ = writeln!(text, "# {}", self.scene.title().replace(char::is_control, " "));
+        if let Some(only) = self.only() {
+            let _ = writeln!(text, "# section along {}", only.line.name.replace(char::is_control, " "));
+        }
+        let _ = writeln!(text, "# units: x, y in {}", self.scene.screen_unit().name());
+        for quantity in self.quantities() {
+            let _ = writeln!(text, "# units: {} in {}", quantity.name(), unit(quantity, self.scene));
+        }
+        let names: Vec<String> = self.quantities().iter().map(Quantity::name).collect();
+        let column = if self.only().is_some() { "" } else { "section," };
+        let _ = writeln!(text, "{column}x,y,{}", names.join(","));
+        for section in &self.all {
+            let quoted = format!("\"{}\",", section.line.name.replace('"', "\"\"").replace(char::is_control, " "));
+            section.write_rows(if self.only().is_some() { "" } else { &quoted }, &mut text);
+        }
+        text
+    }
+
+    /// Every line and quantity in one plot.
+    fn figure(&self) -> Result<Figure> {
+        let quantities = self.quantities();
+        let y_unit = unit(&quantities[0], self.scene);
+        if quantities.iter().any(|quantity| unit(quantity, self.scene) != y_unit) {
+            let channels: Vec<String> = quantities.iter().map(|quantity| heading(quantity, self.scene)).collect();
+            return Err(Usage(format!("one plot cannot show different units: {}", channels.join("; "))).into());
+        }
+        let name = |section: &Section<'_>, quantity: &Quantity| match (self.only(), quantities) {
+            (Some(_), _) => quantity.name(),
+            (None, [_]) => section.line.name.clone(),
+            (None, _) => format!("{}, {}", quantity.name(), section.line.name),
+        };
+        let of_section = |section: &Section<'_>| -> Vec<Series> {
+            quantities.iter().map(|quantity| section.series(quantity, name(section, quantity))).collect()
+        };
+        let series: Vec<Series> = self.all.iter().flat_map(of_section).collect();
+        let lines = self.only().map_or("several lines", |only| &only.line.name);
+        let title = self.scene.title();
+        let options = SectionOptions {
+            title: if title.is_empty() {
+                format!("Section along {lines}")
+            } else {
+                format!("{title}: section along {lines}")
+            },
+            x_label: self.x_label().into(),
+            x_unit: self.scene.screen_unit().name().into(),
+            y_label: if let [only] = quantities { only.name() } else { "values".into() },
+            y_unit,
+            footer: self.footer(),
+        };
+        Ok(section_figure(&series, &options)?)
+    }
+
+    /// What the horizontal axis of a plot shows.
+    fn x_label(&self) -> &'static str {
+        let has = |axis: Axis| self.all.iter().any(|section| section.line.axis == axis);
+        match (has(Axis::X), has(Axis::Y), has(Axis::Distance)) {
+            (true, false, false) => "x",
+            (false, true, false) => "y",
+            (true, true, false) => "x or y",
+            (false, false, _) => "distance along the line",
+            (_, _, true) => "x, y or distance along the line",
+        }
+    }
+
+    fn footer(&self) -> String {
+        format!(concat!("isophote ", env!("CARGO_PKG_VERSION"), ", convention {}"), self.scene.convention().label())
+    }
+}
+
+fn heading(quantity: &Quantity, scene: &Scene) -> String {
+    format!("{}, {}", quantity.name(), unit(quantity, scene))
+}
+
+#[derive(Serialize)]
+struct SectionsJson {
+    sections: Vec<SectionJson>,
+}
+
 #[derive(Serialize)]
 struct SectionJson {
+    line: String,
     length: &'static str,
     screen_unit: &'static str,
     convention: &'static str,

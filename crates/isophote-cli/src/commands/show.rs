@@ -56,7 +56,8 @@ fn to_text(metadata: &FileMetadata) -> String {
     }
     if let Some(picture) = &metadata.picture {
         let [black, white] = picture.range.map(|value| significant(value, 12));
-        let level = picture.encoding.clone().unwrap_or_else(|| format!("gamma {}", picture.gamma));
+        let log = if picture.normalization == "log" { "logarithmic, " } else { "" };
+        let level = picture.encoding.clone().unwrap_or_else(|| format!("{log}gamma {}", picture.gamma));
         row("picture", format!("{black} to {white} from black to white, {} bits, {level}", picture.depth));
         if let Some(colormap) = &picture.colormap {
             row("colours", colormap.clone());

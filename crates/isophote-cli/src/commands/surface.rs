@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use anyhow::Result;
+use isophote::analysis::probe::ProbePosition;
 use isophote::analysis::surface::{CellExtreme, Surface, SurfaceRequest, SurfaceTotals, depends_on_eye};
 use isophote::map::{Coordinates, Map, Quantity};
 use isophote::prepare::PreparedScene;
@@ -40,7 +41,15 @@ pub fn run(arguments: &SurfaceArguments) -> Result<String> {
         ..FigureOptions::new(main.clone(), &main.name())
     };
     files.write(&map, options, scene.scene(), arguments.quiet)?;
-    let summary = Summary { scene: scene.scene(), totals: surface.totals(&map, &main), surface, request, main, map };
+    let summary = Summary {
+        prepared: &scene,
+        scene: scene.scene(),
+        totals: surface.totals(&map, &main),
+        surface,
+        request,
+        main,
+        map,
+    };
     if arguments.json { numbers::json(&summary.to_json()) } else { Ok(summary.to_text()) }
 }
 
@@ -91,6 +100,7 @@ fn towards(name: &str, primitive: Primitive, scene: &Scene) -> Result<Vector> {
 }
 
 struct Summary<'s> {
+    prepared: &'s PreparedScene,
     scene: &'s Scene,
     surface: Surface<'s>,
     request: SurfaceRequest,
@@ -163,7 +173,18 @@ impl Summary<'_> {
         let place = place_text(axes, self.surface.coordinates(extreme.cell));
         let [x, y, z] = self.point(extreme).map(|coordinate| significant(coordinate, 6));
         let length = self.scene.length().name();
-        format!("{} {unit} at {place}, point ({x}, {y}, {z}) {length}", significant(extreme.value, 12))
+        let unseen =
+            self.why_unseen(extreme).map_or(String::new(), |why| format!(", which the eye does not see: {why}"));
+        format!("{} {unit} at {place}, point ({x}, {y}, {z}) {length}{unseen}", significant(extreme.value, 12))
+    }
+
+    /// Why the eye does not see an extreme of a channel that depends on it.
+    fn why_unseen(&self, extreme: &CellExtreme) -> Option<String> {
+        if !depends_on_eye(&self.main) {
+            return None;
+        }
+        let place = ProbePosition::NearestTo(self.surface.point(extreme.cell));
+        self.prepared.probe(&place).ok()?.why_unseen(self.scene)
     }
 
     /// In the scene's unit.
@@ -180,6 +201,7 @@ impl Summary<'_> {
             cell: [extreme.cell.column, extreme.cell.row],
             coordinates: self.surface.coordinates(extreme.cell),
             point: self.point(extreme),
+            unseen_because: self.why_unseen(extreme),
         };
         let totals = self.totals.as_ref();
         let flux = totals.filter(|_| !depends_on_eye(&self.main)).map(|totals| totals.integral);
@@ -250,4 +272,7 @@ struct ExtremeJson {
     cell: [u32; 2],
     coordinates: [f64; 2],
     point: [f64; 3],
+    /// If the channel depends on the eye, and the eye does not see the point.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unseen_because: Option<String>,
 }

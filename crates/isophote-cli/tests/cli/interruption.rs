@@ -86,7 +86,7 @@ fn ctrl_c_ends_a_program_that_waits_for_its_input() {
 #[test]
 fn a_reader_who_stops_listening_to_the_results_is_no_failure() {
     let folder = Folder::new();
-    for arguments in ["section --row 300", "probe --explain", "schema", "man render", "check", "new lab -o -"] {
+    for arguments in ["section --horizontal 0", "probe --explain", "schema", "man render", "check", "new lab -o -"] {
         let mut child = start(&folder, arguments);
         drop(child.stdout.take());
         let (status, said) = end_of(child);

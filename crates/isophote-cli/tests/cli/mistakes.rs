@@ -92,7 +92,7 @@ fn a_mistake_is_shown_with_file_line_caret_and_advice() {
 
 #[test]
 fn every_mistake_is_told_in_one_run() {
-    let scene = lab_with("diffuse = 0.7", "diffuse = 7")
+    let scene = lab_with("diffuse = 0.7", "diffuse = -7")
         .replace("up = [0, 1, 0]", "up = [0, 0, 1]")
         .replace("intensity = 100", "intensity = nan");
     let words = ["3 problems in scene.toml", "scene.toml:15:", "scene.toml:20:", "scene.toml:33:"];

@@ -154,5 +154,5 @@ fn options_that_do_nothing_are_named() {
         assert!(notes.contains(&format!("{option} has no effect")), "{notes}");
     }
     assert!(!folder.ok("render --size 8x6 --gamma 2 --visible-only -o map.png -o map.csv").stderr.contains("effect"));
-    folder.run("section --row 3 --samples 5").failed(2, &["--line"]);
+    folder.run("section --row 3 --samples 5").failed(2, &["--samples does not go with --row"]);
 }

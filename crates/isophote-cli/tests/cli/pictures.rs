@@ -1,6 +1,6 @@
 //! How numbers become grey levels and colours.
 
-use crate::common::Folder;
+use crate::common::{Folder, LAB};
 
 /// The brightness of the lab at 80×60, and its greatest value.
 fn brightness(folder: &Folder) -> (Vec<f64>, f64) {
@@ -33,6 +33,40 @@ fn range_names_black_and_white_and_tells_how_much_is_clipped() {
         "wrote map.png: 0.05 to 0.2 W/m² from black to white; {below} pixels below are clipped; {above} pixels above are clipped\n"
     );
     assert_eq!(outcome.stderr, note);
+}
+
+#[test]
+fn normalization_stretches_or_takes_the_logarithm() {
+    let folder = Folder::new();
+    let scene = LAB.replace("convention = \"lab\"", "convention = \"irradiance\"");
+    folder.write("bright.toml", scene.replace("[[light]]", "[ambient]\nradiance = 0.01\n\n[[light]]"));
+    folder.ok("render bright.toml --size 80x60 -o map.csv");
+    let (values, shapes) = (folder.csv("map.csv").column("brightness"), folder.csv("map.csv").column("shape"));
+    let seen = || values.iter().zip(&shapes).filter(|(_, shape)| **shape >= 0.0).map(|(value, _)| *value);
+    let (least, greatest) = (seen().fold(f64::MAX, f64::min), seen().fold(0.0, f64::max));
+    assert!(least > 0.03, "{least}");
+    let levels = |how: &str| {
+        folder.ok(&format!("render bright.toml --size 80x60 -o map.png --normalize {how}"));
+        image::open(folder.path("map.png")).unwrap().into_luma8().into_raw()
+    };
+    let check = |how: &str, level: &dyn Fn(f64) -> f64| {
+        for ((found, value), shape) in levels(how).into_iter().zip(&values).zip(&shapes) {
+            let expected = if *shape >= 0.0 { 255.0 * level(*value) } else { 0.0 };
+            assert!((f64::from(found) - expected).abs() <= 0.5 + 1e-9, "{how}: {found} {expected}");
+        }
+    };
+    check("max", &|value| value / greatest);
+    check("minmax", &|value| (value - least) / (greatest - least));
+    check("log", &|value| 1.0 + (value / greatest).log10() / 3.0);
+    assert!(folder.ok("show map.png").stdout.contains("logarithmic"));
+    let told = folder.ok("render bright.toml --size 80x60 -o map.png --normalize log --range 0.01,1").stderr;
+    assert!(told.contains("0.01 to 1 W/m² from black to white, by the logarithm"), "{told}");
+    folder
+        .run("render bright.toml --size 80x60 -o map.png --normalize log --range 0,1")
+        .failed(2, &["--range starts at 0; with --normalize log it has to start above 0"]);
+    folder.run("render -o map.png --normalize mean").failed(2, &["max, minmax, log"]);
+    let told = folder.ok("render --size 8x6 -o map.csv --normalize log").stderr;
+    assert!(told.contains("--normalize has no effect: no .png file is written"), "{told}");
 }
 
 #[test]

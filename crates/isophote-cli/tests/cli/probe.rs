@@ -67,6 +67,8 @@ fn several_places_of_all_kinds_are_read_in_one_run() {
     assert_eq!(first_words, ["probe", "(0,", "(1,", "pixel", "θ", "(1,"], "{}", outcome.stdout);
     let note = "(1, 0, 5) is not seen from the eye: the surface faces away there (θ_o ≥ 90°)";
     assert!(outcome.stdout.contains(note), "{}", outcome.stdout);
+    let seen: Vec<&str> = outcome.stdout.lines().take(5).filter_map(|line| line.split_whitespace().last()).collect();
+    assert_eq!(seen, ["seen", "yes", "NO", "yes", "yes"], "{}", outcome.stdout);
     assert!(!outcome.stdout.contains("published"), "a column for nothing");
 }
 
@@ -211,4 +213,14 @@ fn a_point_behind_the_camera_is_hidden_by_what_stands_before_it() {
     let table = folder.ok("probe behind.toml --at 0,0,-4 --at 0,0,-2.5").stdout;
     assert!(table.contains("(0, 0, -4) is not seen from the eye: \"cover\" stands before it"), "{table}");
     assert_eq!(table.matches("is not seen").count(), 1, "nothing stands before the cover: {table}");
+    let json = folder.ok("probe behind.toml --at 0,0,-4 --at 0,0,-2.5 --json").json();
+    let told = |index: usize| [&json["probes"][index]["seen"], &json["probes"][index]["unseen_because"]];
+    assert_eq!(told(0), [&serde_json::json!(false), &serde_json::json!("\"cover\" stands before it")]);
+    assert_eq!(told(1), [&serde_json::json!(true), &serde_json::Value::Null]);
+    let scene = folder.text("behind.toml");
+    folder.write("hidden.toml", scene.replace("radius = 0.5", "radius = 0.8"));
+    let surface = folder.ok("surface hidden.toml --shape back --channel brightness --json").json();
+    assert_eq!(surface["max"]["unseen_because"], "\"cover\" stands before it");
+    let surface = folder.ok("surface hidden.toml --shape back --channel brightness").stdout;
+    assert!(surface.contains(", which the eye does not see: \"cover\" stands before it"), "{surface}");
 }

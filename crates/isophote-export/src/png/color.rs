@@ -3,12 +3,13 @@
 use std::io::Write;
 
 use isophote::map::{Channel, Map};
+use isophote::units::Keyword;
 
 use crate::color_scale::{ColorScale, Shown};
 use crate::error::ExportError;
 use crate::metadata::{FileMetadata, PictureMetadata};
 use crate::png::encode::{CHUNK, METADATA_KEYWORD, from_png, rounded, set_compression, set_depth, with_unit};
-use crate::png::options::{Depth, PictureOptions, PictureReport};
+use crate::png::options::{Depth, Normalization, PictureOptions, PictureReport};
 use crate::text::one_line;
 
 /// The encoding named in the metadata.
@@ -23,7 +24,7 @@ pub(super) fn write(
     out: impl Write,
 ) -> Result<PictureReport, ExportError> {
     #[expect(clippy::float_cmp, reason = "1 is the exact default")]
-    if options.gamma != 1.0 || options.color.is_some() {
+    if options.gamma != 1.0 || options.color.is_some() || options.normalization != Normalization::Max {
         return Err(ExportError::ColorStyle { name: channel.quantity.name() });
     }
     let scale = ColorScale::new(map, colors, options.range);
@@ -83,6 +84,7 @@ fn texts(map: &Map, channel: &Channel, depth: Depth, range: [f64; 2]) -> [(&'sta
     let mut metadata = FileMetadata::of_channel(map, channel);
     metadata.picture = Some(PictureMetadata {
         range,
+        normalization: Normalization::Max.name().into(),
         gamma: 1.0,
         depth: depth.bits(),
         colormap: None,

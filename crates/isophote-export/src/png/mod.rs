@@ -13,7 +13,7 @@ use crate::channel;
 use crate::error::ExportError;
 
 pub(crate) use encode::{METADATA_KEYWORD, read_json};
-pub use options::{Depth, PictureColor, PictureOptions, PictureReport};
+pub use options::{Depth, Normalization, PictureColor, PictureOptions, PictureReport};
 
 /// Writes the picture with row 0 at the top; missed pixels are black, even with a colour map.
 ///

@@ -2,13 +2,14 @@
 
 use std::io::Write;
 
-use isophote::analysis::statistics::largest;
+use isophote::analysis::statistics::{largest, smallest};
 use isophote::map::{Channel, Map, Scalars, Values};
+use isophote::units::Keyword;
 
 use crate::error::ExportError;
 use crate::metadata::{FileMetadata, PictureMetadata};
 use crate::png::encode::{CHUNK, METADATA_KEYWORD, from_png, rounded, set_compression, set_depth, with_unit};
-use crate::png::options::{Depth, PictureOptions, PictureReport};
+use crate::png::options::{Depth, Normalization, PictureOptions, PictureReport};
 use crate::text::one_line;
 
 /// Writes the picture; missed pixels are black, even with a colour map.
@@ -63,14 +64,23 @@ fn range_for(
     values: Scalars<'_>,
     options: &PictureOptions,
 ) -> Result<[f64; 2], ExportError> {
-    let [black, white] =
-        options.range.unwrap_or_else(|| [0.0, largest(map.mask(), values).map_or(0.0, |white| white.max(0.0))]);
+    let [black, white] = options.range.unwrap_or_else(|| {
+        let white = largest(map.mask(), values).unwrap_or(0.0);
+        match options.normalization {
+            Normalization::Max => [0.0, white.max(0.0)],
+            Normalization::MinMax => [smallest(map.mask(), values).unwrap_or(0.0), white],
+            Normalization::Log => [white.max(0.0) / Normalization::DECADES, white.max(0.0)],
+        }
+    });
+    let (name, range) = (channel.quantity.name(), [black, white]);
     let sound = (white - black).is_finite() && (black < white || options.range.is_none());
-    if sound {
-        Ok([black, white])
-    } else {
-        Err(ExportError::Range { name: channel.quantity.name(), range: [black, white] })
+    if !sound {
+        return Err(ExportError::Range { name, range });
     }
+    if options.normalization == Normalization::Log && options.range.is_some() && black <= 0.0 {
+        return Err(ExportError::LogRange { name, range });
+    }
+    Ok(range)
 }
 
 /// Writes row by row: allocating a buffer for the whole picture would take longer than filling it.
@@ -110,8 +120,7 @@ fn paint(values: impl Iterator<Item = f64>, pixels: &mut [u8], options: &Picture
     let levels = values.map(|value| {
         report.clamped_below += usize::from(value < black);
         report.clamped_above += usize::from(value > white);
-        // In a map without light, 0/0 would give NaN.
-        let linear = if black < white { ((value - black) / (white - black)).clamp(0.0, 1.0) } else { 0.0 };
+        let linear = options.normalization.level(value, [black, white]);
         #[expect(clippy::float_cmp, reason = "1 is the exact default, and then powers are not worth their time")]
         if exponent == 1.0 { linear } else { libm::pow(linear, exponent) }
     });
@@ -137,6 +146,7 @@ fn texts(map: &Map, channel: &Channel, options: &PictureOptions, range: [f64; 2]
     let mut metadata = FileMetadata::of_channel(map, channel);
     metadata.picture = Some(PictureMetadata {
         range,
+        normalization: options.normalization.name().into(),
         gamma: options.gamma,
         depth: options.depth.bits(),
         colormap: options.color.map(|color| color.name.into()),
@@ -155,10 +165,15 @@ fn description(map: &Map, channel: &Channel, options: &PictureOptions, range: [f
     let (quantity, convention) = (channel.quantity.name(), format!("{}{space}", map.provenance.convention));
     let [black, white] = range.map(|value| with_unit(value, &channel.unit));
     #[expect(clippy::float_cmp, reason = "1 is the exact default")]
-    let level = if options.gamma == 1.0 {
-        "level proportional to the value (linear, not gamma-encoded)".into()
-    } else {
-        format!("level = (share of the way between them)^(1/{})", options.gamma)
+    let level = match (options.normalization, options.gamma == 1.0) {
+        (Normalization::Max | Normalization::MinMax, true) => {
+            "level proportional to the value (linear, not gamma-encoded)".into()
+        }
+        (Normalization::Max | Normalization::MinMax, false) => {
+            format!("level = (share of the way between them)^(1/{})", options.gamma)
+        }
+        (Normalization::Log, true) => "level = ln(value/black)/ln(white/black)".into(),
+        (Normalization::Log, false) => format!("level = (ln(value/black)/ln(white/black))^(1/{})", options.gamma),
     };
     match options.color {
         None => format!("{quantity}, {convention}; black is {black}, white is {white}; {level}"),

@@ -1,14 +1,17 @@
 //! What a picture shows, and the report on how it was made.
 
 use isophote::map::Quantity;
+use isophote::units::Keyword;
 
 /// What a picture shows and how.
 #[derive(Clone)]
 pub struct PictureOptions<'a> {
     /// The channel: a scalar one, or colours.
     pub quantity: Quantity,
-    /// The values of black and white in the channel's unit; by default 0 and the greatest visible value.
+    /// The values of black and white in the channel's unit; by default those of the normalization.
     pub range: Option<[f64; 2]>,
+    /// How values become levels.
+    pub normalization: Normalization,
     /// 1 is proportional, 2.2 brightens dark parts; must be finite and above 0.
     pub gamma: f64,
     /// Bits per sample.
@@ -21,7 +24,49 @@ impl PictureOptions<'_> {
     /// Eight bits of grey, proportional to the channel, with its greatest value white.
     #[must_use]
     pub fn new(quantity: Quantity) -> Self {
-        Self { quantity, range: None, gamma: 1.0, depth: Depth::Eight, color: None }
+        Self { quantity, range: None, normalization: Normalization::Max, gamma: 1.0, depth: Depth::Eight, color: None }
+    }
+}
+
+/// How values become levels from black, 0, to white, 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Normalization {
+    /// Proportional: v/max.
+    #[default]
+    Max,
+    /// Stretched: (v − min)/(max − min), for the least and the greatest visible value.
+    MinMax,
+    /// Logarithmic: ln(v/black)/ln(white/black), by default over [three decades](Self::DECADES) up to the greatest value.
+    Log,
+}
+
+impl Normalization {
+    /// The greatest value over that of black in a logarithmic picture without a range.
+    pub const DECADES: f64 = 1000.0;
+
+    /// The level of a value, between 0 and 1. In a map without light, where white is not above black, 0.
+    #[must_use]
+    pub fn level(self, value: f64, [black, white]: [f64; 2]) -> f64 {
+        if black >= white {
+            return 0.0;
+        }
+        match self {
+            Self::Max | Self::MinMax => ((value - black) / (white - black)).clamp(0.0, 1.0),
+            Self::Log if value <= black => 0.0,
+            Self::Log => (libm::log(value / black) / libm::log(white / black)).clamp(0.0, 1.0),
+        }
+    }
+}
+
+impl Keyword for Normalization {
+    const ALL: &'static [Self] = &[Self::Max, Self::MinMax, Self::Log];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Max => "max",
+            Self::MinMax => "minmax",
+            Self::Log => "log",
+        }
     }
 }
 

@@ -53,8 +53,14 @@ fn a_picture_says_how_numbers_became_colours() {
     let options =
         PictureOptions { range: Some([0.5, 1.5]), gamma: 2.2, color, ..PictureOptions::new(Quantity::Brightness) };
     crate::png::write(&sample(), &options, &mut bytes).unwrap();
-    let expected =
-        PictureMetadata { range: [0.5, 1.5], gamma: 2.2, depth: 8, colormap: Some("viridis".into()), encoding: None };
+    let expected = PictureMetadata {
+        range: [0.5, 1.5],
+        normalization: "max".into(),
+        gamma: 2.2,
+        depth: 8,
+        colormap: Some("viridis".into()),
+        encoding: None,
+    };
     assert_eq!(read_bytes(&bytes).unwrap().picture, Some(expected));
 }
 

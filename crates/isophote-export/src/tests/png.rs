@@ -2,7 +2,7 @@ use image::{DynamicImage, ImageFormat};
 use isophote::map::{Map, Quantity};
 
 use super::{in_single_precision, row, rows, sample};
-use crate::png::{Depth, PictureColor, PictureOptions, PictureReport, write};
+use crate::png::{Depth, Normalization, PictureColor, PictureOptions, PictureReport, write};
 
 fn picture(map: &Map, options: &PictureOptions) -> (DynamicImage, PictureReport) {
     let mut bytes = Vec::new();
@@ -57,6 +57,31 @@ fn gamma_is_the_root_of_the_share() {
     let map = row(&[0.0, 0.25, 0.5, 1.0]);
     let (image, _) = picture(&map, &PictureOptions { gamma: 2.0, ..brightness() });
     assert_eq!(image.to_luma8().into_raw(), [0, 128, 180, 255]);
+}
+
+#[test]
+fn a_stretched_picture_runs_from_the_least_visible_value_to_the_greatest() {
+    let options = PictureOptions { normalization: Normalization::MinMax, ..brightness() };
+    let (image, report) = picture(&row(&[1.0, 1.5, 2.0, 3.0]), &options);
+    assert_eq!(image.to_luma8().into_raw(), [0, 64, 128, 255]);
+    assert_eq!(report, PictureReport { range: [1.0, 3.0], clamped_below: 0, clamped_above: 0 });
+    let (image, _) = picture(&row(&[2.0, 2.0]), &options);
+    assert_eq!(image.to_luma8().into_raw(), [0, 0], "of one value only");
+}
+
+#[test]
+fn a_logarithmic_picture_has_three_decades() {
+    let options = PictureOptions { normalization: Normalization::Log, ..brightness() };
+    let (image, report) = picture(&row(&[0.0, 1e-9, 0.02, 0.2, 2.0, 20.0]), &options);
+    assert_eq!(image.to_luma8().into_raw(), [0, 0, 0, 85, 170, 255]);
+    assert_eq!(report, PictureReport { range: [0.02, 20.0], clamped_below: 2, clamped_above: 0 });
+    let (image, _) =
+        picture(&row(&[1.0, 10.0, 100.0]), &PictureOptions { range: Some([1.0, 100.0]), ..options.clone() });
+    assert_eq!(image.to_luma8().into_raw(), [0, 128, 255]);
+    let (image, _) = picture(&row(&[0.0, 0.0]), &options);
+    assert_eq!(image.to_luma8().into_raw(), [0, 0], "without light");
+    let message = refusal(&PictureOptions { range: Some([0.0, 1.0]), ..options });
+    assert!(message.contains("must be above 0"), "{message}");
 }
 
 #[test]

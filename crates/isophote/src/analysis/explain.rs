@@ -90,14 +90,15 @@ impl ProbeReading {
     }
 
     fn explain_light(&self, text: &mut String, scene: &PreparedScene, index: usize, term: &LightTerm) {
-        let Light { name, kind, .. } = &scene.scene().lights()[index];
+        let Light { name, kind, is_on, .. } = &scene.scene().lights()[index];
         line(text, format_args!(""));
-        line(text, format_args!("Light {} \"{name}\"", index + 1));
+        let off = if *is_on { "" } else { ", switched off" };
+        line(text, format_args!("Light {} \"{name}\"{off}", index + 1));
         match kind {
             LightKind::Point(light) => self.explain_point_light(text, scene, light, index),
             LightKind::Parallel(light) => self.explain_parallel_light(text, scene, light, index),
         }
-        self.explain_reflection(text, scene, term);
+        self.explain_reflection(text, scene, index, term);
     }
 
     fn explain_point_light(&self, text: &mut String, scene: &PreparedScene, light: &PointLight, index: usize) {
@@ -181,7 +182,7 @@ impl ProbeReading {
         self.explain_diffuse(text, scene, self.shading.ambient);
     }
 
-    fn explain_reflection(&self, text: &mut String, scene: &PreparedScene, term: &LightTerm) {
+    fn explain_reflection(&self, text: &mut String, scene: &PreparedScene, index: usize, term: &LightTerm) {
         self.explain_diffuse(text, scene, term.irradiance);
         let convention = scene.scene().convention();
         let Some(material) = scene.scene().material_of(self.hit.primitive) else { return };
@@ -196,12 +197,19 @@ impl ProbeReading {
         line(text, format_args!("  H   = (L + V)/‖L + V‖ = {}", vector(half)));
         let (cosine, lobe) = (digits(term.cos_theta_h), digits(term.lobe));
         line(text, format_args!("  cosθ_h = max(0, N·H) = {cosine},  cosθ_h^n = {cosine}^{n} = {lobe}"));
+        if !convention.has_cosine_in_highlight() {
+            explain_irradiance_across(text, scene, index, term);
+        }
         let specular = match convention {
             Convention::CoursePi => format!("E k_s/π (N·H)^n = {irradiance} × {k_s}/π × {lobe}"),
             Convention::Radiance => {
                 let constant = digits(lobe_constant(n));
                 line(text, format_args!("  c(n) = (n+2)(n+4)/(8π(n + 2^(−n/2))) = {constant}   (3.6)"));
                 format!("E k_s c(n) (N·H)^n = {irradiance} × {k_s} × {constant} × {lobe}")
+            }
+            Convention::BlinnPhong => format!("E⊥ k_s (N·H)^n = {} × {k_s} × {lobe}", digits(term.lobe_irradiance)),
+            Convention::BlinnPhongPi => {
+                format!("E⊥ k_s/π (N·H)^n = {} × {k_s}/π × {lobe}", digits(term.lobe_irradiance))
             }
             _ => format!("E k_s (N·H)^n = {irradiance} × {k_s} × {lobe}"),
         };
@@ -223,13 +231,15 @@ impl ProbeReading {
         let value = digits(irradiance * scene.formula(self.hit.primitive).diffuse_factor(self.hit.point.cos_theta_o));
         let irradiance = digits(irradiance);
         let diffuse = match convention {
-            Convention::Irradiance | Convention::Lambert | Convention::Course => {
+            Convention::Irradiance | Convention::Lambert | Convention::Course | Convention::BlinnPhong => {
                 format!("E k_d = {irradiance} × {k_d}")
             }
             Convention::Lab => {
                 format!("E k_d cosθ_o = {irradiance} × {k_d} × {}", digits(self.hit.point.cos_theta_o))
             }
-            Convention::CoursePi | Convention::Radiance => format!("E k_d/π = {irradiance} × {k_d}/π"),
+            Convention::CoursePi | Convention::Radiance | Convention::BlinnPhongPi => {
+                format!("E k_d/π = {irradiance} × {k_d}/π")
+            }
         };
         line(text, format_args!("  diffuse  = {diffuse} = {value} {end}"));
     }
@@ -250,6 +260,25 @@ impl ProbeReading {
         let number = convention.formula_number();
         line(text, format_args!("  B = {} {unit}   ({number})", full(self.shading.brightness())));
     }
+}
+
+/// What the highlight of (3.11) and (3.12) is multiplied by: the irradiance of a surface that faces the light.
+fn explain_irradiance_across(text: &mut String, scene: &PreparedScene, index: usize, term: &LightTerm) {
+    let description = scene.scene();
+    let (unit, number) = (description.unit_system().irradiance_unit(), description.convention().formula_number());
+    let across = digits(term.lobe_irradiance);
+    let calculation = match description.lights()[index].kind {
+        _ if term.cos_theta_i <= 0.0 => {
+            line(text, format_args!("  E⊥  = 0 {unit}, since cosθ_i = 0   ({number})"));
+            return;
+        }
+        LightKind::Point(_) => {
+            let (intensity, distance) = (digits(term.intensity), digits(term.distance));
+            format!("v I / r² = {} × {intensity} / {distance}²", term.visibility)
+        }
+        LightKind::Parallel(_) => format!("v E₀ = {} × {}", term.visibility, digits(term.intensity)),
+    };
+    line(text, format_args!("  E⊥  = {calculation} = {across} {unit}, without cosθ_i   ({number})"));
 }
 
 /// The calculation of each component, and the luminance of their results.

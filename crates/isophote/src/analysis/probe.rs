@@ -4,6 +4,7 @@ use crate::camera::ScreenPosition;
 use crate::color::Rgb;
 use crate::map::Pixel;
 use crate::prepare::{Hit, PreparedScene};
+use crate::scene::Scene;
 use crate::shade::{LightTerm, Shading};
 use crate::shape::{Located, Miss, Primitive, surface_at};
 use crate::units::LengthUnit;
@@ -77,6 +78,7 @@ impl ProbeReading {
             LightTerm {
                 intensity: of(|term| term.intensity).weighted_by(weights),
                 irradiance: of(|term| term.irradiance).weighted_by(weights),
+                lobe_irradiance: of(|term| term.lobe_irradiance).weighted_by(weights),
                 // The same in all components that have a highlight.
                 lobe: of(|term| term.lobe).into_array().into_iter().fold(0.0, f64::max),
                 ..*term
@@ -104,6 +106,17 @@ impl ProbeReading {
     #[must_use]
     pub fn is_seen(&self) -> bool {
         self.seen == SeenFromEye::Seen
+    }
+
+    /// Why the eye does not see the point, in words; `None` if it does.
+    #[must_use]
+    pub fn why_unseen(&self, scene: &Scene) -> Option<String> {
+        match self.seen {
+            SeenFromEye::Seen => None,
+            SeenFromEye::Behind => Some("it is behind the plane of the eye".into()),
+            SeenFromEye::FacesAway => Some("the surface faces away there (θ_o ≥ 90°)".into()),
+            SeenFromEye::HiddenBy(other) => Some(format!("\"{}\" stands before it", scene.name_of(other))),
+        }
     }
 }
 
@@ -137,7 +150,7 @@ pub enum ProbeError {
 }
 
 impl PreparedScene {
-    /// The values at a position (3.1) to (3.6).
+    /// The values at a position, by the convention of the scene (3.1) to (3.12).
     ///
     /// # Errors
     /// A position that is on no surface.
@@ -229,7 +242,7 @@ mod tests {
     use super::*;
     use crate::map::Quantity;
     use crate::render::{ReferenceRenderer, RenderSettings, Renderer};
-    use crate::scene::{Scene, Syntax};
+    use crate::scene::Syntax;
 
     /// A light's values are the sums over all of its emitters.
     #[test]

@@ -45,6 +45,16 @@ pub fn largest(mask: &Mask, values: Scalars<'_>) -> Option<f64> {
     mask.runs().iter().map(of_run).reduce(f64::max)
 }
 
+/// The smallest value among pixels that see a surface; `None` if there are none.
+#[must_use]
+pub fn smallest(mask: &Mask, values: Scalars<'_>) -> Option<f64> {
+    let of_run = |run: &Run| match values {
+        Scalars::Double(values) => smallest_of(&values[run.start..run.end]),
+        Scalars::Single(values) => smallest_of(&values[run.start..run.end]),
+    };
+    mask.runs().iter().map(of_run).reduce(f64::min)
+}
+
 /// Counts the pixels of a map.
 #[must_use]
 pub fn counts(map: &Map) -> Counts {
@@ -64,6 +74,11 @@ pub fn counts(map: &Map) -> Counts {
 fn largest_of<T: Copy + Into<f64>>(values: &[T]) -> f64 {
     let larger = |largest: f64, value: &T| if (*value).into() > largest { (*value).into() } else { largest };
     values.iter().fold(f64::NEG_INFINITY, larger)
+}
+
+fn smallest_of<T: Copy + Into<f64>>(values: &[T]) -> f64 {
+    let smaller = |smallest: f64, value: &T| if (*value).into() < smallest { (*value).into() } else { smallest };
+    values.iter().fold(f64::INFINITY, smaller)
 }
 
 fn positive<T: Copy + Into<f64>>(values: &[T]) -> usize {
@@ -109,6 +124,7 @@ mod tests {
         let mean = sum.value() / seen.len() as f64;
         assert!((found.mean - mean).abs() <= mean * f64::EPSILON, "{} {mean}", found.mean);
         assert_eq!(largest(map.mask(), map.scalar(&Quantity::Irradiance).unwrap()), Some(highest));
+        assert_eq!(smallest(map.mask(), map.scalar(&Quantity::Irradiance).unwrap()), Some(lowest));
     }
 
     #[test]

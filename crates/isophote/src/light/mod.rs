@@ -27,6 +27,8 @@ pub struct Light {
     pub kind: LightKind,
     /// Whether shapes block its light for one another, if the scene has shadows.
     pub casts_shadows: bool,
+    /// Whether it is switched on. A light that is off keeps its place and its name, and has no strength.
+    pub is_on: bool,
 }
 
 /// The kinds of lights: a closed set, each in a file of its own.
@@ -55,6 +57,18 @@ impl Light {
             LightKind::Point(light) => light.position - place,
             LightKind::Parallel(light) => -light.direction,
         }
+    }
+
+    /// The same light switched on, or off: without strength.
+    #[must_use]
+    pub fn switched(mut self, is_on: bool) -> Self {
+        self.is_on = is_on;
+        match &mut self.kind {
+            _ if is_on => {}
+            LightKind::Point(light) => light.intensity = 0.0,
+            LightKind::Parallel(light) => light.irradiance = 0.0,
+        }
+        self
     }
 
     /// The steepest growth of its intensity per radian at an edge of its own, as a fraction of its full strength; 0 if it

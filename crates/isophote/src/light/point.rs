@@ -36,7 +36,8 @@ mod tests {
             .map(|[inner, outer]: [f64; 2]| Emission::Spot(Spot::new(axis, inner.to_radians(), outer.to_radians())));
         for emission in [Emission::Isotropic, Emission::Lambertian { axis }].into_iter().chain(spots) {
             let light = PointLight { position: Vector::default(), intensity: 3.5, emission };
-            let lamp = Light { name: String::new(), kind: LightKind::Point(light.clone()), casts_shadows: true };
+            let lamp =
+                Light { name: String::new(), kind: LightKind::Point(light.clone()), casts_shadows: true, is_on: true };
             let [emitter] = *Emitters::of(&[lamp]).all() else { panic!("a point light is one emitter") };
             let (cosines, turns) = (1000, 1000);
             let mut power = 0.0;

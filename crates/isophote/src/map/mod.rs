@@ -95,7 +95,7 @@ impl Window {
 /// What a channel holds.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Quantity {
-    /// Brightness by the scene's convention (3.1)–(3.6).
+    /// Brightness by the scene's convention (3.1)–(3.12).
     Brightness,
     /// Irradiance (illuminance in a photometric scene), summed over the lights and with the ambient light (3.1).
     Irradiance,

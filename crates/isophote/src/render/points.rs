@@ -74,7 +74,7 @@ impl<'s> PointKernel<'s> {
             let (mut placed, mut emitters) = (ShapeEmitters::default(), Chosen::default());
             lighting.place(scene, &sphere, &mut placed);
             emitters.choose_all(scene, &lighting, &placed);
-            let power = Power::new(formula.sharpness(), Precision::Double);
+            let power = Power::of(formula, Precision::Double);
             let ambient = description.ambient().map_or(0.0, Ambient::unobstructed_irradiance);
             let eye = (description.camera().eye - sphere.center) * (1.0 / sphere.radius);
             let side = if shape.geometry.part_encloses(0, description.camera().eye) { -1.0 } else { 1.0 };

@@ -185,11 +185,30 @@ fn parse_toml(text: &str) -> Document {
     let syntax_problems = errors
         .iter()
         .map(|error| {
-            Problem::at_span(ProblemKind::Syntax, error.span(), format!("not valid TOML: {}", error.message()))
+            let message = format!("not valid TOML: {}", error.message());
+            let mut problem = Problem::at_span(ProblemKind::Syntax, error.span(), message);
+            problem.help = decimal_comma(text, error.span());
+            problem
         })
         .collect();
     let span = root.span();
     Document { root: Node { value: Value::Table(toml_entries(root.into_inner())), span }, syntax_problems }
+}
+
+/// Advice on the line of a syntax problem if a number in it is written with a decimal comma.
+fn decimal_comma(text: &str, span: Option<Range<usize>>) -> Option<String> {
+    let at = span?.start.min(text.len());
+    let start = text.get(..at)?.rfind('\n').map_or(0, |end| end + 1);
+    let line = text.get(start..)?.lines().next()?;
+    line.match_indices(',').find_map(|(comma, _)| {
+        let (before, after) = (&line[..comma], &line[comma + 1..]);
+        let whole = &before[before.trim_end_matches(|letter: char| letter.is_ascii_digit()).len()..];
+        let rest = after.trim_start_matches(|letter: char| letter.is_ascii_digit());
+        let fraction = &after[..after.len() - rest.len()];
+        let opening = before[..before.len() - whole.len()].trim_end_matches(['+', '-']).trim_end();
+        let is_number = !whole.is_empty() && !fraction.is_empty() && opening.ends_with(['=', ':']);
+        is_number.then(|| format!("a number has a decimal point, not a comma: write {whole}.{fraction}"))
+    })
 }
 
 fn toml_entries(table: DeTable<'_>) -> Vec<Entry> {
@@ -240,7 +259,9 @@ fn parse_json(text: &str) -> Document {
         Err(error) => {
             let span = error.range().start..error.range().end;
             let message = format!("not valid JSON: {}", error.kind());
-            syntax_problems.push(Problem::at_span(ProblemKind::Syntax, Some(span), message));
+            let mut problem = Problem::at_span(ProblemKind::Syntax, Some(span.clone()), message);
+            problem.help = decimal_comma(text, Some(span));
+            syntax_problems.push(problem);
             empty()
         }
     };

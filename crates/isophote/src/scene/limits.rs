@@ -28,8 +28,10 @@ pub const RELATIVE_DISTANCE: f64 = 1e9;
 pub const SAMPLES: u32 = 4096;
 /// The allowed error of a pixel, as a fraction of the largest brightness.
 pub const TOLERANCE: RangeInclusive<f64> = 1e-4..=1.0;
-/// The largest coefficient of a material.
-pub const COEFFICIENT: f64 = 1.0;
+/// The largest coefficient of a material that is an albedo in the scene's convention, the fraction of light that it reflects.
+pub const ALBEDO: f64 = 1.0;
+/// The largest coefficient of a material that is none, such as one in sr⁻¹.
+pub const COEFFICIENT: f64 = 1e6;
 /// The largest shininess.
 pub const SHININESS: f64 = 1e5;
 /// The field of view of a perspective camera, in degrees: outside this range, its screen would be a point or unbounded.
@@ -40,6 +42,10 @@ pub const FISHEYE_FIELD: RangeInclusive<f64> = 1e-6..=360.0;
 pub const LONGITUDE: f64 = 360.0;
 /// The farthest edges of a panorama in latitude, in degrees.
 pub const LATITUDE: f64 = 90.0;
+/// The largest angle of a direction from −z, in degrees.
+pub const TILT: f64 = 180.0;
+/// The largest angle of a direction about the z axis, in degrees, either way.
+pub const AZIMUTH: f64 = 360.0;
 /// Half the opening of a spot's cones, in degrees.
 pub const CONE: f64 = 90.0;
 /// The smallest difference between a spot's cones, in degrees.

@@ -58,7 +58,7 @@ tables! {
         /// right = forward × up.
         #[schemars(extend("default" = "right"))]
         pub handedness: Option<Handedness>,
-        /// Which formula gives the brightness (3.1 to 3.6).
+        /// Which formula gives the brightness (3.1 to 3.6, 3.11, 3.12).
         #[schemars(extend("default" = "radiance"))]
         pub convention: Option<Convention>,
         /// Whether shapes stand in each other's light.

@@ -117,7 +117,12 @@ impl<'t> Table<'t> {
             return None;
         };
         if items.len() != N {
-            self.wrong_type(&path, &node.value, expected);
+            let comma = if items.len() > N && items.len() <= 2 * N && items.iter().all(is_whole) {
+                "; numbers have decimal points: a comma begins the next number"
+            } else {
+                ""
+            };
+            self.wrong_type(&path, &node.value, &format!("{expected}{comma}"));
             return None;
         }
         let mut list = [T::default(); N];
@@ -246,4 +251,9 @@ fn as_count(value: &Value) -> Option<u64> {
         Value::Integer(number) => u64::try_from(*number).ok(),
         _ => None,
     }
+}
+
+/// Whether it is written without a fraction, as both halves of a number with a decimal comma are.
+fn is_whole(item: &Node) -> bool {
+    matches!(item.value, Value::Integer(_))
 }

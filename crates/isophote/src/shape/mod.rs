@@ -122,6 +122,21 @@ impl Geometry {
         }
     }
 
+    /// Its centre, in metres: of a plane its own point, of a mesh or a cloud, a cylinder or a cone the middle of its bounding
+    /// box.
+    #[must_use]
+    pub fn center(&self) -> Vector {
+        let named = self.measures().into_iter().find_map(|(name, measure)| match measure {
+            Measure::Vector(place) if matches!(name, "center" | "point") => Some(place),
+            _ => None,
+        });
+        named.unwrap_or_else(|| {
+            let parts = (0..self.parts()).filter_map(|part| self.bounds(part));
+            let Bounds { least, greatest } = parts.reduce(Bounds::union).unwrap_or_default();
+            (least + greatest) * 0.5
+        })
+    }
+
     /// Whether every part is a sphere: a point's anchor is then its centre.
     #[must_use]
     pub fn is_round(&self) -> bool {

@@ -21,6 +21,10 @@ pub fn all() -> Vec<Value> {
     let mut white = scenes[0].clone();
     white["ambient"]["radiance"] = json!(1);
     scenes.push(white);
+    // Coefficients that are no albedos may be larger.
+    let mut per_steradian = scenes[0].clone();
+    per_steradian["convention"] = json!("course");
+    scenes.push(per_steradian);
     scenes
 }
 

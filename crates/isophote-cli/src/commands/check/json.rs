@@ -102,7 +102,7 @@ fn light_json(scene: &Scene, index: usize, light: &Light) -> Value {
         LightKind::Parallel(parallel) => {
             return json!({
                 "name": light.name, "emission": "parallel", "direction": parallel.direction.to_array(),
-                "irradiance": strength(intensity_of),
+                "irradiance": strength(intensity_of), "on": light.is_on,
             });
         }
     };
@@ -113,7 +113,7 @@ fn light_json(scene: &Scene, index: usize, light: &Light) -> Value {
     };
     let mut value = json!({
         "name": light.name, "position": point.position.to_array(), "intensity": strength(intensity_of),
-        "power": strength(power_of), "emission": emission, "axis": axis,
+        "power": strength(power_of), "emission": emission, "axis": axis, "on": light.is_on,
     });
     if let Emission::Spot(spot) = point.emission {
         value["inner_angle"] = spot.inner_angle().to_degrees().into();

@@ -130,8 +130,10 @@ fn lights(scene: &Scene) -> Option<String> {
     ];
     let rows = scene.lights().iter().enumerate().map(|(index, light)| {
         let strength = |of: fn(&Light) -> f64| amount(scene, |lighting| of(&lighting.lights[index]), of(light));
-        let light_row =
-            |position, intensity, power, emission| vec![light.name.clone(), position, intensity, power, emission];
+        let off = if light.is_on { "" } else { "; switched off" };
+        let light_row = |position, intensity, power, emission| {
+            vec![light.name.clone(), position, intensity, power, format!("{emission}{off}")]
+        };
         match &light.kind {
             LightKind::Point(point) => {
                 let emission = emission_text(&point.emission);

@@ -219,11 +219,9 @@ impl<'a> LitShape<'a> {
         let mut emitters = ShapeEmitters::default();
         lighting.place(layer, &candidate.sphere, &mut emitters);
         let formula = layer.formula(candidate.primitive());
-        let shininess = formula.sharpness();
         let ambient = layer.scene().ambient().map_or(0.0, Ambient::unobstructed_irradiance);
-        let is_single = precision == Precision::Single
-            && candidate.ellipse.fits_single()
-            && emitters.fit_single(ambient, shininess);
+        let is_single =
+            precision == Precision::Single && candidate.ellipse.fits_single() && emitters.fit_single(ambient, formula);
         let all = if is_single {
             let mut all = Chosen::default();
             all.choose_all(layer, lighting, &emitters);
@@ -234,7 +232,7 @@ impl<'a> LitShape<'a> {
             AllChosen::Double(all)
         };
         let precision = if is_single { Precision::Single } else { Precision::Double };
-        Self { layer, emitters, all, power: Power::new(shininess, precision), formula, ambient }
+        Self { layer, emitters, all, power: Power::of(formula, precision), formula, ambient }
     }
 }
 

@@ -197,14 +197,15 @@ impl<'s> LitSphere<'s> {
         emitters.choose_all(layer, lighting, &placed);
         let formula = layer.formula(candidate.primitive());
         let ambient = layer.scene().ambient().map_or(0.0, Ambient::unobstructed_irradiance);
-        Self { formula, power: Power::new(formula.sharpness(), Precision::Double), emitters, ambient }
+        Self { formula, power: Power::of(formula, Precision::Double), emitters, ambient }
     }
 }
 
-/// The lobe (N·H)ⁿ falls to 1/√e where N has turned by 1/√n: on a sphere of R pixels that is R/√n pixels away.
+/// The lobe (N·H)ⁿ falls to 1/√e where N has turned by 1/√n: on a sphere of R pixels that is R/√n pixels away. A jump at the
+/// terminator is not smooth at all.
 fn is_smooth(outline: &Ellipse, formula: &BrightnessFormula) -> bool {
     let radius = 0.5 * (outline.rows[1] - outline.rows[0]);
-    formula.sharpness().is_none_or(|shininess| shininess <= radius * radius)
+    !formula.jumps_at_terminator() && formula.sharpness().is_none_or(|shininess| shininess <= radius * radius)
 }
 
 impl OutlinedSphere<'_> {

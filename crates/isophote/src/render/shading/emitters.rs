@@ -3,6 +3,7 @@
 use crate::lanes::Element;
 use crate::light::{Emitter, Emitters, Pattern, PlacedEmitter};
 use crate::prepare::PreparedScene;
+use crate::reflectance::BrightnessFormula;
 use crate::shape::Sphere;
 use crate::vector::Vector;
 
@@ -129,8 +130,9 @@ impl ShapeEmitters {
         self.placed.len()
     }
 
-    /// Whether single precision can hold them, the ambient light, and the lobe of a shininess.
-    pub fn fit_single(&self, ambient: f64, shininess: Option<f64>) -> bool {
+    /// Whether single precision can hold them, the ambient light, and the highlight of a formula. At a terminator where B
+    /// jumps, it would put pixels on the wrong side.
+    pub fn fit_single(&self, ambient: f64, formula: &BrightnessFormula) -> bool {
         let fits = |emitter: &PlacedEmitter| {
             let distance = emitter.position.length();
             let is_near = distance < FARTHEST_IN_SINGLE && distance - 1.0 >= NEAREST_IN_SINGLE;
@@ -142,7 +144,8 @@ impl ShapeEmitters {
             has_digits && INTENSITIES_IN_SINGLE.contains(&emitter.intensity)
         };
         let ambient_fits = ambient == 0.0 || INTENSITIES_IN_SINGLE.contains(&ambient);
-        ambient_fits && shininess.is_none_or(|n| n <= LARGEST_SHININESS_IN_SINGLE) && self.placed.iter().all(fits)
+        let highlight_fits = formula.sharpness().is_none_or(|n| n <= LARGEST_SHININESS_IN_SINGLE);
+        ambient_fits && highlight_fits && !formula.jumps_at_terminator() && self.placed.iter().all(fits)
     }
 }
 

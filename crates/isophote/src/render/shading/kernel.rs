@@ -132,6 +132,7 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
             Power::Even(lobe) => self.shade_with::<V, _>(token, lobe, shaded),
             Power::Odd(lobe) => self.shade_with::<V, _>(token, lobe, shaded),
             Power::Any(lobe) => self.shade_with::<V, _>(token, lobe, shaded),
+            Power::WithoutCosine(lobe) => self.shade_with::<V, _>(token, lobe, shaded),
         }
         if !shaded.by_light.is_empty() {
             token.in_own_function(
@@ -167,7 +168,7 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
         );
     }
 
-    /// Σ E_j and Σ E_j (N·H_j)ⁿ at a vector of points. Emitters of a block are summed plainly, and the blocks' sums with
+    /// Σ E_j and Σ E_j (N·H_j)ⁿ (Σ v_j I_j/r_j² (N·H_j)ⁿ in (3.11) and (3.12)) at a vector of points. Emitters of a block are summed plainly, and the blocks' sums with
     /// compensation, so that the error does not grow with the number of lights.
     #[inline(always)]
     fn sum<V, L>(&self, token: V::Token, point: &SurfacePoint<V>, at: usize, lobe: &L) -> [V; 2]
@@ -215,7 +216,7 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
             );
             let term = light_term(point, &emitter, self.visibility.of(token, index, at), lobe);
             irradiance = irradiance + term.irradiance;
-            lobes = term.irradiance.mul_add(term.lobe, lobes);
+            lobes = term.lobe_irradiance.mul_add(term.lobe, lobes);
         }
         [irradiance, lobes]
     }

@@ -5,7 +5,7 @@
 //! sin²θ_h, which keeps its digits there.
 
 use crate::lanes::{Element, Lane, Precision};
-use crate::reflectance::Lobe;
+use crate::reflectance::{BrightnessFormula, Lobe, weight_without_cosine};
 
 /// How the lobe of a material is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,11 +18,23 @@ pub enum Power {
     Odd(OddLobe),
     /// For any n.
     Any(AnyLobe),
+    /// For any n, in a highlight without cosθ_i.
+    WithoutCosine(LobeWithoutCosine),
 }
 
 impl Power {
+    /// Chooses the method for the highlight of a formula and a precision.
+    pub fn of(formula: &BrightnessFormula, precision: Precision) -> Self {
+        match formula.sharpness() {
+            Some(n) if formula.jumps_at_terminator() => {
+                Self::WithoutCosine(LobeWithoutCosine(AnyLobe { half: 0.5 * n }))
+            }
+            shininess => Self::new(shininess, precision),
+        }
+    }
+
     /// Chooses the method for a shininess (`None` if the formula has no highlight) and a precision.
-    pub fn new(shininess: Option<f64>, precision: Precision) -> Self {
+    fn new(shininess: Option<f64>, precision: Precision) -> Self {
         // Beyond these lengths, the chain's error would exceed that of the polynomials.
         let longest = match precision {
             Precision::Double => 512.0,
@@ -60,6 +72,28 @@ pub struct OddLobe {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AnyLobe {
     half: f64,
+}
+
+/// The lobe of a highlight without cosθ_i, (3.11) and (3.12). One method does for every n: a variant for each would be
+/// compiled for every way in which points are found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LobeWithoutCosine(AnyLobe);
+
+impl<V: Lane> Lobe<V> for LobeWithoutCosine {
+    #[inline(always)]
+    fn denominator(&self, cos_squared: V, sin_squared: V) -> V {
+        self.0.denominator(cos_squared, sin_squared)
+    }
+
+    #[inline(always)]
+    fn value(&self, cos_squared: V, sin_squared: V, inverse: V) -> V {
+        self.0.value(cos_squared, sin_squared, inverse)
+    }
+
+    #[inline(always)]
+    fn weight(&self, along_lit: V, distance: V) -> V {
+        weight_without_cosine(along_lit, distance)
+    }
 }
 
 impl<V: Lane> Lobe<V> for NoLobe {
@@ -244,6 +278,7 @@ mod tests {
                 Power::Even(lobe) => lobe.value(cos, sin, one / lobe.denominator(cos, sin)),
                 Power::Odd(lobe) => lobe.value(cos, sin, one / lobe.denominator(cos, sin)),
                 Power::Any(lobe) => lobe.value(cos, sin, one / lobe.denominator(cos, sin)),
+                Power::WithoutCosine(lobe) => lobe.value(cos, sin, one / lobe.denominator(cos, sin)),
             };
             let mut values = [V::Element::default(); 32];
             lobe.store(&mut values);

@@ -187,7 +187,7 @@ impl<'a> Shader<'a> {
         let layer = self.layers[layer];
         self.tiles.precision == Precision::Single
             && group.seen.ellipse.fits_single()
-            && self.emitters.fit_single(ambient(layer), layer.formula(group.primitive).sharpness())
+            && self.emitters.fit_single(ambient(layer), layer.formula(group.primitive))
     }
 
     /// Determines which lights the pixels see.
@@ -262,7 +262,7 @@ impl Light<'_> {
         instructions.run(ShadeBlock {
             points,
             formula,
-            power: &Power::new(formula.sharpness(), E::PRECISION),
+            power: &Power::of(formula, E::PRECISION),
             selection: scratch.chosen.selection(),
             visibility: PerPoint { visible: self.visible, stride },
             shaded: &mut scratch.shaded,

@@ -18,8 +18,16 @@ tables! {
         pub forward: Option<[f64; 3]>,
         /// A point to look at. Either this or `forward`.
         pub target: Option<[f64; 3]>,
-        /// A direction that appears vertical; not parallel to the direction of view.
-        #[schemars(extend("default" = [0, 1, 0]))]
+        /// The angle of the direction of view from −z, in degrees: 0 is straight down −z, 90 horizontal. With `azimuth`,
+        /// instead of `forward` or `target`.
+        #[schemars(range(min = 0.0, max = limits::TILT))]
+        pub tilt: Option<f64>,
+        /// The way that the direction of view leans, in degrees from +x towards +y. Needed where `tilt` is neither 0 nor 180;
+        /// there, it is the way to the top of the picture, by default 90: +y.
+        #[schemars(range(min = -limits::AZIMUTH, max = limits::AZIMUTH))]
+        pub azimuth: Option<f64>,
+        /// A direction that appears vertical; not parallel to the direction of view. By default +y; or −z, or +z, if the view
+        /// is straight along −y, or +y. Where the view is given by its angles, the direction in which it rises with `tilt`.
         pub up: Option<[f64; 3]>,
         /// How directions become places in the image (formulas 2.1, 2.7 to 2.10).
         #[schemars(extend("default" = "perspective"))]

@@ -32,6 +32,13 @@ tables! {
         pub axis: Option<[f64; 3]>,
         /// A point at which a lambertian light or a spot is aimed. Either this or `axis`.
         pub target: Option<[f64; 3]>,
+        /// The angle of its axis, or of the direction of a parallel light, from −z, in degrees: 0 is straight down −z, 90
+        /// horizontal. With `azimuth`, instead of `axis`, `target` or `direction`.
+        #[schemars(range(min = 0.0, max = limits::TILT))]
+        pub tilt: Option<f64>,
+        /// The way that it leans, in degrees from +x towards +y. Needed where `tilt` is neither 0 nor 180.
+        #[schemars(range(min = -limits::AZIMUTH, max = limits::AZIMUTH))]
+        pub azimuth: Option<f64>,
         /// Half the opening of the cone in which a spot has its full intensity, in degrees from the axis.
         #[schemars(range(min = 0.0, max = limits::CONE - limits::CONE_STEP))]
         pub inner_angle: Option<f64>,
@@ -47,6 +54,9 @@ tables! {
         /// Whether shapes keep its light from each other, if the scene has shadows.
         #[schemars(extend("default" = true))]
         pub casts_shadows: Option<bool>,
+        /// Whether it is switched on. A light that is off keeps its name and its place in listings, and gives no light.
+        #[schemars(extend("default" = true))]
+        pub on: Option<bool>,
     }
 
     /// Light that comes from all around, with the same radiance from every direction.

@@ -1,7 +1,7 @@
 //! Validates the camera.
 
 use super::Validator;
-use super::numbers::vector_text;
+use super::numbers::{Aim, vector_text};
 use crate::camera::{Camera, Handedness};
 use crate::map::Resolution;
 use crate::scene::document::Path;
@@ -17,8 +17,17 @@ impl Validator<'_> {
             return None;
         };
         let eye = self.required_point(&path, "eye", camera.eye);
-        let forward = self.direction_or_target(&path, eye, ("forward", camera.forward), camera.target);
-        let up = self.direction(&path.key("up"), camera.up.unwrap_or([0.0, 1.0, 0.0]));
+        let aim = Aim {
+            direction: ("forward", camera.forward),
+            target: camera.target,
+            tilt: camera.tilt,
+            azimuth: camera.azimuth,
+        };
+        let forward = self.aim(&path, eye, &aim);
+        let up = match camera.up {
+            Some(up) => self.direction(&path.key("up"), up),
+            None => forward.map(|forward| aim.rise().unwrap_or_else(|| default_up(forward))),
+        };
         if let (Some(forward), Some(up)) = (forward, up) {
             self.not_parallel(&path, camera, forward, up);
         }
@@ -35,7 +44,7 @@ impl Validator<'_> {
     }
 
     pub(super) fn not_parallel(&mut self, path: &Path, camera: &CameraSource, forward: Vector, up: Vector) {
-        if forward.normalized().cross(up.normalized()).length() < 1e-6 {
+        if forward.normalized().cross(up.normalized()).length() < PARALLEL {
             let key = ["up", "target", "forward"];
             let written = [camera.up.is_some(), camera.target.is_some(), true];
             let key = key.into_iter().zip(written).find_map(|(key, written)| written.then_some(key)).unwrap_or("up");
@@ -80,3 +89,14 @@ impl Validator<'_> {
         resolution
     }
 }
+
+/// The top of a picture for which no `up` is written: +y; where the view is straight along the y axis, what it becomes when a
+/// level view along −z is turned down, or up, that far.
+fn default_up(forward: Vector) -> Vector {
+    let up = Vector::new(0.0, 1.0, 0.0);
+    let along = forward.normalized();
+    if along.cross(up).length() >= PARALLEL { up } else { Vector::new(0.0, 0.0, along.y.signum()) }
+}
+
+/// The sine of the angle between two directions below which they count as parallel.
+const PARALLEL: f64 = 1e-6;

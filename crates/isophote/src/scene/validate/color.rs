@@ -2,6 +2,7 @@
 
 use super::Validator;
 use crate::color::{ColorSpace, Component, Rgb};
+use crate::reflectance::Reflectance;
 use crate::scene::document::Path;
 use crate::scene::limits;
 use crate::scene::problems::Problems;
@@ -67,9 +68,16 @@ impl Validator<'_> {
         }
     }
 
-    /// A coefficient between 0 and 1.
-    pub(super) fn coefficient(&mut self, path: &Path, amount: Amount) -> Option<f64> {
-        self.amount(path, amount, limits::COEFFICIENT, &format!("allowed: 0 to {}", limits::COEFFICIENT))
+    /// A coefficient: between 0 and 1 if it is an albedo in the scene's convention.
+    pub(super) fn coefficient(&mut self, path: &Path, amount: Amount, is_albedo: bool) -> Option<f64> {
+        let convention = self.convention.name();
+        let (most, why) = if is_albedo {
+            let why = format!(": in the convention \"{convention}\" it is the fraction of light that is reflected");
+            (limits::ALBEDO, why)
+        } else {
+            (limits::COEFFICIENT, format!(" in the convention \"{convention}\""))
+        };
+        self.amount(path, amount, most, &format!("allowed: 0 to {most:?}{why}").replace(".0", ""))
     }
 
     /// An intensity, power, irradiance or radiance.
@@ -96,13 +104,17 @@ impl Validator<'_> {
         all_allowed.then(|| self.collapse.one(amount))
     }
 
-    /// The fraction of the incident light that a material reflects; the largest of all components.
-    pub(super) fn most_reflected(diffuse: Amount, specular: Amount) -> (f64, Option<Component>) {
-        let sum = |component| diffuse.of(component) + specular.of(component);
+    /// The fraction of the incident light that a material reflects at normal incidence; the largest of all components.
+    pub(super) fn most_reflected(&self, [diffuse, specular]: [Amount; 2], shininess: f64) -> (f64, Option<Component>) {
+        let albedo = |component| {
+            let reflectance =
+                Reflectance { diffuse: diffuse.of(component), specular: specular.of(component), shininess };
+            self.convention.albedo(&reflectance)
+        };
         if !diffuse.is_colored() && !specular.is_colored() {
-            return (sum(Component::Red), None);
+            return (albedo(Component::Red), None);
         }
-        let sums = Component::ALL.iter().map(|component| (sum(*component), Some(*component)));
-        sums.reduce(|most, next| if next.0 > most.0 { next } else { most }).unwrap_or((0.0, None))
+        let albedos = Component::ALL.iter().map(|component| (albedo(*component), Some(*component)));
+        albedos.reduce(|most, next| if next.0 > most.0 { next } else { most }).unwrap_or((0.0, None))
     }
 }

@@ -1,6 +1,7 @@
 //! Validates each light by itself.
 
 use super::names::Names;
+use super::numbers::Aim;
 use super::{Checked, Validator};
 use crate::light::{Ambient, Emission, Light, LightKind, ParallelLight, PointLight, Spot};
 use crate::scene::document::Path;
@@ -28,7 +29,9 @@ impl Validator<'_> {
                 EmissionName::Parallel => self.parallel_light(&path, light).map(LightKind::Parallel),
                 _ => self.point_light(&path, light, emission).map(LightKind::Point),
             };
-            Some(Light { name: name?, kind: kind?, casts_shadows: light.casts_shadows.unwrap_or(true) })
+            let casts_shadows = light.casts_shadows.unwrap_or(true);
+            let written = Light { name: name?, kind: kind?, casts_shadows, is_on: true };
+            Some(written.switched(light.on.unwrap_or(true)))
         };
         source.light.iter().enumerate().map(check).collect()
     }
@@ -69,7 +72,11 @@ impl Validator<'_> {
     }
 
     fn axis(&mut self, path: &Path, light: &LightSource, position: Option<Vector>) -> Option<Vector> {
-        let axis = self.direction_or_target(path, position, ("axis", light.axis), light.target)?;
+        let axis = self.aim(
+            path,
+            position,
+            &Aim { direction: ("axis", light.axis), target: light.target, tilt: light.tilt, azimuth: light.azimuth },
+        )?;
         Some(axis.normalized())
     }
 
@@ -121,12 +128,14 @@ impl Validator<'_> {
     }
 
     fn parallel_light(&mut self, path: &Path, light: &LightSource) -> Option<ParallelLight> {
-        let direction = if let Some(direction) = light.direction {
-            self.direction(&path.key("direction"), direction)
-        } else {
-            let help = "write `direction = [x, y, z]`, the way that the light travels";
+        let direction = if light.direction.is_none() && light.tilt.is_none() && light.azimuth.is_none() {
+            let help =
+                "write `direction = [x, y, z]`, the way that the light travels, or its angles, `tilt` and `azimuth`";
             self.problems.missing(path, "direction", help);
             None
+        } else {
+            let (direction, target) = (("direction", light.direction), None);
+            self.aim(path, None, &Aim { direction, target, tilt: light.tilt, azimuth: light.azimuth })
         };
         let irradiance = if let Some(irradiance) = light.irradiance {
             self.strength(&path.key("irradiance"), irradiance)
@@ -143,12 +152,15 @@ impl Validator<'_> {
         use EmissionName::{Isotropic, Lambertian, Parallel, Spot};
         const POINT: &[EmissionName] = &[Isotropic, Lambertian, Spot];
         const AIMED: &[EmissionName] = &[Lambertian, Spot];
+        const ALONG: &[EmissionName] = &[Lambertian, Spot, Parallel];
         let keys = [
             ("position", light.position.is_some(), POINT),
             ("intensity", light.intensity.is_some(), POINT),
             ("power", light.power.is_some(), POINT),
             ("axis", light.axis.is_some(), AIMED),
             ("target", light.target.is_some(), AIMED),
+            ("tilt", light.tilt.is_some(), ALONG),
+            ("azimuth", light.azimuth.is_some(), ALONG),
             ("inner_angle", light.inner_angle.is_some(), &[Spot]),
             ("outer_angle", light.outer_angle.is_some(), &[Spot]),
             ("direction", light.direction.is_some(), &[Parallel]),

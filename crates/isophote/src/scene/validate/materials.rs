@@ -7,6 +7,7 @@ use crate::scene::document::Path;
 use crate::scene::limits;
 use crate::scene::problems::{closest, short, suggestion};
 use crate::scene::source::{Amount, MaterialSource, SceneSource};
+use crate::text::significant;
 use crate::units::Keyword;
 
 impl Validator<'_> {
@@ -17,11 +18,11 @@ impl Validator<'_> {
     fn material(&mut self, name: &str, material: &MaterialSource) -> Option<Material> {
         let path = Path::root().key("material").key(name);
         if material.diffuse.is_none() {
-            self.problems.missing(&path, "diffuse", "write the diffuse coefficient k_d, 0 to 1");
+            self.problems.missing(&path, "diffuse", "write the diffuse coefficient k_d");
         }
         let written = [material.diffuse, material.specular].map(|amount| amount.unwrap_or(Amount::Number(0.0)));
-        let diffuse = self.coefficient(&path.key("diffuse"), written[0]);
-        let specular = self.coefficient(&path.key("specular"), written[1]);
+        let diffuse = self.coefficient(&path.key("diffuse"), written[0], self.convention.bounds_diffuse());
+        let specular = self.coefficient(&path.key("specular"), written[1], self.convention.bounds_specular());
         if material.shininess.is_none() && !written[1].is_zero() {
             self.problems.missing(&path, "shininess", "write the shininess n > 0: `specular` is not 0");
         }
@@ -33,13 +34,36 @@ impl Validator<'_> {
             return None;
         }
         let reflectance = Reflectance { diffuse: diffuse?, specular: specular?, shininess };
-        let (reflected, component) = Self::most_reflected(written[0], written[1]);
-        if reflected > 1.0 && matches!(self.convention, Convention::CoursePi | Convention::Radiance) {
-            let which = component.map_or(String::new(), |component| format!(" in {}", component.name()));
-            let message = format!("`{path}` reflects more than it receives: k_d + k_s = {reflected}{which}");
-            self.warn(&path, message, "a real surface has k_d + k_s ≤ 1 in this convention");
-        }
+        self.warn_of_albedo(&path, written, shininess);
         Some(Material { name: name.into(), reflectance })
+    }
+
+    /// Warns of a material that reflects more light than it receives.
+    fn warn_of_albedo(&mut self, path: &Path, written: [Amount; 2], shininess: f64) {
+        let (albedo, component) = self.most_reflected(written, shininess);
+        // 0.7 + 0.3 may be rounded upwards.
+        if albedo <= 1.0 + 1e-12 {
+            return;
+        }
+        let which = component.map_or(String::new(), |component| format!(" in {}", component.name()));
+        let (formula, albedo) = (self.convention.albedo_formula(), significant(albedo, 6));
+        let message = if self.convention == Convention::Lab {
+            format!("`{path}` can be brighter than it is lit: {formula} = {albedo}{which}")
+        } else {
+            format!(
+                "`{path}` reflects more than it receives: its albedo at normal incidence is {formula} = {albedo}{which}"
+            )
+        };
+        let help = match self.convention {
+            Convention::Course => {
+                "a real surface has at most 1; in \"course\" k_d and k_s are per steradian, in \"course-pi\" fractions of the light"
+            }
+            Convention::BlinnPhong => {
+                "a real surface has at most 1; in \"blinn-phong\" k_d and k_s are per steradian, in \"blinn-phong-pi\" fractions of the light"
+            }
+            _ => "a real surface has at most 1",
+        };
+        self.warn(path, message, help);
     }
 
     /// The index of a material by its name; `None` if the convention needs no material.

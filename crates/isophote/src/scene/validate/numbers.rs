@@ -80,15 +80,20 @@ impl Validator<'_> {
         Some(Vector::from(direction.map(|component| component * scale)))
     }
 
-    /// A direction that is given directly or by a target point.
-    pub(super) fn direction_or_target(
-        &mut self,
-        path: &Path,
-        from: Option<Vector>,
-        (key, direction): (&str, Option<[f64; 3]>),
-        target: Option<[f64; 3]>,
-    ) -> Option<Vector> {
-        match (direction, target) {
+    /// A direction that is given directly, by a target point, or by angles.
+    pub(super) fn aim(&mut self, path: &Path, from: Option<Vector>, aim: &Aim<'_>) -> Option<Vector> {
+        let (key, direction) = aim.direction;
+        if aim.tilt.is_some() || aim.azimuth.is_some() {
+            let angle = if aim.tilt.is_some() { "tilt" } else { "azimuth" };
+            let other = direction.map(|_| key).or_else(|| aim.target.map(|_| "target"));
+            if let Some(other) = other {
+                let message = format!("`{path}` has both `{other}` and `{angle}`");
+                self.wrong(&path.key(angle), message, "allowed: one of the two");
+                return None;
+            }
+            return self.direction_by_angles(path, aim);
+        }
+        match (direction, aim.target) {
             (Some(direction), None) => self.direction(&path.key(key), direction),
             (None, Some(target)) => {
                 let to_target = self.point(&path.key("target"), target)? - from?;
@@ -105,12 +110,87 @@ impl Validator<'_> {
                 None
             }
             (None, None) => {
-                let help = format!("write `{key} = [x, y, z]`, a direction, or `target = [x, y, z]`, a point");
+                let help = format!(
+                    "write `{key} = [x, y, z]`, a direction, `target = [x, y, z]`, a point, or angles: `tilt` and `azimuth`"
+                );
                 self.problems.missing(path, key, help);
                 None
             }
         }
     }
+
+    fn direction_by_angles(&mut self, path: &Path, aim: &Aim<'_>) -> Option<Vector> {
+        let Some(tilt) = aim.tilt else {
+            self.problems.missing(
+                path,
+                "tilt",
+                "write `tilt = …`, in degrees from −z: 0 is straight down −z, 90 horizontal",
+            );
+            return None;
+        };
+        let mut is_within = |key: &str, angle: f64, least: f64, most: f64, what: &str| {
+            let is_within = (least..=most).contains(&angle);
+            if !is_within {
+                let help = format!("allowed: {least} to {most} degrees, {what}");
+                self.wrong(&path.key(key), format!("`{path}.{key}` is {angle}"), &help);
+            }
+            is_within
+        };
+        let tilt_fits = is_within("tilt", tilt, 0.0, limits::TILT, "from −z: 0 is straight down −z, 90 horizontal");
+        let azimuth = aim.azimuth.unwrap_or(Aim::DEFAULT_AZIMUTH);
+        let azimuth_fits = is_within("azimuth", azimuth, -limits::AZIMUTH, limits::AZIMUTH, "from +x towards +y");
+        if !(tilt_fits && azimuth_fits) {
+            return None;
+        }
+        let [cosine, sine] = cosine_and_sine(tilt);
+        if aim.azimuth.is_none() && sine != 0.0 {
+            let help = "write `azimuth = …`, in degrees from +x towards +y: the way that it leans";
+            self.problems.missing(path, "azimuth", help);
+            return None;
+        }
+        let [along_x, along_y] = cosine_and_sine(azimuth);
+        Some(Vector::new(sine * along_x, sine * along_y, -cosine))
+    }
+}
+
+/// The ways to write a direction, of which one is chosen.
+pub(super) struct Aim<'a> {
+    /// As such, and the name of its key.
+    pub(super) direction: (&'a str, Option<[f64; 3]>),
+    /// By a point that it leads to.
+    pub(super) target: Option<[f64; 3]>,
+    /// By its angle from −z, in degrees.
+    pub(super) tilt: Option<f64>,
+    /// And by the way that it leans, in degrees from +x towards +y.
+    pub(super) azimuth: Option<f64>,
+}
+
+impl Aim<'_> {
+    /// Where a direction straight along z leans if that is not said: towards +y, the top of the picture.
+    const DEFAULT_AZIMUTH: f64 = 90.0;
+
+    /// The direction in which one given by angles rises with its tilt; `None` if it is given otherwise.
+    pub(super) fn rise(&self) -> Option<Vector> {
+        let [cosine, sine] = cosine_and_sine(self.tilt?);
+        let [along_x, along_y] = cosine_and_sine(self.azimuth.unwrap_or(Self::DEFAULT_AZIMUTH));
+        Some(Vector::new(cosine * along_x, cosine * along_y, sine))
+    }
+}
+
+/// Cosine and sine of an angle in degrees: exactly 0 and ±1 at right angles.
+fn cosine_and_sine(degrees: f64) -> [f64; 2] {
+    let quarters = degrees / 90.0;
+    if quarters.fract() == 0.0 {
+        let [east, north, west, south] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+        return match quarters.rem_euclid(4.0) {
+            1.0 => north,
+            2.0 => west,
+            3.0 => south,
+            _ => east,
+        };
+    }
+    let radians = degrees.to_radians();
+    [libm::cos(radians), libm::sin(radians)]
 }
 
 pub(super) fn vector_text(vector: [f64; 3]) -> String {
