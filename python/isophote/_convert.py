@@ -5,13 +5,39 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Iterable
-from typing import Annotated, Any
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Annotated, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 Converter = Callable[[Any], Any]
+Key = TypeVar("Key")
+Value = TypeVar("Value")
+
+
+class FrozenDict(Mapping[Key, Value]):
+    """A dictionary that never changes. (A ``MappingProxyType`` is neither copied nor pickled.)"""
+
+    __slots__ = ("_held",)
+
+    def __init__(self, held: Mapping[Key, Value] | Iterable[tuple[Key, Value]] = ()) -> None:
+        self._held = dict(held)
+
+    def __getitem__(self, key: Key) -> Value:
+        return self._held[key]
+
+    def __iter__(self) -> Iterator[Key]:
+        return iter(self._held)
+
+    def __len__(self) -> int:
+        return len(self._held)
+
+    def __repr__(self) -> str:
+        return repr(self._held)
+
+    def _ipython_key_completions_(self) -> list[Key]:
+        return list(self._held)
 
 
 class Invalid(Exception):
@@ -88,6 +114,13 @@ def word(value: Any) -> str:
     return str(value.value) if hasattr(value, "value") else str(value)
 
 
+def material_name(value: Any) -> str:
+    """The name of a material."""
+    if not isinstance(value, str):
+        raise Invalid(f"is {value!r}", "allowed: the name of a material, which is in the scene's materials")
+    return word(value)
+
+
 def flag(value: Any) -> bool:
     """True or False."""
     if not isinstance(value, (bool, np.bool_)):
@@ -99,6 +132,7 @@ def flag(value: Any) -> bool:
 Number = Annotated[float, number]
 Whole = Annotated[int, whole]
 Word = Annotated[str, word]
+MaterialName = Annotated[str, material_name]
 Flag = Annotated[bool, flag]
 # Arrays and lists are accepted, and stored as tuples.
 Vector = Annotated[tuple[float, float, float] | list[float] | NDArray[Any], vector]

@@ -12,8 +12,12 @@ __all__ = ["Camera", "Sampling", "Screen", "Window"]
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Screen(Part):
-    """The window of a perspective camera: left and right edges ``x``, lower and upper edges ``y``, on the plane at
-    ``distance`` from the eye."""
+    """The window of a perspective camera.
+
+    - ``distance``: of its plane from the eye, a length above 0 in the scene's unit
+    - ``x``: its left and right edges in the scene's unit, the smaller first
+    - ``y``: its lower and upper edges
+    """
 
     distance: Number
     x: Pair
@@ -22,7 +26,11 @@ class Screen(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Window(Part):
-    """The window of an orthographic camera, on the plane through the eye."""
+    """The window of an orthographic camera, on the plane through the eye.
+
+    - ``x``: its left and right edges in the scene's unit, the smaller first
+    - ``y``: its lower and upper edges
+    """
 
     x: Pair
     y: Pair
@@ -32,10 +40,20 @@ class Window(Part):
 class Camera(Part):
     """The observer (2.1), (2.3).
 
-    Looks along ``forward``, or at the point ``target``. ``projection`` is ``"perspective"`` (with a ``screen`` or a
-    ``field_of_view`` in degrees), ``"orthographic"`` (with a ``window``, 2.7), ``"fisheye-equidistant"`` (2.8) or
-    ``"fisheye-equal-area"`` (2.9; both with a ``field_of_view``), or ``"panorama"`` (with ``longitude`` and
-    ``latitude``, 2.10). ``resolution`` is the number of columns and of rows.
+    - ``eye``: a point
+    - ``forward``: where it looks, a direction of any length but 0
+    - ``target``: instead, a point to look at
+    - ``up``: the direction that appears vertical, not parallel to the one of view
+    - ``projection``: ``"perspective"`` (with a ``screen`` or a ``field_of_view``), ``"orthographic"`` (with a ``window``,
+      2.7), ``"fisheye-equidistant"`` (2.8) or ``"fisheye-equal-area"`` (2.9; both with a ``field_of_view``), or
+      ``"panorama"`` (with ``longitude`` and ``latitude``, 2.10)
+    - ``screen``: the window of a perspective camera
+    - ``field_of_view``: in degrees: across the width of a perspective image, below 180; across the circle of a fisheye, up
+      to 360
+    - ``window``: that of an orthographic camera
+    - ``longitude``: left and right edges of a panorama, in degrees from the direction of view, −360 to 360
+    - ``latitude``: its lower and upper edges, −90 to 90
+    - ``resolution``: columns and rows, 1 to 1,000,000 each
     """
 
     eye: Vector
@@ -53,9 +71,12 @@ class Camera(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Sampling(Part):
-    """How many rays make up a pixel's value (2.6): ``samples`` rays, or as many as needed for ``tolerance``, which is the
-    allowed error as a fraction of the maximum brightness. ``filter`` is ``"box"``, ``"triangle"``, ``"gaussian"`` or
-    ``"mitchell"``."""
+    """How many rays make up a pixel's value (2.6).
+
+    - ``samples``: the number of rays, 1 to 4096; with a tolerance, the most
+    - ``tolerance``: instead, the allowed error as a fraction of the maximum brightness, 1e-4 to 1
+    - ``filter``: ``"box"``, ``"triangle"``, ``"gaussian"`` or ``"mitchell"``
+    """
 
     samples: Whole | None = None
     tolerance: Number | None = None

@@ -21,7 +21,7 @@ from ._xarray import needed
 from .errors import ArgumentError
 from .map import Map
 from .rendering import Channels, channel_names, positive
-from .scene import Scene
+from .scene import Scene, SceneOrPath, scene_of
 
 if TYPE_CHECKING:
     import distributed
@@ -31,7 +31,7 @@ __all__ = ["sweep"]
 
 
 def sweep(
-    scene: Scene,
+    scene: SceneOrPath,
     parameters: Mapping[str, Iterable[Any]],
     *,
     channels: Channels = None,
@@ -58,11 +58,14 @@ def sweep(
     If units or pixel positions differ between maps, ``<channel>.units`` holds the units, and pixels are numbered instead.
     """
     needed("xarray")
+    scene = scene_of(scene)
     values = {path: list(several) for path, several in parameters.items()}
     for path, several in values.items():
         if not several:
             raise ArgumentError(f"{path!r} has no values")
     names = channel_names(scene, channels)
+    if client is not None and workers is not None:
+        raise ArgumentError("workers has no effect with a client, which has its own")
     count = (os.cpu_count() or 1) if workers is None else positive(workers, "workers")
     _refuse_what_is_no_client(client)
     place = None if store is None else os.path.abspath(store)

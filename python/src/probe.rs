@@ -170,7 +170,10 @@ fn refused(py: Python<'_>, scene: &CoreScene, refusals: &[(usize, ProbeError)], 
     let describe = |(index, error): &(usize, ProbeError)| match error {
         ProbeError::OffSurface(miss) => {
             let name = &scene.shapes()[miss.shape].name;
-            format!("point {index} is on no surface: {}", miss.describe(name, scene.length()))
+            let miss = miss.describe(name, scene.length());
+            format!(
+                "point {index} is on no surface: {miss}; elsewhere=\"nearest\" takes that one, \"nan\" leaves a gap"
+            )
         }
         error => format!("point {index}: {error}"),
     };
@@ -213,7 +216,7 @@ pub struct Columns {
     position: Vec<f64>,
     normal: Vec<f64>,
     shape: Vec<i32>,
-    part: Vec<u32>,
+    part: Vec<i32>,
     is_seen: Vec<bool>,
     cos_theta_o: Vec<f64>,
     /// Brightness, irradiance, ambient, diffuse, specular.
@@ -257,7 +260,7 @@ impl Columns {
         self.position.extend(hit.point.position().to_array().map(|metres| length.from_metres(metres)));
         self.normal.extend(hit.point.normal.to_array());
         self.shape.push(i32::try_from(hit.primitive.shape).unwrap_or(i32::MAX));
-        self.part.push(hit.primitive.part);
+        self.part.push(i32::try_from(hit.primitive.part).unwrap_or(i32::MAX));
         self.is_seen.push(true);
         self.cos_theta_o.push(hit.point.cos_theta_o);
         let Shading { irradiance, ambient, diffuse, specular } = *shading;
@@ -269,7 +272,7 @@ impl Columns {
         self.position.extend([f64::NAN; 3]);
         self.normal.extend([f64::NAN; 3]);
         self.shape.push(-1);
-        self.part.push(0);
+        self.part.push(-1);
         self.is_seen.push(false);
         self.cos_theta_o.push(f64::NAN);
         self.values.iter_mut().for_each(|column| column.push(f64::NAN));
