@@ -40,12 +40,18 @@ def _refuse(options: dict[str, Any]) -> None:
 
 
 def plot_map(
-    of: Map, channel: str | None, isophotes: int | Sequence[float], ax: matplotlib.axes.Axes | None, options: dict[str, Any]
+    of: Map,
+    channel: str | None,
+    isophotes: bool | int | Sequence[float],
+    ax: matplotlib.axes.Axes | None,
+    options: dict[str, Any],
 ) -> matplotlib.axes.Axes:
     """See :meth:`isophote.Map.plot`."""
     if channel in ("position", "normal", "shape"):
         raise ArgumentError(f"the channel {channel!r} is no picture; allowed: channels of one number a pixel, and color")
     _refuse(options)
+    if isinstance(isophotes, (bool, np.bool_)):
+        isophotes = 6 if isophotes else 0
     has_isophotes = not (isinstance(isophotes, (int, np.integer)) and isophotes == 0)
     if channel == "color" and has_isophotes:
         raise ArgumentError("isophotes has no effect on the channel 'color'; allowed: channels of one number a pixel")
@@ -85,6 +91,7 @@ def _height_by_width(of: Map) -> float:
 def _draw_isophotes(of: Map, name: str, levels: int | Sequence[float], ax: matplotlib.axes.Axes, bar: Any) -> None:
     from matplotlib.patheffects import withStroke
 
+    labels: list[Any] = []
     for isophote in of.isophotes(levels, channel=name):
         for line in isophote.lines:
             ax.plot(line[:, 0], line[:, 1], color="white", linewidth=0.8)
@@ -94,6 +101,12 @@ def _draw_isophotes(of: Map, name: str, levels: int | Sequence[float], ax: matpl
             text = ax.annotate(f"{isophote.level:g}", (x, y), color="white", fontsize="small", ha="center", va="center")
             # Readable on any colour.
             text.set_path_effects([withStroke(linewidth=2, foreground="black")])
+            box = text.get_window_extent()
+            if any(box.overlaps(other) for other in labels):
+                # In a small figure there is no room for all of them; the colour bar has a line for each.
+                text.remove()
+            else:
+                labels.append(box)
             bar.ax.axhline(isophote.level, color="white", linewidth=0.8)
 
 

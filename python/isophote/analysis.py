@@ -5,9 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from . import _isophote
 from ._convert import Invalid, Size, Vector, vector
 from ._convert import size as two_whole
+from ._types import Side, SurfaceProjection
 from .errors import ArgumentError
 from .map import Map
 from .rendering import Channels, channel_names, counted
@@ -60,8 +63,8 @@ def surface(
     shape: str | int | None = None,
     part: int = 0,
     channels: Channels = ("irradiance", "position", "normal"),
-    projection: str = "equirectangular",
-    side: str = "front",
+    projection: SurfaceProjection = "equirectangular",
+    side: Side = "front",
     axis: Vector | None = None,
     size: Size | None = None,
 ) -> SurfaceMap:
@@ -99,7 +102,7 @@ def _named(names: list[str], one: str | int | None, what: str) -> str:
         return one
     if one is None and len(names) == 1:
         return names[0]
-    if isinstance(one, int) and 0 <= one < len(names):
+    if isinstance(one, (int, np.integer)) and not isinstance(one, bool) and 0 <= one < len(names):
         return names[one]
     there_are = f"there are: {', '.join(names[:20])}" if names else "the scene has none"
     raise ArgumentError(f"say which {what}; {there_are}")

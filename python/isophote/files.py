@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from . import _html, _isophote
 from ._convert import FrozenDict
+from ._sweep_data import is_sweep, reopened
 from ._xarray import open_store
 from .errors import ArgumentError
 from .map import Axis, Map, axes_of
@@ -208,11 +209,14 @@ def _reopened(state: dict[str, Any]) -> MapFile:
     return found
 
 
-def read(path: str | os.PathLike[str], *, directory: str | os.PathLike[str] | None = None) -> MapFile:
-    """Opens a file or store written by Isophote, with its scene and its channels.
+def read(path: str | os.PathLike[str], *, directory: str | os.PathLike[str] | None = None) -> MapFile | xarray.Dataset:
+    """Opens a file or store written by Isophote, with its scene and its channels. The store of a sweep is opened as the
+    Dataset that the sweep returned; its variable ``rendered`` tells which maps are there, if some are missing.
 
     ``directory``: the base directory for relative file names in the scene; by default the directory of the file.
     """
+    if os.path.isdir(path) and is_sweep(os.fspath(path)):
+        return reopened(os.fspath(path))
     return MapFile(os.fspath(path), None if directory is None else os.fspath(directory))
 
 

@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _isophote
 from ._convert import Invalid, word
+from ._types import ConventionName, Quantities
 from ._words import Named
 from .errors import ArgumentError, ProbeError
-from .lights import Ambient, Light
-from .materials import Convention, Material
+from .lights import Ambient, AnyLight, Light
+from .materials import Material
 from .probing import numbers
 
 __all__ = ["brightness"]
@@ -22,13 +23,13 @@ __all__ = ["brightness"]
 def brightness(
     normals: ArrayLike,
     positions: ArrayLike,
-    lights: Light | Sequence[Light],
+    lights: AnyLight | Sequence[AnyLight],
     material: Material,
-    convention: str | Convention = "radiance",
+    convention: ConventionName = "radiance",
     *,
     eye: ArrayLike = (0.0, 0.0, 0.0),
     ambient: Ambient | None = None,
-    quantities: str = "radiometric",
+    quantities: Quantities = "radiometric",
     where: ArrayLike | None = None,
 ) -> NDArray[np.float64]:
     """The brightness (3.1) to (3.6) at points with given unit normals, summed over the lights, without shadows.

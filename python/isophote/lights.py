@@ -95,6 +95,22 @@ class ParallelLight(Light):
     direction: Vector
     irradiance: Amount
 
+    @property
+    def position(self) -> None:
+        """It has none: ``None``."""
+
+    @property
+    def intensity(self) -> None:
+        """It has none: ``None``."""
+
+    @property
+    def power(self) -> None:
+        """It has none: ``None``."""
+
+
+AnyLight = PointLight | LambertianLight | SpotLight | ParallelLight
+"""Any kind of light."""
+
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Ambient(Part):
@@ -110,7 +126,7 @@ class Ambient(Part):
     samples: Whole = 64
 
 
-_BY_EMISSION: dict[Any, type[Light]] = {
+_BY_EMISSION: dict[Any, type[AnyLight]] = {
     None: PointLight,
     "isotropic": PointLight,
     "lambertian": LambertianLight,
@@ -119,7 +135,7 @@ _BY_EMISSION: dict[Any, type[Light]] = {
 }
 
 
-def light_from_dict(written: dict[str, Any]) -> Light:
+def light_from_dict(written: dict[str, Any]) -> AnyLight:
     """The light described by this table of a scene file."""
     kind = _BY_EMISSION[written.get("emission")]
     return kind.from_dict({key: value for key, value in written.items() if key != "emission"})

@@ -6,13 +6,14 @@ import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _html, _isophote
 from ._convert import FrozenDict, Invalid, number
+from ._types import Colormap
 from .errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -79,6 +80,14 @@ class Map(Mapping[str, NDArray[Any]]):
     def __eq__(self, other: object) -> bool:
         return self is other
 
+    @overload
+    def __getitem__(self, channel: Literal["position", "normal", "color"]) -> NDArray[np.float64]: ...
+    @overload
+    def __getitem__(self, channel: Literal["shape"]) -> NDArray[np.int32]: ...
+    @overload
+    def __getitem__(self, channel: Literal["mask"]) -> NDArray[np.bool_]: ...
+    @overload
+    def __getitem__(self, channel: str) -> NDArray[Any]: ...
     def __getitem__(self, channel: str) -> NDArray[Any]:
         if channel in self.units:
             return self._array(channel)
@@ -243,7 +252,7 @@ class Map(Mapping[str, NDArray[Any]]):
         range: tuple[float, float] | None = None,
         gamma: float | None = None,
         bits: int | None = None,
-        colormap: str | None = None,
+        colormap: Colormap | None = None,
     ) -> None:
         """Writes a file, completely or not at all: ``.exr``, ``.npz`` and ``.csv`` get all channels and ``shape``, from
         which :func:`~isophote.read` takes the mask; ``.npy`` gets one channel, ``.png`` is a picture of one.
@@ -292,12 +301,13 @@ class Map(Mapping[str, NDArray[Any]]):
         self,
         channel: str | None = None,
         *,
-        isophotes: int | Sequence[float] = 0,
+        isophotes: bool | int | Sequence[float] = 0,
         ax: matplotlib.axes.Axes | None = None,
         **imshow: Any,
     ) -> matplotlib.axes.Axes:
-        """Draws a channel with matplotlib, with axes and a colour bar in units, and labelled isophotes.
+        """Draws a channel with matplotlib, with axes and a colour bar in units.
 
+        ``isophotes``: levels, or about how many round ones; ``True`` for about six. They are labelled where there is room.
         ``ax``: where to draw; by default the current axes, or a new figure if these hold something already. Further
         options are passed to ``imshow``, except ``extent`` and ``origin``, which are the map's own.
         """

@@ -10,12 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _html, _isophote
 from ._progress import Progress, reporter
+from ._types import Elsewhere
+from ._xarray import COMPONENTS, needed
 from .errors import ArgumentError, ProbeError
 from .rendering import counted, positive
 from .scene import Scene, SceneOrPath, scene_of
 
 if TYPE_CHECKING:
     import matplotlib.axes
+    import pandas
 
 __all__ = ["Probes", "Section", "Values", "probe", "section"]
 
@@ -27,6 +30,19 @@ class Values(Mapping[str, NDArray[Any]]):
     ``cos_theta_o``, ``shape`` and ``part`` (indices), ``seen`` (whether the eye sees the point). Where there is no surface
     they are NaN, and ``shape`` and ``part`` are −1.
     """
+
+    position: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    brightness: NDArray[np.float64]
+    irradiance: NDArray[np.float64]
+    ambient: NDArray[np.float64]
+    diffuse: NDArray[np.float64]
+    specular: NDArray[np.float64]
+    cos_theta_o: NDArray[np.float64]
+    color: NDArray[np.float64]
+    shape: NDArray[np.int32]
+    part: NDArray[np.int32]
+    seen: NDArray[np.bool_]
 
     def __init__(self, scene: Scene, arrays: Mapping[str, NDArray[Any]], names: Sequence[str]) -> None:
         self._scene = scene
@@ -95,6 +111,25 @@ class Values(Mapping[str, NDArray[Any]]):
             return self._scene.unit("irradiance")
         return self._scene.unit(name)
 
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A pandas DataFrame with a row for each point; vectors and lights are columns such as ``position.x``,
+        ``color.red`` and ``light.lamp``."""
+        needed("pandas")
+        import pandas
+
+        columns: dict[str, NDArray[Any]] = {}
+        for name in self:
+            array = self._rows(name)
+            if array.ndim == 1:
+                columns[name] = array
+            elif name == "lights":
+                lights = self._scene.core.describe()["lights"]
+                columns.update({f"light.{light}": array[:, number] for number, light in enumerate(lights)})
+            else:
+                labels = COMPONENTS[name][1] if name in COMPONENTS else ["x", "y"]
+                columns.update({f"{name}.{label}": array[:, number] for number, label in enumerate(labels)})
+        return pandas.DataFrame(columns, index=list(self._names) or None)
+
     def _table(self) -> list[str]:
         about = self._scene.core.describe()
         length = self._scene.length
@@ -126,6 +161,8 @@ _SHOWN = 10
 
 class Probes(Values):
     """The result of :func:`probe`. For many points, some arrays are computed only when they are first used."""
+
+    lights: NDArray[np.float64]
 
     def __init__(
         self,
@@ -183,10 +220,13 @@ class Probes(Values):
             return f"{name}: no surface\n"
         if places.pixels is not None:
             column, row = (int(number) for number in places.pixels[index])
-            return _isophote.explain(self._scene.core, index, f"pixel {column},{row}", None, [column, row], False)
+            return _isophote.explain(self._scene.core, index, f"pixel {column},{row}", None, [column, row], None, False)
+        if places.screen is not None:
+            x, y = (float(number) for number in places.screen[index])
+            return _isophote.explain(self._scene.core, index, f"screen point {x:g},{y:g}", None, None, [x, y], False)
         assert places.points is not None
         point = [float(coordinate) for coordinate in places.points[index]]
-        return _isophote.explain(self._scene.core, index, name, point, None, places.elsewhere == "nearest")
+        return _isophote.explain(self._scene.core, index, name, point, None, None, places.elsewhere == "nearest")
 
 
 class _Places:
@@ -199,8 +239,10 @@ class _Places:
         elsewhere: str,
         per_light: bool,
         shape: tuple[int, ...],
+        screen: NDArray[np.float64] | None = None,
     ) -> None:
         self.shape = shape
+        self.screen = screen
         self.points = points
         self.pixels = pixels
         self.elsewhere = elsewhere
@@ -214,6 +256,8 @@ class _Places:
         """All arrays, computed point by point."""
         if self.pixels is not None:
             return _isophote.probe_pixels(scene.core, self.pixels, self.elsewhere, self.per_light, report)
+        if self.screen is not None:
+            return _isophote.probe_screen(scene.core, self.screen, self.elsewhere, self.per_light, report)
         assert self.points is not None
         return _isophote.probe_points(scene.core, self.points, self.elsewhere, self.per_light, report)
 
@@ -251,7 +295,8 @@ def probe(
     *,
     at: ArrayLike | None = None,
     pixels: ArrayLike | None = None,
-    elsewhere: str = "error",
+    screen: ArrayLike | None = None,
+    elsewhere: Elsewhere = "error",
     per_light: bool = False,
     progress: Progress = None,
 ) -> Probes:
@@ -261,8 +306,9 @@ def probe(
     differently, and only as needed: brightness and irradiance at once, the other arrays when they are first used.
 
     ``at``: points in the scene's unit, n × 3 or an array of any shape (…, 3), whose leading dimensions the results then
-    have. ``pixels``: n × 2 or (…, 2), columns and rows: the points seen at their centres. If neither is given, the scene's
-    own probes.
+    have. ``pixels``: n × 2 or (…, 2), columns and rows: the points seen at their centres. ``screen``: (…, 2), points (x, y)
+    of the screen in the units of a map's axes, of any fraction of a pixel and outside the window too: the points seen there,
+    such as those of a lens with distortion. If none is given, the scene's own probes.
     ``elsewhere``: how to treat points that are not on a surface: ``"error"``, ``"nearest"`` (use the nearest point on a
     surface) or ``"nan"``.
     ``per_light``: whether to include the irradiance from each light: ``lights``, n × lights.
@@ -270,12 +316,16 @@ def probe(
     scene = scene_of(scene)
     if elsewhere not in ("error", "nearest", "nan"):
         raise ArgumentError(f"elsewhere is {elsewhere!r}; allowed: error, nearest, nan")
-    if at is not None and pixels is not None:
-        raise ArgumentError("say where once: either at or pixels")
+    if sum(place is not None for place in (at, pixels, screen)) > 1:
+        raise ArgumentError("say where once: one of at, pixels and screen")
     names: list[str] = []
-    if pixels is not None:
-        if elsewhere == "nearest":
-            raise ArgumentError('elsewhere="nearest" has no effect on pixels; allowed: error, nan')
+    if at is None and elsewhere == "nearest" and (pixels is not None or screen is not None):
+        raise ArgumentError('elsewhere="nearest" has no effect on pixels and screen points; allowed: error, nan')
+    if screen is not None:
+        places_on = _pairs(screen, "screen")
+        leading = places_on.shape[:-1]
+        places = _Places(None, None, elsewhere, per_light, leading, places_on.reshape(-1, 2))
+    elif pixels is not None:
         columns_and_rows = _pixels(pixels)
         leading = columns_and_rows.shape[:-1]
         places = _Places(None, columns_and_rows.reshape(-1, 2), elsewhere, per_light, leading)
@@ -318,6 +368,15 @@ def numbers(values: ArrayLike, name: str) -> NDArray[Any]:
     return array
 
 
+def _pairs(values: ArrayLike, name: str) -> NDArray[np.float64]:
+    array = numbers(values, name)
+    if array.ndim == 1 and array.shape == (2,):
+        array = array.reshape(1, 2)
+    if array.ndim < 2 or array.shape[-1] != 2:
+        raise ProbeError(f"{name} has the shape {array.shape}; allowed: n × 2, or (…, 2)")
+    return np.array(array, dtype=np.float64, order="C")
+
+
 def _pixels(values: ArrayLike) -> NDArray[np.uint32]:
     array = numbers(values, "pixels")
     if array.ndim == 1 and array.shape == (2,):
@@ -333,6 +392,8 @@ def _pixels(values: ArrayLike) -> NDArray[np.uint32]:
 
 class Section(Values):
     """The result of :func:`section`; ``screen`` holds the positions on the screen, n × 2."""
+
+    screen: NDArray[np.float64]
 
     @property
     def distance(self) -> NDArray[np.float64]:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from . import _isophote
 from ._convert import Invalid, Size, whole
 from ._progress import Progress, reporter
+from ._types import Precision
 from .errors import ArgumentError
 from .map import Map
 from .scene import Scene, SceneOrPath, scene_of
@@ -68,7 +69,7 @@ def render(
     channels: Channels = None,
     size: Size | None = None,
     region: tuple[int, int, int, int] | None = None,
-    precision: str = "double",
+    precision: Precision = "double",
     threads: int | None = None,
     progress: Progress = None,
 ) -> Map:

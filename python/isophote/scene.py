@@ -15,15 +15,16 @@ from typing import Annotated, Any
 import numpy as np
 
 from . import _isophote
-from ._convert import Flag, FrozenDict, Invalid, Number, Size, Vector, Word
+from ._convert import Flag, FrozenDict, Invalid, Number, Size, Vector, Word, word
 from ._part import Part
 from ._paths import locate
+from ._types import ColorSpace, ConventionName, Handedness, LengthUnit, Quantities, Side
 from ._words import Named
 from .camera import Camera, Sampling
-from .errors import ArgumentError, SceneWarning
-from .lights import Ambient, Light, light_from_dict
+from .errors import ArgumentError, Problem, SceneWarning
+from .lights import Ambient, AnyLight, Light, light_from_dict
 from .materials import Material
-from .shapes import KINDS, Mesh, Shape, Spheres
+from .shapes import KINDS, AnyShape, Mesh, Shape, Spheres
 
 __all__ = ["Grid", "Probe", "Scene"]
 
@@ -60,7 +61,7 @@ class Grid(Part):
     corner: Vector | None = None
     center: Vector | None = None
     name: Word | None = None
-    side: Word = "front"
+    side: Annotated[Side, word] = "front"
 
 
 def _several(kind: type[Part]) -> Any:
@@ -121,18 +122,18 @@ class Scene(Part):
     - ``directory``: where relative file names start
     """
 
-    length: Word
+    length: Annotated[LengthUnit, word]
     camera: Camera
     title: Word = ""
-    convention: Word = "radiance"
-    handedness: Word = "right"
-    quantities: Word = "radiometric"
-    color_space: Word = "rec709"
+    convention: Annotated[ConventionName, word] = "radiance"
+    handedness: Annotated[Handedness, word] = "right"
+    quantities: Annotated[Quantities, word] = "radiometric"
+    color_space: Annotated[ColorSpace, word] = "rec709"
     shadows: Flag | None = None
     sampling: Sampling | None = None
     materials: Annotated[Mapping[str, Material], _materials] = dataclasses.field(default_factory=dict)
-    shapes: Annotated[Sequence[Shape], _shapes] = ()
-    lights: Annotated[Sequence[Light], _several(Light)] = ()
+    shapes: Annotated[Sequence[AnyShape], _shapes] = ()
+    lights: Annotated[Sequence[AnyLight], _several(Light)] = ()
     ambient: Ambient | None = None
     probes: Annotated[Sequence[Probe], _several(Probe)] = ()
     grids: Annotated[Sequence[Grid], _several(Grid)] = ()
@@ -146,13 +147,13 @@ class Scene(Part):
         """Lets the core check the scene, and keeps the checked scene."""
         written, directory = json.dumps(self.to_dict()), str(self.directory)
         before = None if earlier is None else earlier.core
-        core = self._named.checked(lambda: _isophote.Scene.from_json(written, directory, before))
+        core = self.named.checked(lambda: _isophote.Scene.from_json(written, directory, before))
         object.__setattr__(self, "_core", core)
         self._warn(earlier, in_python=True)
 
     @property
-    def _named(self) -> Named:
-        """The parts that messages are about."""
+    def named(self) -> Named:
+        """The parts that messages are about, private to the package."""
         return Named(self.shapes, self.lights, self.probes, self.grids, self.materials)
 
     @property
@@ -163,10 +164,10 @@ class Scene(Part):
 
     def _warn(self, earlier: Scene | None = None, in_python: bool = False) -> None:
         """Issues the scene's warnings, except those already issued for an earlier scene."""
-        known = set() if earlier is None else {str(problem) for problem in earlier.core.warnings()}
+        known = set() if earlier is None else {_about(problem) for problem in earlier.core.warnings()}
         for problem in self.core.warnings():
-            if str(problem) not in known:
-                message = str(self._named.of(problem) if in_python else problem)
+            if _about(problem) not in known:
+                message = str(self.named.of(problem) if in_python else problem)
                 warnings.warn(message, SceneWarning, stacklevel=_callers_level())
 
     @classmethod
@@ -246,7 +247,7 @@ class Scene(Part):
         width, height = self.camera.replace(resolution=resolution).resolution
         if not (0 <= width < 2**32 and 0 <= height < 2**32):
             raise ArgumentError(f"resolution is {width}×{height}; allowed: 1 to 1000000 columns and rows")
-        core = self._named.checked(lambda: self.core.with_resolution(int(width), int(height)))
+        core = self.named.checked(lambda: self.core.with_resolution(int(width), int(height)))
         return self.of_core(core, self.directory, earlier=self)
 
     def set(self, values: Mapping[str, Any]) -> Scene:
@@ -254,13 +255,14 @@ class Scene(Part):
 
         A path is that of a scene file, with the item's name in the middle: ``light.lamp.position``,
         ``material.clay.shininess``, ``sphere.ball.radius``, ``camera.eye``, ``camera.screen.distance``, ``convention``.
-        Items without a name are numbered from 0: ``light[0].position``. ``None`` removes a value.
+        Items without a name are numbered from 0: ``light[0].position``. ``None`` removes a value. A path may lead to a whole
+        part: ``light.lamp``, ``material.clay``, ``sphere.ball``.
         """
         written = self.to_dict()
         for path, value in values.items():
             locate(self, path).put(written, value)
         text, directory = json.dumps(written), str(self.directory)
-        core = self._named.checked(lambda: _isophote.Scene.from_json(text, directory, self.core))
+        core = self.named.checked(lambda: _isophote.Scene.from_json(text, directory, self.core))
         return self.of_core(core, self.directory, earlier=self)
 
     def unit(self, channel: str) -> str:
@@ -347,6 +349,11 @@ def _unpickle(text: str, directory: str) -> Scene:
     return Scene.of_core(_isophote.Scene.from_text(text, True, "the scene", directory), directory, warns=False)
 
 
+def _about(problem: Problem) -> str:
+    """What a warning is about. That pixels are not square is said once, not again for every camera and size."""
+    return "pixels" if problem.message.startswith("pixels are not square") else str(problem)
+
+
 def _callers_level() -> int:
     """The stack level of the code that called the package."""
     package = os.path.dirname(__file__)
@@ -378,6 +385,8 @@ def _fields(written: dict[str, Any]) -> dict[str, Any]:
 
 
 def _text(value: Any) -> str:
+    if isinstance(value, tuple) and len(value) > 3:
+        return f"{len(value)} × 3"
     if isinstance(value, tuple):
         return f"({', '.join(_text(item) for item in value)})"
     return f"{value:g}" if isinstance(value, float) else str(value)

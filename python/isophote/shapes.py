@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import ClassVar
 
-from ._convert import Flag, MaterialName, Number, Vector, Word
+from ._convert import File, Flag, MaterialName, Number, Triples, Vector, Vectors, Word
 from ._part import Part
 
 __all__ = [
@@ -181,14 +181,21 @@ class Mesh(Shape):
     """A triangle mesh (2.5); it is scaled, then rotated, then moved.
 
     - ``file``: an OBJ, PLY, STL or binary glTF file, by its path from the scene's ``directory``
-    - ``scale``: a factor along each axis, of size 1e-12 to 1e12; negative ones mirror
+    - ``vertices``: instead, the points of the mesh, n × 3
+    - ``faces``: with them, the three corners of each triangle, m × 3, as indices of vertices from 0; counter-clockwise as seen
+      from outside
+    - ``normals``: with them, a direction at each vertex for smooth shading, n × 3
+    - ``scale``: a factor along each of its own axes, 1e-12 to 1e12
     - ``rotation``: by which it is turned
     - ``position``: where the file's origin goes, a point
     - ``smooth``: whether the file's normals are used, if it has any
     """
 
     KEY = "mesh"
-    file: Word
+    file: File | None = None
+    vertices: Vectors | None = None
+    faces: Triples | None = None
+    normals: Vectors | None = None
     scale: Vector = (1.0, 1.0, 1.0)
     rotation: Rotation | None = None
     position: Vector = (0.0, 0.0, 0.0)
@@ -203,8 +210,11 @@ class Spheres(Shape):
     """
 
     KEY = "spheres"
-    file: Word
+    file: File
 
+
+AnyShape = Sphere | Ellipsoid | Box | Cylinder | Cone | Plane | Rectangle | Disk | Mesh | Spheres
+"""Any kind of shape."""
 
 KINDS: tuple[type[Shape], ...] = (
     Sphere,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import _isophote
 from ._convert import Size
 from ._progress import Progress, reporter
+from ._types import Precision
 from ._xarray import open_store
 from .errors import ArgumentError
 from .rendering import Channels, channel_names, counted, positive, threads_of
@@ -63,7 +64,7 @@ def render_to_zarr(
     store: str | os.PathLike[str],
     *,
     channels: Channels = None,
-    precision: str = "double",
+    precision: Precision = "double",
     client: distributed.Client | None = None,
     threads: int | None = None,
     memory: int | None = None,

@@ -289,6 +289,17 @@ def test_row_0_is_drawn_at_the_top_whatever_matplotlib_is_set_to(plt, lab, chann
             of.plot(channel, **options)
 
 
+def test_true_isophotes_are_about_six_and_labels_do_not_collide(plt, lab_map):
+    _, (one, other, small) = plt.subplots(1, 3, figsize=(5, 2))
+    lab_map.plot(isophotes=True, ax=one)
+    lab_map.plot(isophotes=6, ax=other)
+    assert len(one.lines) == len(other.lines) > 3
+    lab_map.plot(isophotes=False, ax=small)
+    assert not small.lines
+    boxes = [text.get_window_extent() for text in one.texts]
+    assert boxes and not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
+
+
 def test_figures_go_into_the_current_axes_if_they_are_empty(plt, lab_map, lab):
     _, (left, right) = plt.subplots(1, 2)
     plt.sca(left)

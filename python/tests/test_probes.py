@@ -255,3 +255,15 @@ def test_many_points_are_those_of_single_ones_and_complete(lab):
     unpickled = pickle.loads(pickle.dumps(gaps))
     np.testing.assert_array_equal(unpickled.brightness, gaps.brightness)
     assert not unpickled.brightness.flags.writeable
+
+
+def test_values_are_a_table_of_pandas(lab):
+    pandas = pytest.importorskip("pandas")
+    table = iso.probe(lab, per_light=True).to_dataframe()
+    assert isinstance(table, pandas.DataFrame) and list(table.index) == ["P1", "P2", "P3", "P4"]
+    assert table.loc["P2", "position.x"] == iso.probe(lab).position[1, 0]
+    np.testing.assert_array_equal(table["light.lamp"], iso.probe(lab, per_light=True).lights[:, 0])
+    section = iso.section(lab, row=300).to_dataframe()
+    assert len(section) == 800 and {"screen.x", "normal.z", "brightness"} <= set(section.columns)
+    many = iso.probe(lab, at=on_the_sphere(2000)).to_dataframe()
+    assert len(many) == 2000 and "position.z" in many

@@ -202,7 +202,6 @@ def test_values_are_set_by_their_paths(lab):
         "light.lump.position",
         "light[1].position",
         "light.lamp.colour",
-        "material.clay",
         "nothing",
         "",
         "camera.eye.x",
@@ -336,3 +335,28 @@ def test_scenes_and_what_they_hold_are_copied_and_pickled(lab):
     for thing in (lab, lab.materials, lab.shapes[0], lab.lights[0], lab.camera, iso.scenes.photometric()):
         for again in (copy.copy(thing), copy.deepcopy(thing), pickle.loads(pickle.dumps(thing))):
             assert again == thing
+
+
+def test_whole_parts_are_set_by_their_paths(lab):
+    spot = iso.SpotLight(position=(5, 5, -10), target=(0, 0, 5), inner_angle=5, outer_angle=10, intensity=7)
+    mirror = iso.Material(diffuse=0, specular=0.5, shininess=80)
+    ball = iso.Sphere(name="other", center=(0, 0, 5), radius=1, material="clay")
+    changed = lab.set({"light.lamp": spot, "material.clay": mirror, "sphere.ball": ball})
+    assert changed.lights == (spot.replace(name="lamp"),)
+    assert changed.materials["clay"] == mirror and changed.shapes == (ball,)
+    assert lab.set({"light[0]": spot}).lights == changed.lights
+    for values in ({"light.lamp": 5}, {"material.clay": 1}, {"sphere.ball": spot}):
+        with pytest.raises(iso.SceneError, match="allowed: a "):
+            lab.set(values)
+    with pytest.raises(iso.ArgumentError, match="None"):
+        lab.set({"light.lamp": None})
+
+
+def test_that_pixels_are_not_square_is_said_once(lab):
+    with pytest.warns(iso.SceneWarning, match="not square") as caught:
+        scene = lab.with_resolution((800, 500))
+    assert len(caught) == 1
+    # Warnings are errors in these tests.
+    scene.with_resolution((800, 400)).set({"camera.screen.x": (-3, 3)}).replace(
+        camera=lab.camera.replace(resolution=(10, 90))
+    )
