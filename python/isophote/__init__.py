@@ -16,7 +16,7 @@ from ._isophote import __version__
 if TYPE_CHECKING:
     from . import errors, scenes
     from .analysis import GridMap, SurfaceMap, SurfaceTotals, grid, surface
-    from .camera import Camera, Sampling, Screen, Window
+    from .camera import Camera, Intrinsics, Pose, Sampling, Screen, Window
     from .errors import (
         ArgumentError,
         Error,
@@ -69,6 +69,7 @@ __all__ = [
     "Grid",
     "GridMap",
     "InternalError",
+    "Intrinsics",
     "Isophote",
     "LambertianLight",
     "Light",
@@ -79,6 +80,7 @@ __all__ = [
     "ParallelLight",
     "Plane",
     "PointLight",
+    "Pose",
     "Probe",
     "ProbeError",
     "Probes",
@@ -119,7 +121,7 @@ __all__ = [
 # Modules are loaded on first use: importing NumPy alone takes longer than most commands run.
 _NAMES = {
     "analysis": ("GridMap", "SurfaceMap", "SurfaceTotals", "grid", "surface"),
-    "camera": ("Camera", "Sampling", "Screen", "Window"),
+    "camera": ("Camera", "Intrinsics", "Pose", "Sampling", "Screen", "Window"),
     "errors": (
         "ArgumentError",
         "Error",

@@ -22,6 +22,7 @@ __all__ = [
     "panic_on_purpose",
     "probe_pixels",
     "probe_points",
+    "probe_screen",
     "probe_values",
     "read_exr",
     "read_metadata",
@@ -58,6 +59,8 @@ class Scene:
 
 @final
 class Map:
+    @staticmethod
+    def of(metadata: str, channels: Sequence[tuple[str, NDArray[Any]]], shapes: NDArray[np.int32]) -> Map: ...
     def units(self) -> list[tuple[str, str]]: ...
     def channel(self, name: str) -> NDArray[Any]: ...
     def shapes(self) -> NDArray[np.int32]: ...
@@ -87,7 +90,13 @@ def brightness(
 def command(arguments: Sequence[str]) -> int: ...
 def conventions() -> list[tuple[str, str, str]]: ...
 def explain(
-    scene: Scene, index: int, name: str, point: Sequence[float] | None, pixel: Sequence[int] | None, snaps: bool
+    scene: Scene,
+    index: int,
+    name: str,
+    point: Sequence[float] | None,
+    pixel: Sequence[int] | None,
+    screen: Sequence[float] | None,
+    snaps: bool,
 ) -> str: ...
 def grid(scene: Scene, name: str, channels: Sequence[str]) -> Map: ...
 def nice_levels(least: float, greatest: float, about: int) -> list[float]: ...
@@ -96,6 +105,9 @@ def probe_pixels(
     scene: Scene, pixels: NDArray[np.uint32], elsewhere: str, per_light: bool, progress: _Progress
 ) -> dict[str, NDArray[Any]]: ...
 def probe_points(
+    scene: Scene, points: NDArray[np.float64], elsewhere: str, per_light: bool, progress: _Progress
+) -> dict[str, NDArray[Any]]: ...
+def probe_screen(
     scene: Scene, points: NDArray[np.float64], elsewhere: str, per_light: bool, progress: _Progress
 ) -> dict[str, NDArray[Any]]: ...
 def probe_values(

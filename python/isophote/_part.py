@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, TypeVar
 
 from ._convert import Converter, Invalid
-from .errors import Problem, SceneError
+from .errors import ArgumentError, Problem, SceneError
 
 PartType = TypeVar("PartType", bound="Part")
 
@@ -87,16 +87,30 @@ class Part:
 
     def __repr__(self) -> str:
         given = (
-            f"{field.name}={getattr(self, field.name)!r}"
+            f"{field.name}={shown(getattr(self, field.name))}"
             for field in dataclasses.fields(self)
             if field.default is dataclasses.MISSING or getattr(self, field.name) != field.default
         )
         return f"{type(self).__name__}({', '.join(given)})"
 
 
+def shown(value: Any) -> str:
+    """A value as code, except arrays of a mesh, which may have millions of rows."""
+    is_rows = isinstance(value, tuple) and len(value) > 3
+    return f"<{len(value)} × 3>" if is_rows else repr(value)
+
+
 def _wrong(part: type[Part], invalid: Invalid) -> SceneError:
     problem = Problem("wrong-type", part.__name__, f"`{part.__name__}` {invalid.message}", invalid.allowed)
     return SceneError(str(problem), [problem])
+
+
+def of_argument(convert: Converter, value: Any, name: str) -> Any:
+    """The value of an argument, converted as fields of parts are."""
+    try:
+        return convert(value)
+    except Invalid as invalid:
+        raise ArgumentError(f"{name} {invalid.message}; {invalid.allowed}") from None
 
 
 _KNOWN: dict[type[Part], dict[str, Converter]] = {}

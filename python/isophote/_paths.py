@@ -11,10 +11,15 @@ from ._convert import Converter, Invalid
 from ._part import Part, converters
 from .errors import ArgumentError, Problem, SceneError
 from .lights import Light
+from .materials import Material
 from .shapes import KINDS, Shape
 
 if TYPE_CHECKING:
     from .scene import Scene
+
+
+WINDOW = ("projection", "screen", "intrinsics", "field_of_view", "window", "longitude", "latitude")
+"""The fields of a camera that say where on the screen its pixels are."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,12 +29,21 @@ class Pointer:
     path: str
     keys: tuple[str | int, ...]
     convert: Converter
+    name: str | None = None
+    """Of a whole light or shape, which keeps its name unless it is given another."""
+
+    @property
+    def moves_pixels(self) -> bool:
+        """Whether the positions of pixels on the screen, or their unit, depend on the value."""
+        return self.keys[0] == "length" or (self.keys[0] == "camera" and self.keys[1] in WINDOW)
 
     def put(self, written: dict[str, Any], value: Any) -> None:
         """Sets the value there; ``None`` removes it."""
         container: Any = written
         for key in self.keys[:-1]:
             container = container[key]
+        if value is None and isinstance(container, list):
+            raise ArgumentError(f"{self.path!r} is None; allowed: a part; replace(lights=…, shapes=…) leaves some out")
         if value is None:
             container.pop(self.keys[-1], None)
             return
@@ -38,6 +52,8 @@ class Pointer:
         except Invalid as invalid:
             problem = Problem("wrong-type", self.path, f"`{self.path}` {invalid.message}", invalid.allowed)
             raise SceneError(str(problem), [problem]) from None
+        if self.name is not None and converted.name is None:
+            converted = converted.replace(name=self.name)
         container[self.keys[-1]] = converted.to_dict() if isinstance(converted, Part) else converted
 
 
@@ -55,12 +71,14 @@ def locate(scene: Scene, path: str) -> Pointer:
         if part is None:
             raise ArgumentError(f"{path!r}: the scene has no {table}")
         return _within(part, (table,), rest.split("."), path)
+    if table == "material" and rest is not None and index is None and rest in scene.materials:
+        return Pointer(path, (table, rest), _part_of(Material))
     if table == "material" and rest is not None and "." in rest:
         name, key = rest.rsplit(".", 1)
         if name not in scene.materials:
             raise ArgumentError(f"{path!r}: the scene has no material {name!r}; there are: {', '.join(scene.materials)}")
         return _within(scene.materials[name], ("material", name), [key], path)
-    if table in _TABLES and rest is not None:
+    if table in _TABLES and (rest is not None or index is not None):
         field, kind = _TABLES[table]
         items: Sequence[Any] = getattr(scene, field)
         number, keys = _find(scene, field, table, kind, index, rest, path)
@@ -68,6 +86,9 @@ def locate(scene: Scene, path: str) -> Pointer:
         if isinstance(item, Shape):
             table = item.KEY
             number = sum(type(other) is type(item) for other in items[:number])
+        if not keys:
+            whole = Light if isinstance(item, Light) else type(item)
+            return Pointer(path, (table, number), _part_of(whole), item.name)
         return _within(item, (table, number), keys, path)
     parts, tables = (f"{name}.…" for name in _PARTS), (f"{name}.NAME.…" for name in ("material", *_TABLES))
     raise ArgumentError(f"{path!r} leads nowhere; allowed: {', '.join((*_WHOLE, *parts, *tables))}")
@@ -96,7 +117,7 @@ _TABLES: Mapping[str, tuple[str, type[Part]]] = {
 
 
 def _find(
-    scene: Scene, field: str, table: str, kind: type[Part], index: str | None, rest: str, path: str
+    scene: Scene, field: str, table: str, kind: type[Part], index: str | None, rest: str | None, path: str
 ) -> tuple[int, list[str]]:
     """The index of an item in its field, and the part of the path after its name or index."""
     items = getattr(scene, field)
@@ -104,14 +125,29 @@ def _find(
     if index is not None:
         if int(index) >= len(of_kind):
             raise ArgumentError(f"{path!r}: the scene has {len(of_kind)} {table}, counted from 0")
-        return of_kind[int(index)], rest.split(".")
+        return of_kind[int(index)], rest.split(".") if rest else []
+    assert rest is not None
     names = scene.core.describe()[field]
+    for number in of_kind:
+        if rest == names[number]:
+            return number, []
     # Names may contain dots, and one name may be a prefix of another.
     for number in sorted(of_kind, key=lambda number: -len(names[number])):
         if rest.startswith(names[number] + "."):
             return number, rest[len(names[number]) + 1 :].split(".")
     there_are = ", ".join(names[number] for number in of_kind[:20]) or "none"
     raise ArgumentError(f"{path!r}: the scene has no such {table}; there are: {there_are}")
+
+
+def _part_of(kind: type[Part]) -> Converter:
+    """Converts to a part that must be of this kind already."""
+
+    def convert(value: Any) -> Part:
+        if isinstance(value, kind):
+            return value
+        raise Invalid(f"is {value!r}", f"allowed: a {kind.__name__}")
+
+    return convert
 
 
 def _within(part: Part, keys: tuple[str | int, ...], names: list[str], path: str) -> Pointer:

@@ -17,41 +17,67 @@ if TYPE_CHECKING:
 
 
 def _axes(ax: matplotlib.axes.Axes | None) -> matplotlib.axes.Axes:
+    """The given axes, or else the current ones. Those that hold something already are left alone: a map hides what is
+    under it, and the scales of two maps differ."""
     try:
+        import matplotlib.axes
         import matplotlib.pyplot as plt
     except ImportError as error:
         raise ImportError("figures need matplotlib: pip install isophote[plot]") from error
-    return plt.subplots()[1] if ax is None else ax
+    if ax is None:
+        current = plt.gca()
+        return plt.subplots()[1] if current.has_data() else current
+    if not isinstance(ax, matplotlib.axes.Axes):
+        raise ArgumentError(f"ax is {ax!r}; allowed: one Axes of matplotlib, None")
+    return ax
+
+
+def _refuse(options: dict[str, Any]) -> None:
+    """Refuses the options that would move the picture away from its axes."""
+    for name in ("extent", "origin"):
+        if name in options:
+            raise ArgumentError(f"{name} is {options[name]!r}; allowed: none, the axes are those of the map, in its units")
 
 
 def plot_map(
-    of: Map, channel: str | None, isophotes: int | Sequence[float], ax: matplotlib.axes.Axes | None, options: dict[str, Any]
+    of: Map,
+    channel: str | None,
+    isophotes: bool | int | Sequence[float],
+    ax: matplotlib.axes.Axes | None,
+    options: dict[str, Any],
 ) -> matplotlib.axes.Axes:
     """See :meth:`isophote.Map.plot`."""
     if channel in ("position", "normal", "shape"):
         raise ArgumentError(f"the channel {channel!r} is no picture; allowed: channels of one number a pixel, and color")
+    _refuse(options)
+    if isinstance(isophotes, (bool, np.bool_)):
+        isophotes = 6 if isophotes else 0
+    has_isophotes = not (isinstance(isophotes, (int, np.integer)) and isophotes == 0)
+    if channel == "color" and has_isophotes:
+        raise ArgumentError("isophotes has no effect on the channel 'color'; allowed: channels of one number a pixel")
     ax = _axes(ax)
     figure = ax.get_figure()
     horizontal, vertical = of.axes
-    extent = (*horizontal.edges, *vertical.edges)
+    # Row 0 is at the top, whatever matplotlib's own settings say.
+    placed: dict[str, Any] = {"extent": (*horizontal.edges, *vertical.edges), "origin": "upper"}
     ax.set_xlabel(horizontal.label)
     ax.set_ylabel(vertical.label)
-    ax.set_title(of.scene.title)
+    ax.set_title(of.metadata["title"])
     # No surface is not the same as dark: pixels that see no surface are hatched.
     ax.set_facecolor("0.93")
     ax.patch.set(hatch="///", edgecolor="0.75")
     mask = of.mask
     if channel == "color":
         colors = of["color"] / max(float(of["color"].max()), np.finfo(float).tiny)
-        ax.imshow(np.dstack([_srgb(colors), mask.astype(float)]), extent=extent, **options)
+        ax.imshow(np.dstack([_srgb(colors), mask.astype(float)]), **placed, **options)
         return ax
     name = of._main(channel)
-    image = ax.imshow(np.ma.masked_where(~mask, of[name]), extent=extent, **options)
+    image = ax.imshow(np.ma.masked_where(~mask, of[name]), **placed, **options)
     about = f", {of.metadata['convention']}" if name in ("brightness", "diffuse", "specular") else ""
     unit = of.units[name]
     bar = figure.colorbar(image, ax=ax, fraction=0.046 * _height_by_width(of), pad=0.03)  # type: ignore[union-attr]
     bar.set_label(f"{name}{about}" + (f", {unit}" if unit not in ("", "1") else ""))
-    if not (isinstance(isophotes, int) and isophotes == 0):
+    if has_isophotes:
         _draw_isophotes(of, name, isophotes, ax, bar)
     return ax
 
@@ -65,6 +91,7 @@ def _height_by_width(of: Map) -> float:
 def _draw_isophotes(of: Map, name: str, levels: int | Sequence[float], ax: matplotlib.axes.Axes, bar: Any) -> None:
     from matplotlib.patheffects import withStroke
 
+    labels: list[Any] = []
     for isophote in of.isophotes(levels, channel=name):
         for line in isophote.lines:
             ax.plot(line[:, 0], line[:, 1], color="white", linewidth=0.8)
@@ -74,6 +101,12 @@ def _draw_isophotes(of: Map, name: str, levels: int | Sequence[float], ax: matpl
             text = ax.annotate(f"{isophote.level:g}", (x, y), color="white", fontsize="small", ha="center", va="center")
             # Readable on any colour.
             text.set_path_effects([withStroke(linewidth=2, foreground="black")])
+            box = text.get_window_extent()
+            if any(box.overlaps(other) for other in labels):
+                # In a small figure there is no room for all of them; the colour bar has a line for each.
+                text.remove()
+            else:
+                labels.append(box)
             bar.ax.axhline(isophote.level, color="white", linewidth=0.8)
 
 

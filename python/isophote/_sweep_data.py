@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -56,18 +57,22 @@ class Template:
         dataset = self.dataset({})
         for name, coordinate in dataset.coords.items():
             if coordinate.dtype.kind == "U":
-                numbers = np.arange(coordinate.size)
-                dataset = dataset.assign_coords({name: (coordinate.dims, numbers, {"labels": coordinate.values.tolist()})})
+                numbers = np.arange(coordinate.size).reshape(coordinate.shape)
+                attrs = {**coordinate.attrs, "labels": coordinate.values.tolist()}
+                dataset = dataset.assign_coords({name: (coordinate.dims, numbers, attrs)})
         return dataset
 
 
 def template(sweep: Sweep, values: Mapping[str, Sequence[Any]], first: Map) -> Template:
     image = first.to_xarray()
-    sizes = {path: len(several) for path, several in values.items()}
+    sizes, dims_of_maps = dict(sweep.dims), tuple(sweep.dims)
     coordinates: dict[str, Any] = {}
     for (path, several), pointer in zip(values.items(), sweep.pointers):
-        coordinates.update(_coordinate(path, several, pointer))
-    is_same_window = not any(_moves_pixels(pointer) for pointer in sweep.pointers)
+        coordinates.update(_coordinate(path, path if path in sizes else dims_of_maps[0], several, pointer))
+    for dim in sizes:
+        if dim not in coordinates:
+            coordinates[dim] = np.arange(sizes[dim])
+    is_same_window = not sweep.moves_pixels
     for axis, counted in zip(first.axes, ("column", "row")):
         # If the maps cover different places, their pixels are numbered instead.
         numbers = (axis.name, np.arange(image.sizes[axis.name]), {"units": "1", "long_name": f"{counted}, from 0"})
@@ -79,40 +84,34 @@ def template(sweep: Sweep, values: Mapping[str, Sequence[Any]], first: Map) -> T
     variables = {}
     for key, variable in {**image.data_vars, "visible": image["visible"]}.items():
         name = str(key)
-        dims = (*values, *(str(dim) for dim in variable.dims))
+        dims = (*dims_of_maps, *(str(dim) for dim in variable.dims))
         attrs = dict(variable.attrs)
         if name != "visible":
             units = [core.unit(name) for core in sweep.cores]
             if len(set(units)) > 1:
                 # One unit per map, indexed by the parameters that it depends on.
                 del attrs["units"]
-                coordinates[f"{name}.units"] = (tuple(values), np.array(units).reshape(sweep.sizes))
+                coordinates[f"{name}.units"] = (dims_of_maps, np.array(units).reshape(sweep.sizes))
         variables[name] = (dims, variable.dtype, attrs)
     about = attributes(first.metadata)
-    if any(pointer.keys[0] in ("convention", "quantities") for pointer in sweep.pointers):
+    if any(pointer.keys[0] in ("convention", "quantities") for pointer in sweep.pointers) or sweep.changes_convention:
         del about["convention"]
     # The scene is that of the first map; the values in which the others differ are in the coordinates.
-    return Template(len(values), sizes, coordinates, variables, about)
+    return Template(len(dims_of_maps), sizes, coordinates, variables, about)
 
 
-def _moves_pixels(pointer: Pointer) -> bool:
-    """Whether the positions of pixels on the screen, or their unit, depend on a value."""
-    within = ("screen", "field_of_view", "window", "longitude", "latitude", "projection")
-    return pointer.keys[0] == "length" or (pointer.keys[0] == "camera" and pointer.keys[1] in within)
-
-
-def _coordinate(path: str, several: Sequence[Any], pointer: Pointer) -> dict[str, Any]:
+def _coordinate(path: str, dim: str, several: Sequence[Any], pointer: Pointer) -> dict[str, Any]:
     """The coordinate along a dimension: the values themselves, or numbers with the values beside them."""
     plain = [pointer.convert(value) if value is not None else None for value in several]
     if all(isinstance(value, str) for value in plain):
-        return {path: np.array(plain)}
+        return {path: (dim, np.array(plain))}
     if all(isinstance(value, (int, float, np.number)) for value in several):
-        return {path: np.array(several)}
-    numbers: dict[str, Any] = {path: np.arange(len(plain))}
+        return {path: (dim, np.array(several))}
+    numbers: dict[str, Any] = {path: (dim, np.arange(len(plain)))}
     if all(isinstance(value, tuple) and len(value) == 3 for value in plain):
         extra, labels = COMPONENTS["color" if pointer.convert is amount else "position"]
-        return numbers | {extra: np.array(labels), f"{path}.value": ((path, extra), np.array(plain))}
-    return numbers | {f"{path}.value": (path, np.array([repr(value) for value in plain]))}
+        return numbers | {extra: np.array(labels), f"{path}.value": ((dim, extra), np.array(plain))}
+    return numbers | {f"{path}.value": (dim, np.array([repr(value) for value in plain]))}
 
 
 class Memory:
@@ -174,6 +173,10 @@ class Store:
             attributes={"long_name": "whether the map is there", "sweep": form.identity()},
             dimension_names=list(parameters),
         )
+        with warnings.catch_warnings():
+            # Consolidated metadata are not part of Zarr 3 yet; without them xarray warns on every reading.
+            warnings.simplefilter("ignore")
+            zarr.consolidate_metadata(path)
         return cls(path, frozenset())
 
     @classmethod
@@ -196,10 +199,30 @@ class Store:
             stored[index] = array
 
     def dataset(self, form: Template) -> xarray.Dataset:
-        import xarray
+        return reopened(self.path).assign_coords(form.dataset({}).coords)
 
-        dataset: xarray.Dataset = xarray.open_zarr(self.path, chunks=None, consolidated=False)
-        return dataset.drop_vars(RENDERED).assign_coords(form.dataset({}).coords)
+
+def is_sweep(path: str) -> bool:
+    """Whether a directory is the store of a sweep."""
+    try:
+        with open(os.path.join(path, RENDERED, "zarr.json"), encoding="utf-8") as file:
+            about = json.load(file)
+    except (OSError, ValueError):
+        return False
+    return isinstance(about, dict) and "sweep" in about.get("attributes", {})
+
+
+def reopened(path: str) -> xarray.Dataset:
+    """The Dataset of a store: with its strings instead of their numbers, and, if maps are missing, with ``rendered``."""
+    import xarray
+
+    needed("zarr")
+    dataset: xarray.Dataset = xarray.open_zarr(path, chunks=None, consolidated=False)
+    for name, coordinate in dataset.coords.items():
+        if "labels" in coordinate.attrs:
+            attrs = {key: value for key, value in coordinate.attrs.items() if key != "labels"}
+            dataset = dataset.assign_coords({name: (coordinate.dims, np.array(coordinate.attrs["labels"]), attrs)})
+    return dataset.drop_vars(RENDERED) if bool(dataset[RENDERED].all()) else dataset
 
 
 def arrays_of(of: _isophote.Map) -> dict[str, NDArray[Any]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,8 +32,9 @@ def dataset(of: Map) -> xarray.Dataset:
     coordinates: dict[str, Any] = {
         horizontal.name: (horizontal.name, columns, {"units": horizontal.unit, "long_name": horizontal.title}),
         vertical.name: (vertical.name, rows, {"units": vertical.unit, "long_name": vertical.title}),
-        "visible": (dims, of.mask, {"long_name": "whether a surface is seen"}),
     }
+    if of.has_mask:
+        coordinates["visible"] = (dims, of.mask, {"long_name": "whether a surface is seen"})
     variables: dict[str, Any] = {}
     for name, unit in of.units.items():
         extra = COMPONENTS.get(name)
@@ -40,6 +42,19 @@ def dataset(of: Map) -> xarray.Dataset:
             coordinates[extra[0]] = np.array(extra[1])
         variables[name] = (dims if extra is None else (*dims, extra[0]), of[name], {"units": unit})
     return xarray.Dataset(variables, coordinates, attributes(of.metadata))
+
+
+def open_store(path: str) -> xarray.Dataset:
+    """A Zarr store as a Dataset that reads data on demand."""
+    needed("zarr")
+    import xarray
+    import zarr
+
+    with warnings.catch_warnings():
+        # The picture and the records beside the arrays are not part of Zarr.
+        warnings.simplefilter("ignore", zarr.errors.ZarrUserWarning)
+        dataset: xarray.Dataset = xarray.open_zarr(path, chunks=None, consolidated=False)
+    return dataset
 
 
 def needed(module: str) -> Any:

@@ -5,21 +5,28 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from . import _isophote
 from ._convert import Invalid, Size, Vector, vector
 from ._convert import size as two_whole
+from ._types import Side, SurfaceProjection
 from .errors import ArgumentError
 from .map import Map
 from .rendering import Channels, channel_names, counted
-from .scene import Scene
+from .scene import Scene, SceneOrPath, scene_of
 
 __all__ = ["GridMap", "SurfaceMap", "SurfaceTotals", "grid", "surface"]
 
 
 @dataclass(frozen=True)
 class SurfaceTotals:
-    """Totals of a channel over a surface, each cell weighted by its exact area: ``integral`` in the channel's unit times
-    m² (for the irradiance, the flux in W or lm), over ``area`` m²."""
+    """Totals of a channel over a surface, each cell weighted by its exact area.
+
+    - ``integral``: in the channel's unit times m²; for the irradiance, the flux in W or lm
+    - ``min``, ``max``: in the channel's unit
+    - ``area``: in m²
+    """
 
     integral: float
     min: float
@@ -51,13 +58,13 @@ class GridMap(Map):
 
 
 def surface(
-    scene: Scene,
+    scene: SceneOrPath,
     *,
     shape: str | int | None = None,
     part: int = 0,
     channels: Channels = ("irradiance", "position", "normal"),
-    projection: str = "equirectangular",
-    side: str = "front",
+    projection: SurfaceProjection = "equirectangular",
+    side: Side = "front",
     axis: Vector | None = None,
     size: Size | None = None,
 ) -> SurfaceMap:
@@ -67,6 +74,7 @@ def surface(
     ``projection``: ``"equirectangular"`` or ``"equal-area"``. ``side``: ``"front"`` or ``"back"``.
     ``axis``: where a sphere's latitude is 90°, +y by default. ``size``: columns and rows.
     """
+    scene = scene_of(scene)
     names = scene.core.describe()["shapes"]
     core, area, totals = _isophote.surface(
         scene.core,
@@ -81,8 +89,9 @@ def surface(
     return SurfaceMap(core, scene, area, totals)
 
 
-def grid(scene: Scene, *, name: str | int | None = None, channels: Channels = ("irradiance", "position")) -> GridMap:
+def grid(scene: SceneOrPath, *, name: str | int | None = None, channels: Channels = ("irradiance", "position")) -> GridMap:
     """The map over a grid of the scene, given by name or index, which may be omitted if there is only one grid."""
+    scene = scene_of(scene)
     names = scene.core.describe()["grids"]
     core = _isophote.grid(scene.core, _named(names, name, "grid"), channel_names(scene, channels))
     return GridMap(core, scene)
@@ -93,7 +102,7 @@ def _named(names: list[str], one: str | int | None, what: str) -> str:
         return one
     if one is None and len(names) == 1:
         return names[0]
-    if isinstance(one, int) and 0 <= one < len(names):
+    if isinstance(one, (int, np.integer)) and not isinstance(one, bool) and 0 <= one < len(names):
         return names[one]
     there_are = f"there are: {', '.join(names[:20])}" if names else "the scene has none"
     raise ArgumentError(f"say which {what}; {there_are}")

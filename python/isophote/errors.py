@@ -36,7 +36,8 @@ class Problem:
     """A single problem in a scene.
 
     ``kind`` is ``"unreadable"``, ``"syntax"``, ``"unknown-key"``, ``"missing-key"``, ``"wrong-type"``, ``"value"`` or
-    ``"warning"``; ``path`` names the item concerned, such as ``sphere[0].radius``; ``help`` says what is allowed.
+    ``"warning"``; ``path`` names the item concerned, such as ``sphere[0].radius``; ``message`` says what is wrong, ``help``
+    what is allowed; ``place`` is where it stands in a file, if it was read from one.
     """
 
     kind: str

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _isophote
-from ._convert import word
+from ._convert import Invalid, word
+from ._types import ConventionName, Quantities
+from ._words import Named
 from .errors import ArgumentError, ProbeError
-from .lights import Ambient, Light
-from .materials import Convention, Material
+from .lights import Ambient, AnyLight, Light
+from .materials import Material
 from .probing import numbers
 
 __all__ = ["brightness"]
@@ -21,18 +23,21 @@ __all__ = ["brightness"]
 def brightness(
     normals: ArrayLike,
     positions: ArrayLike,
-    lights: Light | Sequence[Light],
+    lights: AnyLight | Sequence[AnyLight],
     material: Material,
-    convention: str | Convention = "radiance",
+    convention: ConventionName = "radiance",
     *,
     eye: ArrayLike = (0.0, 0.0, 0.0),
     ambient: Ambient | None = None,
-    quantities: str = "radiometric",
+    quantities: Quantities = "radiometric",
+    where: ArrayLike | None = None,
 ) -> NDArray[np.float64]:
     """The brightness by a convention, (3.1) to (3.12), at points with given unit normals, summed over the lights, without shadows.
 
     ``normals`` and ``positions``: arrays of any shape (…, 3), in metres; the result has the shape (…). ``eye``: one point
     (3,), or one per position. Light positions are in metres too. Normals must have length 1 to within 1e-6.
+    ``where``: booleans of the shape (…): only there is the brightness computed, elsewhere it is 0, as in a map, and normals
+    and positions may be anything. So ``brightness(m["normal"], m["position"], …, where=m.mask)`` takes a map's own arrays.
     """
     placed, directions, eyes = _vectors(positions, "positions"), _vectors(normals, "normals"), _vectors(eye, "eye")
     try:
@@ -43,16 +48,30 @@ def brightness(
     if eyes.shape not in ((3,), shape):
         raise ProbeError(f"eye has the shape {eyes.shape}; allowed: (3,), {shape}")
     eyes = eyes.reshape(-1, 3)
+    # The indices of the points to compute, among all; errors name the latter.
+    chosen = np.arange(len(placed)) if where is None else np.flatnonzero(_mask(where, shape[:-1]))
+    if where is not None:
+        placed, directions = placed[chosen], directions[chosen]
+        eyes = eyes if len(eyes) == 1 else eyes[chosen]
     lengths = np.linalg.norm(directions, axis=1)
     # NaN is wrong too.
     wrong = np.flatnonzero(~(np.abs(lengths - 1.0) <= 1e-6))
     if wrong.size:
-        raise ProbeError(f"normal {wrong[0]} has the length {lengths[wrong[0]]}; allowed: 1", wrong.tolist())
+        length = lengths[wrong[0]]
+        hint = "; where= leaves points out" if length == 0 and where is None else ""
+        raise ProbeError(f"normal {chosen[wrong[0]]} has the length {length}; allowed: 1{hint}", chosen[wrong].tolist())
     for array, name in ((placed, "position"), (eyes, "eye")):
         wrong = np.flatnonzero(~(np.abs(array) <= _FARTHEST).all(axis=1))
         if wrong.size:
-            where = array[wrong[0]].tolist()
-            raise ProbeError(f"{name} {wrong[0]} is {where}; allowed: finite numbers up to {_FARTHEST:g} m", wrong.tolist())
+            value, numbered = array[wrong[0]].tolist(), wrong if len(array) == 1 else chosen[wrong]
+            message = f"{name} {numbered[0]} is {value}; allowed: finite numbers up to {_FARTHEST:g} m"
+            raise ProbeError(message, numbered.tolist())
+    if not isinstance(material, Material):
+        raise ArgumentError(f"material is {material!r}; allowed: a Material, such as Material(diffuse=0.5)")
+    if ambient is not None and not isinstance(ambient, Ambient):
+        raise ArgumentError(f"ambient is {ambient!r}; allowed: an Ambient, None")
+    if not isinstance(lights, (Light, Iterable)):
+        raise ArgumentError(f"lights is {lights!r}; allowed: a light, or a list of lights")
     of_scene = (lights,) if isinstance(lights, Light) else tuple(lights)
     for light in of_scene:
         if not isinstance(light, Light):
@@ -61,14 +80,15 @@ def brightness(
     written = {
         "version": 1,
         "length": "m",
-        "convention": word(convention),
-        "quantities": word(quantities),
+        "convention": _word(convention, "convention"),
+        "quantities": _word(quantities, "quantities"),
         "camera": {"eye": [0, 0, 0], "forward": [0, 0, 1], "screen": {"distance": 1, "x": [-1, 1], "y": [-1, 1]}},
         "material": {"material": material.to_dict()},
         "light": [light.to_dict() for light in of_scene],
         **({} if ambient is None else {"ambient": ambient.to_dict()}),
     }
-    core = _isophote.Scene.from_json(json.dumps(written), "")
+    named = Named(lights=of_scene, materials={"material": material})
+    core = named.checked(lambda: _isophote.Scene.from_json(json.dumps(written), ""))
     if core.has_color:
         raise ArgumentError("the bare formula takes single numbers; call it once for each component of a colour")
     values = _isophote.brightness(
@@ -76,12 +96,32 @@ def brightness(
     )
     wrong = np.flatnonzero(~np.isfinite(values))
     if wrong.size:
-        raise ProbeError(f"position {wrong[0]} is where a light or the eye is", wrong.tolist())
+        raise ProbeError(f"position {chosen[wrong[0]]} is where a light or the eye is", chosen[wrong].tolist())
+    if where is not None:
+        computed, values = values, np.zeros(int(np.prod(shape[:-1])))
+        values[chosen] = computed
     return values.reshape(shape[:-1])
 
 
 _FARTHEST = 1e15
 """The largest distance allowed in a scene."""
+
+
+def _mask(where: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.bool_]:
+    mask = np.asarray(where)
+    if mask.dtype != np.bool_:
+        raise ProbeError(f"where is of {mask.dtype}; allowed: booleans, such as the mask of a map")
+    try:
+        return np.broadcast_to(mask, shape)
+    except ValueError:
+        raise ProbeError(f"where has the shape {mask.shape}; allowed: {shape}") from None
+
+
+def _word(value: str, name: str) -> str:
+    try:
+        return word(value)
+    except Invalid as invalid:
+        raise ArgumentError(f"{name} {invalid.message}; {invalid.allowed}") from None
 
 
 def _vectors(values: ArrayLike, name: str) -> NDArray[np.float64]:

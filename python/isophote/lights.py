@@ -17,7 +17,12 @@ __all__ = ["Ambient", "LambertianLight", "Light", "ParallelLight", "PointLight",
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Light(Part):
-    """The fields common to all lights: a name, whether shapes block their light, and whether they are switched on."""
+    """The fields common to all lights.
+
+    - ``name``: unique among the lights; by default ``light`` and a number
+    - ``casts_shadows``: whether shapes block its light, where the scene has ``shadows``
+    - ``on``: whether it is switched on
+    """
 
     name: Word | None = None
     casts_shadows: Flag = True
@@ -26,7 +31,12 @@ class Light(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class PointLight(Light):
-    """A point that emits equally in all directions (3.1): either ``intensity``, or ``power`` = 4π · ``intensity``."""
+    """A point that emits equally in all directions (3.1).
+
+    - ``position``: a point, on no surface
+    - ``intensity``: in W/sr or cd, 0 to 1e30
+    - ``power``: instead, 4π times the intensity, in W or lm
+    """
 
     position: Vector
     intensity: Amount | None = None
@@ -35,9 +45,16 @@ class PointLight(Light):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class LambertianLight(Light):
-    """A point that emits I₀ cosγ (3.1), with γ the angle from its axis: either ``intensity`` I₀, or ``power`` = π I₀.
+    """A point that emits I₀ cosγ (3.1), with γ the angle from its axis.
 
-    It is aimed by its ``axis``, by the point ``target``, or by angles: ``tilt`` from −z, ``azimuth`` from +x towards +y."""
+    - ``position``: a point, on no surface
+    - ``intensity``: I₀ in W/sr or cd, 0 to 1e30
+    - ``power``: instead, π I₀, in W or lm
+    - ``axis``: where it is aimed, a direction of any length but 0
+    - ``target``: instead, a point to aim at
+    - ``tilt``: instead, the angle of the axis from −z in degrees, 0 to 180: 0 is straight down
+    - ``azimuth``: with it, the way that the axis leans, from +x towards +y, in degrees, −360 to 360
+    """
 
     _FIXED = MappingProxyType({"emission": "lambertian"})
     position: Vector
@@ -51,9 +68,18 @@ class LambertianLight(Light):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class SpotLight(Light):
-    """A point that emits its full intensity up to ``inner_angle`` from its axis, nothing beyond ``outer_angle``, and a
-    smooth transition in between (3.7); aimed by its ``axis``, by the point ``target``, or by ``tilt``
-    and ``azimuth``."""
+    """A point that emits its full intensity near its axis, and none far from it (3.7).
+
+    - ``position``: a point, on no surface
+    - ``inner_angle``: up to this angle from the axis all of the intensity, in degrees, 0 to 90
+    - ``outer_angle``: beyond this one nothing, in degrees, above the inner one and up to 90; smooth in between
+    - ``intensity``: on the axis, in W/sr or cd, 0 to 1e30
+    - ``power``: instead, of the whole cone, in W or lm
+    - ``axis``: where it is aimed, a direction of any length but 0
+    - ``target``: instead, a point to aim at
+    - ``tilt``: instead, the angle of the axis from −z in degrees, 0 to 180: 0 is straight down
+    - ``azimuth``: with it, the way that the axis leans, from +x towards +y, in degrees, −360 to 360
+    """
 
     _FIXED = MappingProxyType({"emission": "spot"})
     position: Vector
@@ -69,8 +95,13 @@ class SpotLight(Light):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class ParallelLight(Light):
-    """Light from one direction without attenuation, like sunlight (3.8): ``direction`` is the one in which it travels, which
-    ``tilt`` and ``azimuth`` may say instead; ``irradiance`` is that on a plane perpendicular to it, in W/m² or lx."""
+    """Light from one direction without attenuation, like sunlight (3.8).
+
+    - ``direction``: the one in which it travels, of any length but 0
+    - ``tilt``: instead, the angle of that direction from −z in degrees, 0 to 180: 0 is straight down
+    - ``azimuth``: with it, the way that it leans, from +x towards +y, in degrees, −360 to 360
+    - ``irradiance``: on a plane perpendicular to it, in W/m² or lx, 0 to 1e30
+    """
 
     _FIXED = MappingProxyType({"emission": "parallel"})
     direction: Vector | None = None
@@ -78,18 +109,38 @@ class ParallelLight(Light):
     tilt: Number | None = None
     azimuth: Number | None = None
 
+    @property
+    def position(self) -> None:
+        """It has none: ``None``."""
+
+    @property
+    def intensity(self) -> None:
+        """It has none: ``None``."""
+
+    @property
+    def power(self) -> None:
+        """It has none: ``None``."""
+
+
+AnyLight = PointLight | LambertianLight | SpotLight | ParallelLight
+"""Any kind of light."""
+
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Ambient(Part):
-    """Light from all around (3.9), with the same ``radiance`` (W/(m²·sr) or cd/m²) from every direction; with
-    ``obstructed``, each point looks in ``samples`` directions for shapes that block it."""
+    """Light from all around (3.9), the same from every direction.
+
+    - ``radiance``: in W/(m²·sr) or cd/m², 0 to 1e30
+    - ``obstructed``: whether shapes block it
+    - ``samples``: then, in how many directions each point looks for them, 1 to 4096
+    """
 
     radiance: Amount
     obstructed: Flag = False
     samples: Whole = 64
 
 
-_BY_EMISSION: dict[Any, type[Light]] = {
+_BY_EMISSION: dict[Any, type[AnyLight]] = {
     None: PointLight,
     "isotropic": PointLight,
     "lambertian": LambertianLight,
@@ -98,7 +149,7 @@ _BY_EMISSION: dict[Any, type[Light]] = {
 }
 
 
-def light_from_dict(written: dict[str, Any]) -> Light:
+def light_from_dict(written: dict[str, Any]) -> AnyLight:
     """The light described by this table of a scene file."""
     kind = _BY_EMISSION[written.get("emission")]
     return kind.from_dict({key: value for key, value in written.items() if key != "emission"})

@@ -6,19 +6,20 @@ import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _html, _isophote
-from ._convert import Invalid, number
+from ._convert import FrozenDict, Invalid, number
+from ._types import Colormap
 from .errors import ArgumentError
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import xarray
+    from typing_extensions import Self
 
     from .scene import Scene
 
@@ -27,7 +28,13 @@ __all__ = ["Axis", "Isophote", "Map"]
 
 @dataclass(frozen=True)
 class Axis:
-    """One direction of a map: its name, its unit, its first and last edges."""
+    """One direction of a map.
+
+    - ``name``: of the xarray dimension
+    - ``title``: for figures
+    - ``unit``: ``"1"`` for pure numbers
+    - ``edges``: the first and the last, in this unit
+    """
 
     name: str
     title: str
@@ -42,8 +49,11 @@ class Axis:
 
 @dataclass(frozen=True)
 class Isophote:
-    """A contour: its level in the channel's unit, and its lines, arrays of x and y; closed lines end at their first
-    point."""
+    """A contour.
+
+    - ``level``: in the channel's unit
+    - ``lines``: arrays of x and y, n × 2, in the units of the map's axes; closed lines end at their first point
+    """
 
     level: float
     lines: tuple[NDArray[np.float64], ...]
@@ -54,37 +64,66 @@ class Map(Mapping[str, NDArray[Any]]):
 
     The arrays are views of the map's own memory, float64 (float32 in single precision, int32 for ``shape``), of shape
     height × width, or height × width × 3 for ``position``, ``normal`` and ``color``. Row 0 is at the top. They are
-    read-only. Where no surface is seen they are 0 (``shape`` is −1); :attr:`mask` tells these pixels from dark ones.
+    read-only. Where no surface is seen they are 0 (``shape`` is −1); :attr:`mask`, which ``m["mask"]`` gives too, tells
+    these pixels from dark ones.
+
+    Maps are copied and pickled with their values, so they can be sent to other processes. They never change.
     """
 
     def __init__(self, core: _isophote.Map, scene: Scene) -> None:
         self._core = core
         self._scene = scene
-        self._units = MappingProxyType(dict(core.units()))
+        self._units = FrozenDict(core.units())
 
     __hash__ = object.__hash__
 
     def __eq__(self, other: object) -> bool:
         return self is other
 
+    @overload
+    def __getitem__(self, channel: Literal["position", "normal", "color"]) -> NDArray[np.float64]: ...
+    @overload
+    def __getitem__(self, channel: Literal["shape"]) -> NDArray[np.int32]: ...
+    @overload
+    def __getitem__(self, channel: Literal["mask"]) -> NDArray[np.bool_]: ...
+    @overload
+    def __getitem__(self, channel: str) -> NDArray[Any]: ...
     def __getitem__(self, channel: str) -> NDArray[Any]:
-        if channel not in self._units:
-            held = ", ".join(self._units)
-            raise KeyError(f"this map has no channel {channel!r}; it has {held}: ask for others with channels=[…]")
+        if channel in self.units:
+            return self._array(channel)
+        if channel == "mask":
+            return self.mask
+        raise KeyError(self._missing(channel))
+
+    def _array(self, channel: str) -> NDArray[Any]:
         array: NDArray[Any] = self._core.channel(channel)
         return array
 
+    def _missing(self, channel: str) -> str:
+        return f"this map has no channel {channel!r}; it has {', '.join(self)}: ask for others with channels=[…]"
+
     def __iter__(self) -> Iterator[str]:
-        return iter(self._units)
+        return iter(self.units)
 
     def __len__(self) -> int:
-        return len(self._units)
+        return len(self.units)
 
     def __contains__(self, channel: object) -> bool:
-        return channel in self._units
+        return channel in self.units or channel == "mask"
 
-    def __reduce__(self) -> NoReturn:
-        raise TypeError("a Map is not pickled: render its scene again, save() it, or take its to_xarray()")
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self, "mask"]
+
+    def __copy__(self) -> Self:
+        return self
+
+    def __deepcopy__(self, _memo: dict[int, Any]) -> Self:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        state = {name: value for name, value in self.__dict__.items() if name != "_core"}
+        channels = [(name, self[name]) for name in self]
+        return _unpickle, (type(self), state, json.dumps(self.metadata), channels, self.shapes)
 
     @property
     def scene(self) -> Scene:
@@ -99,7 +138,7 @@ class Map(Mapping[str, NDArray[Any]]):
     @property
     def shape(self) -> tuple[int, int]:
         """The number of rows and columns."""
-        _, _, width, height = self._core.region()
+        _, _, width, height = self.region
         return height, width
 
     @property
@@ -114,9 +153,14 @@ class Map(Mapping[str, NDArray[Any]]):
         return self._core.shapes()
 
     @property
+    def has_mask(self) -> bool:
+        """Whether it is known where a surface is seen: always, except for some files."""
+        return True
+
+    @property
     def mask(self) -> NDArray[np.bool_]:
         """Where a surface is seen."""
-        return self._core.shapes() >= 0
+        return self.shapes >= 0
 
     @property
     def metadata(self) -> dict[str, Any]:
@@ -127,8 +171,7 @@ class Map(Mapping[str, NDArray[Any]]):
     @property
     def axes(self) -> tuple[Axis, Axis]:
         """The axis from left to right, and the axis from bottom to top."""
-        x, y = (Axis(name, title, unit, (edges[0], edges[1])) for name, title, unit, edges in self._core.axes())
-        return x, y
+        return axes_of(self._core)
 
     def coordinates(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The positions of the centres of columns and rows, in the units of the axes."""
@@ -142,7 +185,7 @@ class Map(Mapping[str, NDArray[Any]]):
     @property
     def lights(self) -> tuple[str, ...]:
         """The lights whose individual irradiance the map holds."""
-        return tuple(name.removeprefix("light.") for name in self._units if name.startswith("light."))
+        return tuple(name.removeprefix("light.") for name in self.units if name.startswith("light."))
 
     def light_images(self) -> NDArray[Any]:
         """The irradiance from each of the :attr:`lights` alone: lights × height × width."""
@@ -153,12 +196,13 @@ class Map(Mapping[str, NDArray[Any]]):
     def _main(self, channel: str | None) -> str:
         """The given channel, or by default the first scalar one."""
         if channel is not None:
-            self[channel]
+            if channel not in self.units:
+                raise KeyError(self._missing(channel))
             return channel
-        for name in self._units:
+        for name in self.units:
             if name not in ("position", "normal", "shape", "color"):
                 return name
-        raise ArgumentError(f"say which channel: none of {', '.join(self._units)} is one number a pixel")
+        raise ArgumentError(f"say which channel: none of {', '.join(self.units)} is one number a pixel")
 
     def _statistics(self, channel: str | None) -> tuple[Any, Any, float]:
         found = self._core.statistics(self._main(channel))
@@ -206,28 +250,45 @@ class Map(Mapping[str, NDArray[Any]]):
         *,
         channel: str | None = None,
         range: tuple[float, float] | None = None,
-        gamma: float = 1.0,
-        bits: int = 8,
-        colormap: str | None = None,
+        gamma: float | None = None,
+        bits: int | None = None,
+        colormap: Colormap | None = None,
     ) -> None:
-        """Writes a file, completely or not at all: ``.exr``, ``.npz`` and ``.csv`` get all channels, ``.npy`` one of
-        them, ``.png`` a picture of one, from black to white between the values of ``range``, or in the colours of
-        ``colormap``."""
+        """Writes a file, completely or not at all: ``.exr``, ``.npz`` and ``.csv`` get all channels and ``shape``, from
+        which :func:`~isophote.read` takes the mask; ``.npy`` gets one channel, ``.png`` is a picture of one.
+
+        The other options are for pictures alone: black and white are the values of ``range`` (by default 0 and the
+        maximum), levels are raised to the power 1/``gamma`` (1), with 8 or 16 ``bits`` (8), or shown in the colours of
+        ``colormap``.
+        """
         suffix = os.path.splitext(os.fspath(path))[1].lower()
+        holds_all = suffix in (".exr", ".npz", ".csv")
+        given = {"range": range, "gamma": gamma, "bits": bits, "colormap": colormap}
+        idle = [name for name, value in given.items() if value is not None and suffix in (".exr", ".npz", ".csv", ".npy")]
+        if holds_all and channel is not None:
+            idle.insert(0, "channel")
+        if idle:
+            allowed = "for .npy and .png" if idle[0] == "channel" else "for .png"
+            raise ArgumentError(f"{idle[0]} has no effect on a {suffix} file; allowed: {allowed}")
         if channel is None:
-            holds_all = suffix in (".exr", ".npz", ".csv")
             channel = (
                 "color" if suffix == ".png" and "color" in self else next(iter(self)) if holds_all else self._main(None)
             )
-        self[channel]
+        if channel not in self.units:
+            raise KeyError(self._missing(channel))
+        if channel == "color":
+            for name in ("gamma", "colormap"):
+                if given[name] is not None:
+                    raise ArgumentError(f"{name} has no effect on the channel 'color', which is encoded as sRGB")
         bounds = None
         if range is not None:
             bounds = [_number(bound, "range") for bound in range]
             if len(bounds) != 2:
                 raise ArgumentError(f"range has {len(bounds)} numbers; allowed: the values of black and white")
-        if bits not in (8, 16):
+        if bits not in (None, 8, 16):
             raise ArgumentError(f"bits is {bits!r}; allowed: 8, 16")
-        self._core.save(os.fspath(path), channel, bounds, _number(gamma, "gamma"), bits, colormap)
+        power = 1.0 if gamma is None else _number(gamma, "gamma")
+        self._core.save(os.fspath(path), channel, bounds, power, 8 if bits is None else int(bits), colormap)
 
     def to_xarray(self) -> xarray.Dataset:
         """An xarray Dataset: dims ``("y", "x")`` with coordinates in their units, ``units`` in the attributes; vectors
@@ -240,19 +301,23 @@ class Map(Mapping[str, NDArray[Any]]):
         self,
         channel: str | None = None,
         *,
-        isophotes: int | Sequence[float] = 0,
+        isophotes: bool | int | Sequence[float] = 0,
         ax: matplotlib.axes.Axes | None = None,
         **imshow: Any,
     ) -> matplotlib.axes.Axes:
-        """Draws a channel with matplotlib, with axes and a colour bar in units, and labelled isophotes; further options
-        are passed to ``imshow``."""
+        """Draws a channel with matplotlib, with axes and a colour bar in units.
+
+        ``isophotes``: levels, or about how many round ones; ``True`` for about six. They are labelled where there is room.
+        ``ax``: where to draw; by default the current axes, or a new figure if these hold something already. Further
+        options are passed to ``imshow``, except ``extent`` and ``origin``, which are the map's own.
+        """
         from ._plots import plot_map
 
         return plot_map(self, channel, isophotes, ax, imshow)
 
     def __repr__(self) -> str:
         height, width = self.shape
-        units = (f"{name} [{unit}]" if unit not in ("", "1") else name for name, unit in self._units.items())
+        units = (f"{name} [{unit}]" if unit not in ("", "1") else name for name, unit in self.units.items())
         return f"<Map {width}×{height}: {', '.join(units)}; {self.metadata['convention']}, {self.metadata['renderer']}>"
 
     def _repr_html_(self) -> str:
@@ -269,7 +334,25 @@ class Map(Mapping[str, NDArray[Any]]):
         return f"{thumbnail}{_html.table(rows)}{self.scene._repr_html_()}"
 
 
+def axes_of(core: _isophote.Map) -> tuple[Axis, Axis]:
+    """The axes of a map of the compiled part."""
+    x, y = (Axis(name, title, unit, (edges[0], edges[1])) for name, title, unit, edges in core.axes())
+    return x, y
+
+
 _MOST_LEVELS = 1000
+
+
+def _unpickle(
+    kind: type[Map],
+    state: dict[str, Any],
+    metadata: str,
+    channels: list[tuple[str, NDArray[Any]]],
+    shapes: NDArray[np.int32],
+) -> Map:
+    found = object.__new__(kind)
+    found.__dict__.update(state, _core=_isophote.Map.of(metadata, channels, shapes))
+    return found
 
 
 def _number(value: float, name: str) -> float:

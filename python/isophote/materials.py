@@ -14,8 +14,13 @@ __all__ = ["Convention", "Material"]
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Material(Part):
-    """The material of a surface: the diffuse coefficient k_d, the specular coefficient k_s (numbers, or one for each of
-    red, green and blue), and the shininess n, which is required unless k_s is 0."""
+    """The material of a surface. Coefficients are numbers, or one for each of red, green and blue; their unit is that of
+    the convention.
+
+    - ``diffuse``: the diffuse coefficient k_d, from 0
+    - ``specular``: the specular coefficient k_s, from 0
+    - ``shininess``: n, above 0 and up to 100,000; required unless k_s is 0
+    """
 
     diffuse: Amount
     specular: Amount = 0.0

@@ -10,12 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _html, _isophote
 from ._progress import Progress, reporter
+from ._types import Elsewhere
+from ._xarray import COMPONENTS, needed
 from .errors import ArgumentError, ProbeError
 from .rendering import counted, positive
-from .scene import Scene
+from .scene import Scene, SceneOrPath, scene_of
 
 if TYPE_CHECKING:
     import matplotlib.axes
+    import pandas
 
 __all__ = ["Probes", "Section", "Values", "probe", "section"]
 
@@ -25,8 +28,21 @@ class Values(Mapping[str, NDArray[Any]]):
 
     ``position`` and ``normal`` (n × 3), ``brightness``, ``irradiance``, ``ambient``, ``diffuse``, ``specular``,
     ``cos_theta_o``, ``shape`` and ``part`` (indices), ``seen`` (whether the eye sees the point). Where there is no surface
-    they are NaN, and ``shape`` is −1.
+    they are NaN, and ``shape`` and ``part`` are −1.
     """
+
+    position: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    brightness: NDArray[np.float64]
+    irradiance: NDArray[np.float64]
+    ambient: NDArray[np.float64]
+    diffuse: NDArray[np.float64]
+    specular: NDArray[np.float64]
+    cos_theta_o: NDArray[np.float64]
+    color: NDArray[np.float64]
+    shape: NDArray[np.int32]
+    part: NDArray[np.int32]
+    seen: NDArray[np.bool_]
 
     def __init__(self, scene: Scene, arrays: Mapping[str, NDArray[Any]], names: Sequence[str]) -> None:
         self._scene = scene
@@ -60,6 +76,12 @@ class Values(Mapping[str, NDArray[Any]]):
             return arrays[name]
         raise AttributeError(f"there is no {name!r}; there are: {', '.join(arrays)}")
 
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self})
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
     @property
     def scene(self) -> Scene:
         """The scene in which the values were computed."""
@@ -68,7 +90,12 @@ class Values(Mapping[str, NDArray[Any]]):
     @property
     def count(self) -> int:
         """The number of points."""
-        return len(self._arrays["shape"])
+        return int(self._arrays["shape"].size)
+
+    def _rows(self, name: str) -> NDArray[Any]:
+        """An array with one row per point, whatever the shape of the points' own array."""
+        array = self[name]
+        return array.reshape(self.count, *array.shape[self._arrays["shape"].ndim :])
 
     @property
     def units(self) -> dict[str, str]:
@@ -84,14 +111,33 @@ class Values(Mapping[str, NDArray[Any]]):
             return self._scene.unit("irradiance")
         return self._scene.unit(name)
 
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A pandas DataFrame with a row for each point; vectors and lights are columns such as ``position.x``,
+        ``color.red`` and ``light.lamp``."""
+        needed("pandas")
+        import pandas
+
+        columns: dict[str, NDArray[Any]] = {}
+        for name in self:
+            array = self._rows(name)
+            if array.ndim == 1:
+                columns[name] = array
+            elif name == "lights":
+                lights = self._scene.core.describe()["lights"]
+                columns.update({f"light.{light}": array[:, number] for number, light in enumerate(lights)})
+            else:
+                labels = COMPONENTS[name][1] if name in COMPONENTS else ["x", "y"]
+                columns.update({f"{name}.{label}": array[:, number] for number, label in enumerate(labels)})
+        return pandas.DataFrame(columns, index=list(self._names) or None)
+
     def _table(self) -> list[str]:
         about = self._scene.core.describe()
         length = self._scene.length
         lines = []
-        indices = np.flatnonzero(self["shape"] >= 0)
+        indices = np.flatnonzero(self._rows("shape") >= 0)
         for index in indices[:_SHOWN]:
-            x, y, z = self["position"][index]
-            brightness, irradiance = self["brightness"][index], self["irradiance"][index]
+            x, y, z = self._rows("position")[index]
+            brightness, irradiance = self._rows("brightness")[index], self._rows("irradiance")[index]
             where = f"({x:.6g}, {y:.6g}, {z:.6g}) {length}"
             values = f"B = {brightness:.15g} {about['brightness_unit']}, E = {irradiance:.15g} {about['irradiance_unit']}"
             name = self._names[index] if index < len(self._names) else f"[{index}]"
@@ -115,6 +161,8 @@ _SHOWN = 10
 
 class Probes(Values):
     """The result of :func:`probe`. For many points, some arrays are computed only when they are first used."""
+
+    lights: NDArray[np.float64]
 
     def __init__(
         self,
@@ -146,7 +194,7 @@ class Probes(Values):
 
     def _complete(self) -> None:
         """Computes the arrays that were left out."""
-        arrays = self._places.arrays(self._scene, None)
+        arrays = self._places.shaped(self._places.arrays(self._scene, None))
         for name in self._later:
             arrays[name].flags.writeable = False
             self._arrays[name] = arrays[name]
@@ -168,31 +216,48 @@ class Probes(Values):
     def _explain(self, index: int) -> str:
         places = self._places
         name = self._names[index] if index < len(self._names) else f"point {index}"
-        if self["shape"][index] < 0:
+        if self._rows("shape")[index] < 0:
             return f"{name}: no surface\n"
         if places.pixels is not None:
             column, row = (int(number) for number in places.pixels[index])
-            return _isophote.explain(self._scene.core, index, f"pixel {column},{row}", None, [column, row], False)
+            return _isophote.explain(self._scene.core, index, f"pixel {column},{row}", None, [column, row], None, False)
+        if places.screen is not None:
+            x, y = (float(number) for number in places.screen[index])
+            return _isophote.explain(self._scene.core, index, f"screen point {x:g},{y:g}", None, None, [x, y], False)
         assert places.points is not None
         point = [float(coordinate) for coordinate in places.points[index]]
-        return _isophote.explain(self._scene.core, index, name, point, None, places.elsewhere == "nearest")
+        return _isophote.explain(self._scene.core, index, name, point, None, None, places.elsewhere == "nearest")
 
 
 class _Places:
     """Where to compute values."""
 
     def __init__(
-        self, points: NDArray[np.float64] | None, pixels: NDArray[np.uint32] | None, elsewhere: str, per_light: bool
+        self,
+        points: NDArray[np.float64] | None,
+        pixels: NDArray[np.uint32] | None,
+        elsewhere: str,
+        per_light: bool,
+        shape: tuple[int, ...],
+        screen: NDArray[np.float64] | None = None,
     ) -> None:
+        self.shape = shape
+        self.screen = screen
         self.points = points
         self.pixels = pixels
         self.elsewhere = elsewhere
         self.per_light = per_light
 
+    def shaped(self, arrays: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+        """The arrays with the dimensions of the array of places, in which these have one row per point."""
+        return {name: array.reshape(*self.shape, *array.shape[1:]) for name, array in arrays.items()}
+
     def arrays(self, scene: Scene, report: Any) -> dict[str, NDArray[Any]]:
         """All arrays, computed point by point."""
         if self.pixels is not None:
             return _isophote.probe_pixels(scene.core, self.pixels, self.elsewhere, self.per_light, report)
+        if self.screen is not None:
+            return _isophote.probe_screen(scene.core, self.screen, self.elsewhere, self.per_light, report)
         assert self.points is not None
         return _isophote.probe_points(scene.core, self.points, self.elsewhere, self.per_light, report)
 
@@ -226,11 +291,12 @@ _NAMES = (
 
 
 def probe(
-    scene: Scene,
+    scene: SceneOrPath,
     *,
     at: ArrayLike | None = None,
     pixels: ArrayLike | None = None,
-    elsewhere: str = "error",
+    screen: ArrayLike | None = None,
+    elsewhere: Elsewhere = "error",
     per_light: bool = False,
     progress: Progress = None,
 ) -> Probes:
@@ -239,42 +305,54 @@ def probe(
     More than a thousand points on a few spheres are computed several at a time, which may round the last bits
     differently, and only as needed: brightness and irradiance at once, the other arrays when they are first used.
 
-    ``at``: n points, n × 3, in the scene's unit. ``pixels``: n × 2, columns and rows: the points seen at their centres.
-    If neither is given, the scene's own probes.
+    ``at``: points in the scene's unit, n × 3 or an array of any shape (…, 3), whose leading dimensions the results then
+    have. ``pixels``: n × 2 or (…, 2), columns and rows: the points seen at their centres. ``screen``: (…, 2), points (x, y)
+    of the screen in the units of a map's axes, of any fraction of a pixel and outside the window too: the points seen there,
+    such as those of a lens with distortion. If none is given, the scene's own probes.
     ``elsewhere``: how to treat points that are not on a surface: ``"error"``, ``"nearest"`` (use the nearest point on a
     surface) or ``"nan"``.
     ``per_light``: whether to include the irradiance from each light: ``lights``, n × lights.
     """
+    scene = scene_of(scene)
     if elsewhere not in ("error", "nearest", "nan"):
         raise ArgumentError(f"elsewhere is {elsewhere!r}; allowed: error, nearest, nan")
-    if at is not None and pixels is not None:
-        raise ArgumentError("say where once: either at or pixels")
+    if sum(place is not None for place in (at, pixels, screen)) > 1:
+        raise ArgumentError("say where once: one of at, pixels and screen")
     names: list[str] = []
-    if pixels is not None:
-        places = _Places(None, _pixels(pixels), elsewhere, per_light)
+    if at is None and elsewhere == "nearest" and (pixels is not None or screen is not None):
+        raise ArgumentError('elsewhere="nearest" has no effect on pixels and screen points; allowed: error, nan')
+    if screen is not None:
+        places_on = _pairs(screen, "screen")
+        leading = places_on.shape[:-1]
+        places = _Places(None, None, elsewhere, per_light, leading, places_on.reshape(-1, 2))
+    elif pixels is not None:
+        columns_and_rows = _pixels(pixels)
+        leading = columns_and_rows.shape[:-1]
+        places = _Places(None, columns_and_rows.reshape(-1, 2), elsewhere, per_light, leading)
     else:
         if at is None:
             names = list(scene.core.describe()["probes"])
             if not names:
                 raise ArgumentError("the scene has no probes; say where: at=[(x, y, z), …] or pixels=[(column, row), …]")
             at = np.array([one.at for one in scene.probes])
-        places = _Places(points(at, "at"), None, elsewhere, per_light)
+        placed = points(at, "at")
+        places = _Places(placed.reshape(-1, 3), None, elsewhere, per_light, placed.shape[:-1])
     with reporter(progress, "points") as report:
         values = places.values(scene, report)
         if values is not None:
-            return Probes(scene, values, names, places, _NAMES)
-        return Probes(scene, places.arrays(scene, report), names, places)
+            return Probes(scene, places.shaped(values), names, places, _NAMES)
+        return Probes(scene, places.shaped(places.arrays(scene, report)), names, places)
 
 
 def points(values: ArrayLike, name: str) -> NDArray[np.float64]:
-    """An n × 3 array; a single point counts as n = 1."""
+    """An array (…, 3); a single point counts as 1 × 3."""
     array = numbers(values, name)
     if array.ndim == 1 and array.shape == (3,):
         array = array.reshape(1, 3)
     if array.size == 0 and array.ndim <= 2:
         array = array.reshape(0, 3)
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise ProbeError(f"{name} has the shape {array.shape}; allowed: n × 3")
+    if array.ndim < 2 or array.shape[-1] != 3:
+        raise ProbeError(f"{name} has the shape {array.shape}; allowed: n × 3, or (…, 3)")
     # A copy, so that arrays computed later are for the same points.
     return np.array(array, dtype=np.float64, order="C")
 
@@ -290,14 +368,23 @@ def numbers(values: ArrayLike, name: str) -> NDArray[Any]:
     return array
 
 
+def _pairs(values: ArrayLike, name: str) -> NDArray[np.float64]:
+    array = numbers(values, name)
+    if array.ndim == 1 and array.shape == (2,):
+        array = array.reshape(1, 2)
+    if array.ndim < 2 or array.shape[-1] != 2:
+        raise ProbeError(f"{name} has the shape {array.shape}; allowed: n × 2, or (…, 2)")
+    return np.array(array, dtype=np.float64, order="C")
+
+
 def _pixels(values: ArrayLike) -> NDArray[np.uint32]:
     array = numbers(values, "pixels")
     if array.ndim == 1 and array.shape == (2,):
         array = array.reshape(1, 2)
     if array.size == 0 and array.ndim <= 2:
         array = array.reshape(0, 2).astype(np.uint32)
-    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
-        raise ProbeError(f"pixels has the shape {array.shape} of {array.dtype}; allowed: n × 2 whole numbers")
+    if array.ndim < 2 or array.shape[-1] != 2 or array.dtype.kind not in "iu":
+        raise ProbeError(f"pixels has the shape {array.shape} of {array.dtype}; allowed: n × 2, or (…, 2), whole numbers")
     if array.size and (array.min() < 0 or array.max() >= 2**32):
         raise ProbeError("pixels has numbers out of bounds; allowed: columns and rows of the image, from 0")
     return np.ascontiguousarray(array, dtype=np.uint32)
@@ -305,6 +392,8 @@ def _pixels(values: ArrayLike) -> NDArray[np.uint32]:
 
 class Section(Values):
     """The result of :func:`section`; ``screen`` holds the positions on the screen, n × 2."""
+
+    screen: NDArray[np.float64]
 
     @property
     def distance(self) -> NDArray[np.float64]:
@@ -316,31 +405,38 @@ class Section(Values):
         return self._scene.core.describe()["screen_unit"] if name == "screen" else super()._unit(name)
 
     def plot(self, *names: str, ax: matplotlib.axes.Axes | None = None, **options: Any) -> matplotlib.axes.Axes:
-        """Draws values along the line with matplotlib, by default the brightness; further options are passed to ``plot``."""
+        """Draws values along the line with matplotlib, by default the brightness.
+
+        ``ax``: where to draw; by default the current axes, or a new figure if these hold something already. Further
+        options are passed to ``plot``.
+        """
         from ._plots import plot_section
 
         return plot_section(self, names or ("brightness",), ax, options)
 
 
 def section(
-    scene: Scene,
+    scene: SceneOrPath,
     *,
     row: int | None = None,
     column: int | None = None,
     between: ArrayLike | None = None,
-    samples: int = 501,
+    samples: int | None = None,
 ) -> Section:
     """The values along a line on the screen, each traced and summed in double precision: at the pixel centres of a
-    ``row`` or ``column``, or at ``samples`` points ``between`` two points (x, y) on the screen."""
+    ``row`` or ``column``, or at ``samples`` points (501) ``between`` two points (x, y) on the screen."""
+    scene = scene_of(scene)
     if sum(place is not None for place in (row, column, between)) != 1:
         raise ArgumentError("say where: one of row, column and between")
     ends = None
     if between is not None:
         ends = _ends(between)
+    elif samples is not None:
+        raise ArgumentError("samples has no effect on a row or a column, which has a point at each pixel centre")
     for name, value in (("row", row), ("column", column)):
         if value is not None:
             counted(value, name)
-    arrays = _isophote.section(scene.core, row, column, ends, positive(samples, "samples"))
+    arrays = _isophote.section(scene.core, row, column, ends, positive(501 if samples is None else samples, "samples"))
     return Section(scene, arrays, ())
 
 

@@ -7,9 +7,10 @@ from collections.abc import Iterable, Sequence
 from . import _isophote
 from ._convert import Invalid, Size, whole
 from ._progress import Progress, reporter
+from ._types import Precision
 from .errors import ArgumentError
 from .map import Map
-from .scene import Scene
+from .scene import Scene, SceneOrPath, scene_of
 
 __all__ = ["Channels", "channel_names", "render"]
 
@@ -63,16 +64,16 @@ def counted(value: int, name: str, least: int = 0, bound: int = 2**31) -> int:
 
 
 def render(
-    scene: Scene,
+    scene: SceneOrPath,
     *,
     channels: Channels = None,
     size: Size | None = None,
     region: tuple[int, int, int, int] | None = None,
-    precision: str = "double",
+    precision: Precision = "double",
     threads: int | None = None,
     progress: Progress = None,
 ) -> Map:
-    """The map of a scene.
+    """The map of a scene, or of a file that has one.
 
     ``channels``: names such as ``"brightness"`` (the default, with ``"color"`` if the scene has colours),
     ``"irradiance"``, ``"normal"``, ``"light.lamp"``; ``"lights"`` for every light separately, ``"all"`` for everything.
@@ -84,6 +85,7 @@ def render(
 
     The interpreter's lock is released while rendering, and Ctrl-C stops it.
     """
+    scene = scene_of(scene)
     if size is not None:
         scene = scene.with_resolution(size)
     names = channel_names(scene, channels)

@@ -15,21 +15,28 @@ from typing import Annotated, Any
 import numpy as np
 
 from . import _isophote
-from ._convert import Flag, Invalid, Number, Size, Vector, Word
+from ._convert import Flag, FrozenDict, Invalid, Number, Size, Vector, Word, word
 from ._part import Part
 from ._paths import locate
+from ._types import ColorSpace, ConventionName, Handedness, LengthUnit, Quantities, Side
+from ._words import Named
 from .camera import Camera, Sampling
-from .errors import ArgumentError, SceneWarning
-from .lights import Ambient, Light, light_from_dict
+from .errors import ArgumentError, Problem, SceneWarning
+from .lights import Ambient, AnyLight, Light, light_from_dict
 from .materials import Material
-from .shapes import KINDS, Mesh, Shape, Spheres
+from .shapes import KINDS, AnyShape, Mesh, Shape, Spheres
 
 __all__ = ["Grid", "Probe", "Scene"]
 
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Probe(Part):
-    """A point on a surface whose values are reported. ``published`` is a value that has been published for it."""
+    """A point on a surface whose values are reported.
+
+    - ``at``: the point, in the scene's unit
+    - ``name``: unique among the probes
+    - ``published``: a value that has been published for it, in the unit of the brightness
+    """
 
     at: Vector
     name: Word | None = None
@@ -38,9 +45,15 @@ class Probe(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Grid(Part):
-    """Points on a rectangle at which the irradiance is computed: ``points`` gives their number along the edges ``u`` and
-    ``v``, which start at ``corner`` or are centred on ``center``. ``side`` is ``"front"`` (towards u × v) or
-    ``"back"``."""
+    """Points on a rectangle at which the irradiance is computed.
+
+    - ``u``, ``v``: its edges, vectors in the scene's unit
+    - ``points``: their number along u and along v, from 1
+    - ``corner``: where both edges begin, a point
+    - ``center``: instead, the centre of the rectangle
+    - ``name``: unique among the grids
+    - ``side``: ``"front"`` (towards u × v) or ``"back"``
+    """
 
     u: Vector
     v: Vector
@@ -48,7 +61,7 @@ class Grid(Part):
     corner: Vector | None = None
     center: Vector | None = None
     name: Word | None = None
-    side: Word = "front"
+    side: Annotated[Side, word] = "front"
 
 
 def _several(kind: type[Part]) -> Any:
@@ -78,7 +91,7 @@ def _materials(value: Any) -> Mapping[str, Material]:
     for name, material in value.items():
         if not isinstance(name, str) or not isinstance(material, Material):
             raise Invalid(f"has {name!r}: {material!r} in it", "allowed: a dictionary from names to Material")
-    return MappingProxyType(dict(value))
+    return FrozenDict(value)
 
 
 def _directory(value: Any) -> str:
@@ -92,23 +105,35 @@ class Scene(Part):
     A scene is always valid: creating one checks everything, and :class:`~isophote.errors.SceneError` lists everything
     that is wrong. It is immutable: :meth:`replace` and :meth:`set` return modified copies.
 
-    ``length`` is the unit of all lengths: ``"m"``, ``"cm"`` or ``"mm"``. ``shapes`` are kept in the order of maps and
-    probes, grouped by kind. ``directory`` is the base directory for relative file names. ``shadows`` says whether shapes
-    block light from each other; a scene with several shapes that does not say so gets a warning.
+    - ``length``: the unit of all lengths, ``"m"``, ``"cm"`` or ``"mm"``
+    - ``camera``: the observer
+    - ``title``: a line that says what the scene is
+    - ``convention``: the formula of the brightness, one of :class:`Convention`
+    - ``handedness``: ``"right"`` or ``"left"``: which way x runs on the screen (2.3)
+    - ``quantities``: ``"radiometric"`` (W) or ``"photometric"`` (lm)
+    - ``color_space``: that of three-valued amounts, ``"rec709"``, ``"rec2020"``, ``"display-p3"`` or ``"acescg"``
+    - ``shadows``: whether shapes block light from each other; several shapes in a scene that does not say so are a warning
+    - ``sampling``: rays per pixel, one by default
+    - ``materials``: a dictionary from names
+    - ``shapes``: in the order of maps and probes, grouped by kind; up to 100,000
+    - ``lights``: up to 100,000
+    - ``ambient``: light from all around
+    - ``probes``, ``grids``: points whose values are asked for
+    - ``directory``: where relative file names start
     """
 
-    length: Word
+    length: Annotated[LengthUnit, word]
     camera: Camera
     title: Word = ""
-    convention: Word = "radiance"
-    handedness: Word = "right"
-    quantities: Word = "radiometric"
-    color_space: Word = "rec709"
+    convention: Annotated[ConventionName, word] = "radiance"
+    handedness: Annotated[Handedness, word] = "right"
+    quantities: Annotated[Quantities, word] = "radiometric"
+    color_space: Annotated[ColorSpace, word] = "rec709"
     shadows: Flag | None = None
     sampling: Sampling | None = None
     materials: Annotated[Mapping[str, Material], _materials] = dataclasses.field(default_factory=dict)
-    shapes: Annotated[Sequence[Shape], _shapes] = ()
-    lights: Annotated[Sequence[Light], _several(Light)] = ()
+    shapes: Annotated[Sequence[AnyShape], _shapes] = ()
+    lights: Annotated[Sequence[AnyLight], _several(Light)] = ()
     ambient: Ambient | None = None
     probes: Annotated[Sequence[Probe], _several(Probe)] = ()
     grids: Annotated[Sequence[Grid], _several(Grid)] = ()
@@ -121,9 +146,15 @@ class Scene(Part):
     def _check(self, earlier: Scene | None) -> None:
         """Lets the core check the scene, and keeps the checked scene."""
         written, directory = json.dumps(self.to_dict()), str(self.directory)
-        core = _isophote.Scene.from_json(written, directory, None if earlier is None else earlier.core)
+        before = None if earlier is None else earlier.core
+        core = self.named.checked(lambda: _isophote.Scene.from_json(written, directory, before))
         object.__setattr__(self, "_core", core)
-        self._warn(earlier)
+        self._warn(earlier, in_python=True)
+
+    @property
+    def named(self) -> Named:
+        """The parts that messages are about, private to the package."""
+        return Named(self.shapes, self.lights, self.probes, self.grids, self.materials)
 
     @property
     def core(self) -> _isophote.Scene:
@@ -131,12 +162,13 @@ class Scene(Part):
         core: _isophote.Scene = self._core  # type: ignore[attr-defined]
         return core
 
-    def _warn(self, earlier: Scene | None = None) -> None:
+    def _warn(self, earlier: Scene | None = None, in_python: bool = False) -> None:
         """Issues the scene's warnings, except those already issued for an earlier scene."""
-        known = set() if earlier is None else {str(problem) for problem in earlier.core.warnings()}
+        known = set() if earlier is None else {_about(problem) for problem in earlier.core.warnings()}
         for problem in self.core.warnings():
-            if str(problem) not in known:
-                warnings.warn(str(problem), SceneWarning, stacklevel=_callers_level())
+            if _about(problem) not in known:
+                message = str(self.named.of(problem) if in_python else problem)
+                warnings.warn(message, SceneWarning, stacklevel=_callers_level())
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Scene:
@@ -174,7 +206,7 @@ class Scene(Part):
         Part.__post_init__(scene)
         object.__setattr__(scene, "_core", core)
         if warns:
-            scene._warn(earlier)
+            scene._warn(earlier, in_python=earlier is not None)
         return scene
 
     def replace(self, **changes: Any) -> Scene:
@@ -215,7 +247,7 @@ class Scene(Part):
         width, height = self.camera.replace(resolution=resolution).resolution
         if not (0 <= width < 2**32 and 0 <= height < 2**32):
             raise ArgumentError(f"resolution is {width}×{height}; allowed: 1 to 1000000 columns and rows")
-        core = self.core.with_resolution(int(width), int(height))
+        core = self.named.checked(lambda: self.core.with_resolution(int(width), int(height)))
         return self.of_core(core, self.directory, earlier=self)
 
     def set(self, values: Mapping[str, Any]) -> Scene:
@@ -223,12 +255,14 @@ class Scene(Part):
 
         A path is that of a scene file, with the item's name in the middle: ``light.lamp.position``,
         ``material.clay.shininess``, ``sphere.ball.radius``, ``camera.eye``, ``camera.screen.distance``, ``convention``.
-        Items without a name are numbered from 0: ``light[0].position``. ``None`` removes a value.
+        Items without a name are numbered from 0: ``light[0].position``. ``None`` removes a value. A path may lead to a whole
+        part: ``light.lamp``, ``material.clay``, ``sphere.ball``.
         """
         written = self.to_dict()
         for path, value in values.items():
             locate(self, path).put(written, value)
-        core = _isophote.Scene.from_json(json.dumps(written), str(self.directory), self.core)
+        text, directory = json.dumps(written), str(self.directory)
+        core = self.named.checked(lambda: _isophote.Scene.from_json(text, directory, self.core))
         return self.of_core(core, self.directory, earlier=self)
 
     def unit(self, channel: str) -> str:
@@ -281,6 +315,24 @@ class Scene(Part):
         return f"<pre>{escaped(repr(self)[1:-1])}</pre>"
 
 
+SceneOrPath = Scene | str | os.PathLike[str]
+"""A scene, or the path of a file that has one."""
+
+
+def scene_of(given: SceneOrPath) -> Scene:
+    """The given scene, or that of a file: a scene file, or any other that Isophote has written."""
+    if isinstance(given, Scene):
+        return given
+    if not isinstance(given, (str, os.PathLike)):
+        raise ArgumentError(f"scene is {given!r}; allowed: a Scene, or the path of a scene file")
+    path = os.fspath(given)
+    if os.path.splitext(path)[1].lower() in (".toml", ".json"):
+        return Scene.from_file(path)
+    from .files import read
+
+    return scene_of(read(path).scene)
+
+
 _LISTS = ("materials", "shapes", "lights", "probes", "grids")
 _SHOWN = 12
 # fmt: off
@@ -295,6 +347,11 @@ _ANGLES = ("inner_angle", "outer_angle")
 def _unpickle(text: str, directory: str) -> Scene:
     # The warnings were issued when the scene was created.
     return Scene.of_core(_isophote.Scene.from_text(text, True, "the scene", directory), directory, warns=False)
+
+
+def _about(problem: Problem) -> str:
+    """What a warning is about. That pixels are not square is said once, not again for every camera and size."""
+    return "pixels" if problem.message.startswith("pixels are not square") else str(problem)
 
 
 def _callers_level() -> int:
@@ -328,6 +385,8 @@ def _fields(written: dict[str, Any]) -> dict[str, Any]:
 
 
 def _text(value: Any) -> str:
+    if isinstance(value, tuple) and len(value) > 3:
+        return f"{len(value)} × 3"
     if isinstance(value, tuple):
         return f"({', '.join(_text(item) for item in value)})"
     return f"{value:g}" if isinstance(value, float) else str(value)

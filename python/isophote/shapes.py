@@ -1,4 +1,4 @@
-"""Shapes. Lengths are in the scene's unit, angles in degrees."""
+"""Shapes. Lengths are in the scene's unit, each above 0 (1e-12 to 1e15 m); coordinates up to ±1e15 m; angles in degrees."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import ClassVar
 
-from ._convert import Flag, Number, Vector, Word
+from ._convert import File, Flag, MaterialName, Number, Triples, Vector, Vectors, Word
 from ._part import Part
 
 __all__ = [
@@ -27,7 +27,11 @@ __all__ = [
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Rotation(Part):
-    """A rotation by ``degrees`` about ``axis``, counter-clockwise when looking against the axis."""
+    """A rotation, counter-clockwise when looking against the axis.
+
+    - ``axis``: a direction of any length but 0
+    - ``degrees``: by how much, any finite number
+    """
 
     axis: Vector
     degrees: Number
@@ -35,20 +39,29 @@ class Rotation(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Shape(Part):
-    """The fields common to all shapes: a name, the name of a material, and whether they cast and receive shadows."""
+    """The fields common to all shapes.
+
+    - ``name``: unique among the shapes; by default the kind and a number
+    - ``material``: its name among the scene's ``materials``; may be left out if there is only one
+    - ``casts_shadow``, ``receives_shadow``: where the scene has ``shadows``
+    """
 
     KEY: ClassVar[str]
     """The table in scene files for such shapes."""
 
     name: Word | None = None
-    material: Word | None = None
+    material: MaterialName | None = None
     casts_shadow: Flag = True
     receives_shadow: Flag = True
 
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Sphere(Shape):
-    """A sphere (2.2)."""
+    """A sphere (2.2).
+
+    - ``center``: a point
+    - ``radius``: a length
+    """
 
     KEY = "sphere"
     center: Vector
@@ -57,7 +70,12 @@ class Sphere(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Ellipsoid(Shape):
-    """An ellipsoid with radii along its own x, y and z."""
+    """An ellipsoid.
+
+    - ``center``: a point
+    - ``radii``: three lengths, along its own x, y and z
+    - ``rotation``: by which it is turned
+    """
 
     KEY = "ellipsoid"
     center: Vector
@@ -67,7 +85,12 @@ class Ellipsoid(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Box(Shape):
-    """A box with sides along its own x, y and z."""
+    """A box.
+
+    - ``center``: a point
+    - ``size``: three lengths, along its own x, y and z
+    - ``rotation``: by which it is turned
+    """
 
     KEY = "box"
     center: Vector
@@ -77,7 +100,11 @@ class Box(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Cylinder(Shape):
-    """A cylinder with both end caps, from the centre of one to the centre of the other."""
+    """A cylinder with both end caps.
+
+    - ``start``, ``end``: the centres of the caps (``from`` and ``to`` in scene files)
+    - ``radius``: a length
+    """
 
     KEY = "cylinder"
     # `from` is a keyword in Python.
@@ -89,7 +116,12 @@ class Cylinder(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Cone(Shape):
-    """A cone with its base, truncated at the top if ``apex_radius`` is not 0."""
+    """A cone with its base.
+
+    - ``base``, ``apex``: the centre of the base, and the tip
+    - ``radius``: of the base, a length
+    - ``apex_radius``: 0, or a length: then the cone is truncated and has a cap there too
+    """
 
     KEY = "cone"
     base: Vector
@@ -100,7 +132,11 @@ class Cone(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Plane(Shape):
-    """An infinite plane."""
+    """An infinite plane.
+
+    - ``point``: any of its points
+    - ``normal``: a direction of any length but 0
+    """
 
     KEY = "plane"
     point: Vector
@@ -109,7 +145,13 @@ class Plane(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Rectangle(Shape):
-    """A rectangle, visible from both sides; its height runs along ``up``."""
+    """A rectangle, visible from both sides.
+
+    - ``center``: a point
+    - ``normal``: the direction to its front, of any length but 0
+    - ``width``, ``height``: lengths
+    - ``up``: the direction along which its height runs, not parallel to the normal
+    """
 
     KEY = "rectangle"
     center: Vector
@@ -121,7 +163,12 @@ class Rectangle(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Disk(Shape):
-    """A disk, visible from both sides."""
+    """A disk, visible from both sides.
+
+    - ``center``: a point
+    - ``normal``: the direction to its front, of any length but 0
+    - ``radius``: a length
+    """
 
     KEY = "disk"
     center: Vector
@@ -131,10 +178,24 @@ class Disk(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Mesh(Shape):
-    """A triangle mesh (2.5) from an OBJ, PLY, STL or binary glTF file; it is scaled, then rotated, then moved."""
+    """A triangle mesh (2.5); it is scaled, then rotated, then moved.
+
+    - ``file``: an OBJ, PLY, STL or binary glTF file, by its path from the scene's ``directory``
+    - ``vertices``: instead, the points of the mesh, n × 3
+    - ``faces``: with them, the three corners of each triangle, m × 3, as indices of vertices from 0; counter-clockwise as seen
+      from outside
+    - ``normals``: with them, a direction at each vertex for smooth shading, n × 3
+    - ``scale``: a factor along each of its own axes, 1e-12 to 1e12
+    - ``rotation``: by which it is turned
+    - ``position``: where the file's origin goes, a point
+    - ``smooth``: whether the file's normals are used, if it has any
+    """
 
     KEY = "mesh"
-    file: Word
+    file: File | None = None
+    vertices: Vectors | None = None
+    faces: Triples | None = None
+    normals: Vectors | None = None
     scale: Vector = (1.0, 1.0, 1.0)
     rotation: Rotation | None = None
     position: Vector = (0.0, 0.0, 0.0)
@@ -143,11 +204,17 @@ class Mesh(Shape):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Spheres(Shape):
-    """Many spheres, from a CSV, NPY or PLY file of centres and radii."""
+    """Many spheres.
+
+    - ``file``: a CSV, NPY or PLY file of centres and radii, by its path from the scene's ``directory``
+    """
 
     KEY = "spheres"
-    file: Word
+    file: File
 
+
+AnyShape = Sphere | Ellipsoid | Box | Cylinder | Cone | Plane | Rectangle | Disk | Mesh | Spheres
+"""Any kind of shape."""
 
 KINDS: tuple[type[Shape], ...] = (
     Sphere,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -11,9 +10,11 @@ from typing import TYPE_CHECKING, Any
 from . import _isophote
 from ._convert import Size
 from ._progress import Progress, reporter
+from ._types import Precision
+from ._xarray import open_store
 from .errors import ArgumentError
 from .rendering import Channels, channel_names, counted, positive, threads_of
-from .scene import Scene
+from .scene import Scene, SceneOrPath, scene_of
 
 if TYPE_CHECKING:
     import distributed
@@ -24,8 +25,11 @@ __all__ = ["ChannelStatistics", "StoredMap", "render_to_zarr"]
 
 @dataclass(frozen=True)
 class ChannelStatistics:
-    """Minimum, maximum and mean of a channel over the pixels that see a surface; ``argmin`` and ``argmax`` are (row,
-    column)."""
+    """Statistics of a channel over the pixels that see a surface, in the channel's unit.
+
+    - ``min``, ``max``, ``mean``: the values
+    - ``argmin``, ``argmax``: (row, column) of the first pixel that has the minimum, the maximum
+    """
 
     min: float
     argmin: tuple[int, int]
@@ -36,8 +40,12 @@ class ChannelStatistics:
 
 @dataclass(frozen=True)
 class StoredMap:
-    """A complete store: its number of pixels, how many see a surface, how many of those are lit, and each channel's
-    statistics (``None`` if a channel is not a scalar, or if no surface is seen)."""
+    """A complete store.
+
+    - ``path``: where it is
+    - ``pixels``, ``visible``, ``lit``: how many there are, see a surface, and see one that light reaches
+    - ``channels``: each channel's statistics; ``None`` if it is not a scalar, or if no surface is seen
+    """
 
     path: str
     pixels: int
@@ -47,23 +55,16 @@ class StoredMap:
 
     def open(self) -> xarray.Dataset:
         """The store as an xarray Dataset, which reads data on demand."""
-        import xarray
-        import zarr
-
-        with warnings.catch_warnings():
-            # The picture and the records beside the arrays are not part of Zarr.
-            warnings.simplefilter("ignore", zarr.errors.ZarrUserWarning)
-            dataset: xarray.Dataset = xarray.open_zarr(self.path, chunks=None, consolidated=False)
-        return dataset
+        return open_store(self.path)
 
 
 def render_to_zarr(
-    scene: Scene,
+    scene: SceneOrPath,
     size: Size | None,
     store: str | os.PathLike[str],
     *,
     channels: Channels = None,
-    precision: str = "double",
+    precision: Precision = "double",
     client: distributed.Client | None = None,
     threads: int | None = None,
     memory: int | None = None,
@@ -81,6 +82,7 @@ def render_to_zarr(
     ``resume``: continue a store that holds a part of the same map. However an earlier run ended, finished shards are kept.
     ``check``: whether to reread every byte at the end and compare it with its checksum.
     """
+    scene = scene_of(scene)
     if size is not None:
         scene = scene.with_resolution(size)
     if client is not None and (threads is not None or memory is not None):

@@ -8,20 +8,22 @@ import os
 import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _isophote
-from ._paths import Pointer, locate
+from ._paths import WINDOW, Pointer, locate
 from ._progress import Progress, reporter
 from ._sweep_data import Memory, Store, arrays_of, template
+from ._types import Precision
 from ._xarray import needed
 from .errors import ArgumentError
 from .map import Map
 from .rendering import Channels, channel_names, positive
-from .scene import Scene
+from .scene import Scene, SceneOrPath, scene_of
 
 if TYPE_CHECKING:
     import distributed
@@ -31,11 +33,12 @@ __all__ = ["sweep"]
 
 
 def sweep(
-    scene: Scene,
-    parameters: Mapping[str, Iterable[Any]],
+    scene: SceneOrPath | Sequence[SceneOrPath],
+    parameters: Mapping[str, Iterable[Any]] | None = None,
     *,
+    paired: bool = False,
     channels: Channels = None,
-    precision: str = "double",
+    precision: Precision = "double",
     workers: int | None = None,
     client: distributed.Client | None = None,
     store: str | os.PathLike[str] | None = None,
@@ -47,7 +50,9 @@ def sweep(
     ``parameters``: values by their paths in the scene (see :meth:`Scene.set`), such as ``{"light.lamp.position":
     positions, "material.clay.shininess": [5, 20, 80]}``. Each becomes a dimension, in this order. Values that are not
     single numbers or strings are numbered along it, and stored in a coordinate of their own,
-    ``light.lamp.position.value``.
+    ``light.lamp.position.value``. A value may be a whole part: ``{"light.lamp": lights, "material.clay": materials}``.
+    ``paired``: the first values of all parameters make the first map, the second ones the second, and so on: the only
+    dimension is ``pair``. Instead of one scene and parameters, a list of scenes of the same size has the dimension ``scene``.
     ``workers``: threads on this machine, by default one per processor.
     ``client``: a Dask client: its workers render instead.
     ``store``: a Zarr store, which must not exist yet: each map is written to it when it is done, as one chunk, and the
@@ -58,18 +63,36 @@ def sweep(
     If units or pixel positions differ between maps, ``<channel>.units`` holds the units, and pixels are numbered instead.
     """
     needed("xarray")
-    values = {path: list(several) for path, several in parameters.items()}
+    scenes = None
+    if not isinstance(scene, (Scene, str, os.PathLike)) and isinstance(scene, Iterable):
+        scenes = [scene_of(one) for one in scene]
+        if not scenes or parameters is not None or paired:
+            raise ArgumentError("a list of scenes needs at least one, and goes without parameters and paired")
+        scene = scenes[0]
+    scene = scene_of(scene)
+    if scenes is None and not isinstance(parameters, Mapping):
+        raise ArgumentError(f"parameters is {parameters!r}; allowed: a dictionary from paths to lists of values")
+    values = {path: list(several) for path, several in (parameters or {}).items()}
     for path, several in values.items():
         if not several:
             raise ArgumentError(f"{path!r} has no values")
+    if paired and len({len(several) for several in values.values()}) != 1:
+        counts = ", ".join(f"{path!r} has {len(several)}" for path, several in values.items()) or "there are no parameters"
+        raise ArgumentError(f"paired parameters need equally many values: {counts}")
     names = channel_names(scene, channels)
+    if client is not None and workers is not None:
+        raise ArgumentError("workers has no effect with a client, which has its own")
     count = (os.cpu_count() or 1) if workers is None else positive(workers, "workers")
     _refuse_what_is_no_client(client)
     place = None if store is None else os.path.abspath(store)
     if resume and place is None:
         raise ArgumentError("resume goes on with a store: say which")
     with reporter(progress, "maps") as report:
-        sweep = Sweep.of(scene, values, names, precision)
+        sweep = (
+            Sweep.of(scene, values, names, precision, paired)
+            if scenes is None
+            else Sweep.of_scenes(scenes, names, precision)
+        )
         # Its layout is that of all maps.
         first = sweep.task(0).render(threads=None)
         form = template(sweep, values, Map(first, scene))
@@ -95,27 +118,59 @@ class Sweep:
 
     scene: Scene
     cores: list[_isophote.Scene]
-    sizes: tuple[int, ...]
+    dims: dict[str, int]
+    """The dimensions that its parameters span, and their sizes."""
     pointers: tuple[Pointer, ...]
     names: list[str]
     precision: str
+    places_differ: bool = False
+    """Of scenes that are given one by one: whether their pixels are in different places of the screen."""
 
     @classmethod
-    def of(cls, scene: Scene, values: Mapping[str, Sequence[Any]], names: list[str], precision: str) -> Sweep:
+    def of(cls, scene: Scene, values: Mapping[str, Sequence[Any]], names: list[str], precision: str, paired: bool) -> Sweep:
         """Every combination: anything wrong with any of them is found before the first map is rendered."""
         pointers = tuple(locate(scene, path) for path in values)
         for one, other in itertools.combinations(pointers, 2):
             if one.keys == other.keys:
                 raise ArgumentError(f"{one.path!r} and {other.path!r} are the same")
+            if one.keys[: len(other.keys)] == other.keys or other.keys[: len(one.keys)] == one.keys:
+                raise ArgumentError(f"of {one.path!r} and {other.path!r} one is a part of the other")
         if any(pointer.keys in (("camera",), ("camera", "resolution")) for pointer in pointers):
             raise ArgumentError("a sweep cannot change the number of pixels; name what it changes, such as camera.eye")
         written = scene.to_dict()
         cores = []
-        for combination in itertools.product(*values.values()):
+        combinations = zip(*values.values()) if paired else itertools.product(*values.values())
+        for combination in combinations:
             for pointer, value in zip(pointers, combination):
                 pointer.put(written, value)
-            cores.append(_isophote.Scene.from_json(json.dumps(written), str(scene.directory), scene.core))
-        return cls(scene, cores, tuple(len(several) for several in values.values()), pointers, names, precision)
+            text = json.dumps(written)
+            cores.append(scene.named.checked(partial(_isophote.Scene.from_json, text, str(scene.directory), scene.core)))
+        sizes = {path: len(several) for path, several in values.items()}
+        return cls(scene, cores, {"pair": len(cores)} if paired else sizes, pointers, names, precision)
+
+    @classmethod
+    def of_scenes(cls, scenes: Sequence[Scene], names: list[str], precision: str) -> Sweep:
+        """One map of each of these scenes."""
+        sizes = [scene.camera.resolution for scene in scenes]
+        for number, size in enumerate(sizes):
+            if size != sizes[0]:
+                raise ArgumentError(f"scene {number} has {size} pixels, the first one {sizes[0]}; allowed: the same")
+        windows = {(scene.length, *(getattr(scene.camera, name) for name in WINDOW)) for scene in scenes}
+        cores = [scene.core for scene in scenes]
+        return cls(scenes[0], cores, {"scene": len(cores)}, (), names, precision, len(windows) > 1)
+
+    @property
+    def sizes(self) -> tuple[int, ...]:
+        return tuple(self.dims.values())
+
+    @property
+    def moves_pixels(self) -> bool:
+        """Whether maps may cover different places, or in another unit."""
+        return self.places_differ or any(pointer.moves_pixels for pointer in self.pointers)
+
+    @property
+    def changes_convention(self) -> bool:
+        return len({core.describe()["convention"] for core in self.cores}) > 1
 
     @property
     def count(self) -> int:

@@ -30,7 +30,7 @@ mod _isophote {
     #[pymodule_export]
     use crate::map::{Map, levels};
     #[pymodule_export]
-    use crate::probe::{explain, probe_pixels, probe_points, probe_values};
+    use crate::probe::{explain, probe_pixels, probe_points, probe_screen, probe_values};
     #[pymodule_export]
     use crate::read::{read_exr, read_metadata};
     #[pymodule_export]

@@ -8,14 +8,17 @@ use std::thread::available_parallelism;
 
 use isophote::analysis::isophotes::{isophotes, nice_levels};
 use isophote::analysis::statistics::{Extreme, statistics};
-use isophote::map::{Channel, Map as CoreMap, Quantity, Region, Resolution, Run, Values};
+use isophote::map::{Channel, Coordinates, Map as CoreMap, Quantity, Region, Resolution, Run, Values};
 use isophote::units::Keyword;
 use isophote_export::colormap::Colormap;
 use isophote_export::csv::Rows;
 use isophote_export::png::{Depth, PictureColor, PictureOptions};
 use isophote_export::{ExportError, FileMetadata, Format, csv, exr, npy, npz, png, write_atomically};
 use numpy::ndarray::{ArrayView, Dimension, ShapeBuilder};
-use numpy::{Element, IntoPyArray, PyArray, PyArray2, PyArrayMethods, PyReadwriteArrayDyn, PyUntypedArrayMethods};
+use numpy::{
+    Element, IntoPyArray, PyArray, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3, PyReadonlyArrayDyn,
+    PyReadwriteArrayDyn, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -53,6 +56,27 @@ impl Map {
 
 #[pymethods]
 impl Map {
+    /// The map that this metadata describes (as JSON), of these channels and the shape seen at each pixel.
+    #[staticmethod]
+    fn of(
+        py: Python<'_>,
+        metadata: &str,
+        channels: Vec<(String, Bound<'_, PyAny>)>,
+        shapes: PyReadonlyArrayDyn<'_, i32>,
+    ) -> PyResult<Self> {
+        let about: FileMetadata = serde_json::from_str(metadata).map_err(|error| error::value(py, error))?;
+        let FileMetadata { full, region, window, .. } = about;
+        let shapes = shapes.as_array().iter().copied().collect();
+        let mut map = CoreMap::builder(full, window, about.provenance()).region(region).shapes(shapes);
+        for (name, array) in channels {
+            let quantity = Quantity::from_name(&name)
+                .ok_or_else(|| error::value(py, format!("there is no channel \"{name}\"")))?;
+            let unit = about.channels.iter().find(|channel| channel.name == name);
+            map = map.channel(quantity, unit.map_or("", |channel| channel.unit.as_str()), values_of(&array)?);
+        }
+        Ok(Self::new(map.build().map_err(|error| error::value(py, error))?))
+    }
+
     /// The channels' names and units.
     fn units(&self) -> Vec<(String, &str)> {
         self.map.channels().iter().map(|channel| (channel.quantity.name(), channel.unit.as_str())).collect()
@@ -159,7 +183,11 @@ impl Map {
             depth: depth(py, bits)?,
             colormap: colormap_named(py, colormap)?,
         };
-        let map = Arc::clone(&self.map);
+        let map = if matches!(format, Format::Exr | Format::Npz | Format::Csv) {
+            with_shapes(&self.map)
+        } else {
+            Arc::clone(&self.map)
+        };
         let saved = job::run_to_its_end(py, &Progress::none(), move |watch| {
             write_atomically(&path, |file| {
                 let mut file = Stoppable { file, watch };
@@ -204,6 +232,32 @@ impl Map {
         style.write(&self.map, &mut bytes).map_err(|error| error::value(py, error))?;
         Ok(PyBytes::new(py, &bytes))
     }
+}
+
+/// The map with the shape at each pixel among its channels, without which a file would not tell background from dark
+/// surfaces. (The points of a grid are on no shape.)
+fn with_shapes(map: &Arc<CoreMap>) -> Arc<CoreMap> {
+    if map.channel(&Quantity::Shape).is_some() || map.window.coordinates == Coordinates::Grid {
+        return Arc::clone(map);
+    }
+    let mut with = CoreMap::clone(map);
+    with.add_shapes();
+    Arc::new(with)
+}
+
+/// The values of a channel, from an array of height × width or height × width × 3.
+fn values_of(array: &Bound<'_, PyAny>) -> PyResult<Values> {
+    if let Ok(values) = array.extract::<PyReadonlyArray2<'_, f64>>() {
+        return Ok(Values::Scalar(values.as_array().iter().copied().collect()));
+    }
+    if let Ok(values) = array.extract::<PyReadonlyArray2<'_, f32>>() {
+        return Ok(Values::Single(values.as_array().iter().copied().collect()));
+    }
+    if let Ok(values) = array.extract::<PyReadonlyArray2<'_, i32>>() {
+        return Ok(Values::Index(values.as_array().iter().copied().collect()));
+    }
+    let vectors: Vec<f64> = array.extract::<PyReadonlyArray3<'_, f64>>()?.as_array().iter().copied().collect();
+    Ok(Values::Vector(vectors.as_chunks::<3>().0.to_vec()))
 }
 
 /// A file whose writing stops when it is no longer needed.

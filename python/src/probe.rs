@@ -103,6 +103,34 @@ pub fn probe_pixels<'py>(
     probe_places(py, scene, places.collect(), elsewhere == "nan", per_light, progress)
 }
 
+/// The values at what is seen at points of the screen, n × 2 in the screen's unit, inside the window or outside of it.
+#[pyfunction]
+pub fn probe_screen<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    points: PyReadonlyArray2<'py, f64>,
+    elsewhere: &str,
+    per_light: bool,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let unit = scene.core().screen_unit();
+    let inside =
+        |coordinate: f64| Some(unit.to_internal(coordinate)).filter(|inside| inside.abs() <= limits::COORDINATE);
+    let points = points.as_array();
+    let places: Vec<_> = points
+        .rows()
+        .into_iter()
+        .map(|row| Some(ProbePosition::Screen { x: inside(row[0])?, y: inside(row[1])? }))
+        .collect();
+    if let Some(index) = places.iter().position(|place| elsewhere != "nan" && place.is_none()) {
+        let (x, y, unit) = (points[[index, 0]], points[[index, 1]], unit.name());
+        let bound = scene.core().screen_unit().from_internal(limits::COORDINATE);
+        let message = format!("point {index} is [{x}, {y}] {unit}; allowed: finite numbers up to {bound:e} {unit}");
+        return Err(error::probe(py, message, vec![index]));
+    }
+    probe_places(py, scene, places, elsewhere == "nan", per_light, progress)
+}
+
 fn probe_places<'py>(
     py: Python<'py>,
     scene: &Scene,
@@ -170,7 +198,10 @@ fn refused(py: Python<'_>, scene: &CoreScene, refusals: &[(usize, ProbeError)], 
     let describe = |(index, error): &(usize, ProbeError)| match error {
         ProbeError::OffSurface(miss) => {
             let name = &scene.shapes()[miss.shape].name;
-            format!("point {index} is on no surface: {}", miss.describe(name, scene.length()))
+            let miss = miss.describe(name, scene.length());
+            format!(
+                "point {index} is on no surface: {miss}; elsewhere=\"nearest\" takes that one, \"nan\" leaves a gap"
+            )
         }
         error => format!("point {index}: {error}"),
     };
@@ -181,9 +212,9 @@ fn refused(py: Python<'_>, scene: &CoreScene, refusals: &[(usize, ProbeError)], 
     error::probe(py, lines.join("\n"), refusals.iter().map(|(index, _)| *index).collect())
 }
 
-/// Every step of computing the value at a point, or at what a pixel sees.
+/// Every step of computing the value at a point, or at what a pixel or a point of the screen sees.
 #[pyfunction]
-#[pyo3(signature = (scene, index, name, point, pixel, snaps))]
+#[pyo3(signature = (scene, index, name, point, pixel, screen, snaps))]
 pub fn explain(
     py: Python<'_>,
     scene: &Scene,
@@ -191,13 +222,16 @@ pub fn explain(
     name: &str,
     point: Option<[f64; 3]>,
     pixel: Option<[u32; 2]>,
+    screen: Option<[f64; 2]>,
     snaps: bool,
 ) -> PyResult<String> {
     let length = scene.core().length();
-    let place = match (point, pixel) {
-        (Some(point), None) => place_of(point, length, snaps),
-        (None, Some([column, row])) => ProbePosition::Pixel(Pixel { column, row }),
-        _ => return Err(error::value(py, "say where: one of point and pixel")),
+    let unit = scene.core().screen_unit();
+    let place = match (point, pixel, screen) {
+        (Some(point), None, None) => place_of(point, length, snaps),
+        (None, Some([column, row]), None) => ProbePosition::Pixel(Pixel { column, row }),
+        (None, None, Some([x, y])) => ProbePosition::Screen { x: unit.to_internal(x), y: unit.to_internal(y) },
+        _ => return Err(error::value(py, "say where: one of point, pixel and screen")),
     };
     let content = scene.content();
     let name = name.to_owned();
@@ -213,7 +247,7 @@ pub struct Columns {
     position: Vec<f64>,
     normal: Vec<f64>,
     shape: Vec<i32>,
-    part: Vec<u32>,
+    part: Vec<i32>,
     is_seen: Vec<bool>,
     cos_theta_o: Vec<f64>,
     /// Brightness, irradiance, ambient, diffuse, specular.
@@ -257,7 +291,7 @@ impl Columns {
         self.position.extend(hit.point.position().to_array().map(|metres| length.from_metres(metres)));
         self.normal.extend(hit.point.normal.to_array());
         self.shape.push(i32::try_from(hit.primitive.shape).unwrap_or(i32::MAX));
-        self.part.push(hit.primitive.part);
+        self.part.push(i32::try_from(hit.primitive.part).unwrap_or(i32::MAX));
         self.is_seen.push(true);
         self.cos_theta_o.push(hit.point.cos_theta_o);
         let Shading { irradiance, ambient, diffuse, specular } = *shading;
@@ -269,7 +303,7 @@ impl Columns {
         self.position.extend([f64::NAN; 3]);
         self.normal.extend([f64::NAN; 3]);
         self.shape.push(-1);
-        self.part.push(0);
+        self.part.push(-1);
         self.is_seen.push(false);
         self.cos_theta_o.push(f64::NAN);
         self.values.iter_mut().for_each(|column| column.push(f64::NAN));

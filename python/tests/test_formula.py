@@ -146,3 +146,20 @@ def test_the_bare_formula_refuses_what_makes_no_sense(lab, normals, positions, o
 def test_the_bare_formula_refuses_colours(lab):
     with pytest.raises(iso.ArgumentError, match="component"):
         iso.brightness([0, 0, -1], [0, 0, 4], lab.lights[0], iso.Material(diffuse=(0.1, 0.2, 0.3)), "lab")
+
+
+def test_where_leaves_points_out(lab):
+    m = iso.render(lab, size=(80, 60), channels=["brightness", "normal", "position"])
+    clay, lamp = lab.materials["clay"], lab.lights[0]
+    found = iso.brightness(m["normal"], m["position"], lamp, clay, "lab", where=m.mask)
+    np.testing.assert_allclose(found, m["brightness"], rtol=1e-12, atol=1e-14)
+    with pytest.raises(iso.ProbeError, match="where= leaves points out"):
+        iso.brightness(m["normal"], m["position"], lamp, clay, "lab")
+    for where in (m.mask.astype(int), m.mask[:5]):
+        with pytest.raises(iso.ProbeError, match="where"):
+            iso.brightness(m["normal"], m["position"], lamp, clay, "lab", where=where)
+    wrong = np.array(m["normal"])
+    wrong[30, 40] *= 2
+    with pytest.raises(iso.ProbeError) as caught:
+        iso.brightness(wrong, m["position"], lamp, clay, "lab", where=m.mask)
+    assert caught.value.indices == (30 * 80 + 40,)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import gc
 import pickle
 import subprocess
@@ -123,6 +124,88 @@ def test_files_hold_the_values_and_the_scene(lab_map, tmp_path, name):
             np.testing.assert_array_equal(file[channel], lab_map[channel])
 
 
+@pytest.mark.parametrize("name", ["map.exr", "map.npz", "map.csv"])
+def test_a_map_that_was_read_is_a_map(lab, tmp_path, name):
+    of = iso.render(lab, channels=["brightness", "normal"])
+    of.save(tmp_path / name)
+    file = iso.read(tmp_path / name)
+    assert isinstance(file, iso.Map)
+    np.testing.assert_array_equal(file["mask"], of.mask)
+    np.testing.assert_array_equal(file.mask, of.mask)
+    np.testing.assert_array_equal(file.shapes, of.shapes)
+    assert "mask" in file and "normal" in file and "depth" not in file
+    assert "mask" in of and (of["mask"] == of.mask).all()
+    assert file.max() == pytest.approx(of.max(), rel=1e-6) and file.argmax() == of.argmax()
+    assert file.mean() == pytest.approx(of.mean(), rel=1e-6)
+    assert file.shape == of.shape and file.axes == of.axes
+    assert len(file.isophotes([0.2])[0].lines) == len(of.isophotes([0.2])[0].lines)
+    data = file.to_xarray()
+    np.testing.assert_array_equal(data["visible"], of.mask)
+    assert data["brightness"].attrs["units"] == "W/m²"
+    assert file.plot(isophotes=3).get_xlabel() == "x, m"
+    for again in (pickle.loads(pickle.dumps(file)), copy.deepcopy(file)):
+        np.testing.assert_array_equal(again["brightness"], file["brightness"])
+    file.save(tmp_path / f"again{name}")
+    if not name.endswith("csv"):
+        np.testing.assert_array_equal(iso.read(tmp_path / f"again{name}")["brightness"], file["brightness"])
+    with pytest.raises(KeyError, match="has no channel 'depth'"):
+        file["depth"]
+
+
+def test_a_file_without_a_mask_says_so(lab, lab_map, tmp_path):
+    lab_map.save(tmp_path / "map.npy")
+    file = iso.read(tmp_path / "map.npy")
+    assert not file.has_mask and "brightness" in file
+    for use in (lambda: file.mask, file.max, file.plot):
+        with pytest.raises(iso.ArgumentError, match=r"no mask; save \.npz"):
+            use()
+    assert "visible" not in file.to_xarray().coords
+    # A depth is never 0 on a surface.
+    lab_map.save(tmp_path / "map.npy", channel="depth")
+    np.testing.assert_array_equal(iso.read(tmp_path / "map.npy").mask, lab_map.mask)
+    points = iso.Grid(center=(0, -1, 5), u=(2, 0, 0), v=(0, 0, 2), points=(5, 5))
+    iso.grid(lab.replace(grids=[points])).save(tmp_path / "grid.exr")
+    assert iso.read(tmp_path / "grid.exr").mask.all()
+
+
+def test_maps_are_copied_and_pickled_with_their_values(lab, lab_map):
+    surface = iso.surface(lab, size=(36, 18))
+    for of in (lab_map, iso.render(lab, precision="single", region=(300, 200, 50, 40)), surface):
+        for again in (pickle.loads(pickle.dumps(of)), copy.copy(of), copy.deepcopy(of)):
+            assert type(again) is type(of) and list(again) == list(of) and again.scene == of.scene
+            assert again.units == of.units and again.region == of.region and again.axes == of.axes
+            np.testing.assert_array_equal(again.shapes, of.shapes)
+            for channel in of:
+                np.testing.assert_array_equal(again[channel], of[channel])
+                assert again[channel].dtype == of[channel].dtype and not again[channel].flags.writeable
+    assert pickle.loads(pickle.dumps(surface)).totals == surface.totals
+
+
+@pytest.mark.parametrize(
+    "name, options",
+    [
+        ("map.exr", {"gamma": 2.2}),
+        ("map.exr", {"channel": "depth"}),
+        ("map.npz", {"bits": 16}),
+        ("map.csv", {"range": (0, 1)}),
+        ("map.npy", {"colormap": "viridis"}),
+    ],
+)
+def test_an_option_without_effect_is_refused(lab_map, tmp_path, name, options):
+    with pytest.raises(iso.ArgumentError, match=f"{next(iter(options))} has no effect on a {name[3:]} file"):
+        lab_map.save(tmp_path / name, **options)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_options_of_figures_and_colours_without_effect_are_refused(lab, tmp_path):
+    of = iso.render(lab.set({"material.clay.diffuse": (0.1, 0.2, 0.3)}), size=(80, 60))
+    for options in ({"gamma": 2.2}, {"colormap": "viridis"}):
+        with pytest.raises(iso.ArgumentError, match="has no effect on the channel 'color'"):
+            of.save(tmp_path / "map.png", **options)
+    with pytest.raises(iso.ArgumentError, match="isophotes has no effect"):
+        of.plot("color", isophotes=5)
+
+
 def test_a_picture_has_a_scene_and_no_values(lab_map, tmp_path):
     lab_map.save(tmp_path / "map.png", colormap="viridis")
     file = iso.read(tmp_path / "map.png")
@@ -136,7 +219,7 @@ def test_a_picture_has_a_scene_and_no_values(lab_map, tmp_path):
 def test_files_are_those_of_the_command_byte_for_byte(tmp_path, suffix):
     scene = REPOSITORY / "scenes" / "two-lights.toml"
     by_command, by_package = tmp_path / f"command.{suffix}", tmp_path / f"package.{suffix}"
-    channels = ["brightness", "normal", "shape"]
+    channels = ["brightness", "normal"]
     options = [word for channel in channels for word in ("-c", channel)]
     command = [sys.executable, "-m", "isophote", "render", "--quiet", str(scene), *options, "-o", str(by_command)]
     subprocess.run(command, check=True, capture_output=True)
@@ -182,11 +265,59 @@ def test_figures_are_drawn_with_units(lab_map, lab):
     plt.close("all")
 
 
+@pytest.fixture
+def plt():
+    import matplotlib.pyplot as plt
+
+    plt.close("all")
+    with plt.rc_context():
+        yield plt
+    plt.close("all")
+
+
+@pytest.mark.parametrize("channel", ["brightness", "color"])
+def test_row_0_is_drawn_at_the_top_whatever_matplotlib_is_set_to(plt, lab, channel):
+    colored = lab.set({"material.clay.diffuse": (0.1, 0.2, 0.3)})
+    of = iso.render(colored, size=(80, 60), channels=["brightness", "color"])
+    plt.rcParams["image.origin"] = "lower"
+    axes = of.plot(channel)
+    image = axes.images[0]
+    assert image.origin == "upper"
+    assert axes.get_ylim() == (-3, 3) and tuple(image.get_extent()) == (-4, 4, -3, 3)
+    for options in ({"origin": "lower"}, {"extent": (0, 1, 0, 1)}):
+        with pytest.raises(iso.ArgumentError, match=next(iter(options))):
+            of.plot(channel, **options)
+
+
+def test_true_isophotes_are_about_six_and_labels_do_not_collide(plt, lab_map):
+    _, (one, other, small) = plt.subplots(1, 3, figsize=(5, 2))
+    lab_map.plot(isophotes=True, ax=one)
+    lab_map.plot(isophotes=6, ax=other)
+    assert len(one.lines) == len(other.lines) > 3
+    lab_map.plot(isophotes=False, ax=small)
+    assert not small.lines
+    boxes = [text.get_window_extent() for text in one.texts]
+    assert boxes and not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
+
+
+def test_figures_go_into_the_current_axes_if_they_are_empty(plt, lab_map, lab):
+    _, (left, right) = plt.subplots(1, 2)
+    plt.sca(left)
+    assert lab_map.plot() is left
+    plt.sca(right)
+    assert lab_map.plot("depth") is right
+    fresh = lab_map.plot()
+    assert fresh not in (left, right) and len(left.images) == 1
+    given = plt.figure().add_subplot()
+    assert iso.section(lab, row=300).plot(ax=given) is given
+    for ax in ([left, right], 5):
+        with pytest.raises(iso.ArgumentError, match="ax is"):
+            lab_map.plot(ax=ax)
+
+
 def test_what_a_map_cannot_do_it_says(lab, lab_map):
     with pytest.raises(KeyError, match="this map has no channel 'coverage'"):
         lab_map["coverage"]
-    with pytest.raises(TypeError, match="not pickled"):
-        pickle.dumps(lab_map)
     for options in (
         {"channels": []},
         {"channels": ["brightnes"]},

@@ -47,3 +47,26 @@ def test_what_is_not_there_says_so():
     with pytest.raises(AttributeError, match="no attribute 'rendr'"):
         _ = iso.rendr
     assert set(iso.__all__) <= set(dir(iso))
+
+
+@pytest.mark.parametrize("name", iso.__all__)
+def test_a_docstring_lists_every_field(name):
+    import dataclasses
+
+    thing = getattr(iso, name)
+    if dataclasses.is_dataclass(thing):
+        inherited = {
+            field.name for base in thing.__mro__[1:] if dataclasses.is_dataclass(base) for field in dataclasses.fields(base)
+        }
+        for field in dataclasses.fields(thing):
+            if field.name not in inherited:
+                assert f"``{field.name}``" in thing.__doc__, f"{name}.{field.name}"
+
+
+def test_names_are_completed(lab, lab_map, tmp_path):
+    assert lab_map._ipython_key_completions_() == [*lab_map, "mask"]
+    probes = iso.probe(lab)
+    assert "brightness" in probes._ipython_key_completions_() and "brightness" in dir(probes)
+    assert lab.materials._ipython_key_completions_() == ["clay"]
+    lab_map.save(tmp_path / "map.npz")
+    assert "normal" in iso.read(tmp_path / "map.npz")._ipython_key_completions_()

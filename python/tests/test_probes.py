@@ -60,6 +60,28 @@ def test_points_of_every_kind_of_array(lab):
     assert iso.probe(lab, pixels=np.zeros((0, 2), int)).count == 0
 
 
+@pytest.mark.parametrize("dtype", ["f2", ">f4", "f8", ">f8", "longdouble"])
+def test_points_of_any_shape_and_float_type(lab, dtype):
+    points = np.broadcast_to(np.array([0, 0, 4], dtype), (2, 3, 4, 3))[..., ::-1, :]
+    probes = iso.probe(lab, at=points, per_light=True)
+    assert probes.count == 24 and probes.position.shape == (2, 3, 4, 3) and probes.lights.shape == (2, 3, 4, 1)
+    np.testing.assert_array_equal(probes.brightness, np.full((2, 3, 4), iso.probe(lab, at=(0, 0, 4)).brightness[0]))
+    assert "24 points" in repr(probes) and "0.316677297547093" in probes.explain(23)
+
+
+def test_an_images_pixels_are_probed_in_its_shape(lab, lab_map):
+    rows, columns = np.mgrid[280:290, 395:405]
+    found = iso.probe(lab, pixels=np.stack([columns, rows], axis=-1))
+    np.testing.assert_allclose(found.brightness, lab_map["brightness"][280:290, 395:405], rtol=1e-10)
+    many = iso.probe(lab, at=on_the_sphere(3000).reshape(30, 100, 3))
+    assert many.brightness.shape == (30, 100) and many.normal.shape == (30, 100, 3)
+
+
+def test_a_point_elsewhere_names_the_option_that_takes_it(lab):
+    with pytest.raises(iso.ProbeError, match='elsewhere="nearest"'):
+        iso.probe(lab, at=(0, 0, 4.5))
+
+
 def test_points_elsewhere(lab):
     points = np.array([(0, 0, 4), (0.1, 0, 4), (0, 0, 0)])
     with pytest.raises(iso.ProbeError, match="point 1 is on no surface: it is 0.00498756 m outside") as caught:
@@ -68,6 +90,10 @@ def test_points_elsewhere(lab):
     gaps = iso.probe(lab, at=np.vstack([points, [np.nan, 0, 0], [1e300, 0, 0]]), elsewhere="nan")
     assert np.isnan(gaps.brightness).tolist() == [False, True, True, True, True]
     assert gaps.shape.tolist() == [0, -1, -1, -1, -1]
+    assert gaps.part.tolist() == [0, -1, -1, -1, -1]
+    assert gaps.part.dtype == np.int32
+    background = iso.section(lab, between=((-4, 0), (-3, 0)), samples=3)
+    assert background.part.tolist() == [-1, -1, -1]
     near = iso.probe(lab, at=points, elsewhere="nearest")
     np.testing.assert_allclose(np.linalg.norm(near.position - [0, 0, 5], axis=1), 1, rtol=1e-15)
     assert "P  " in near.explain(1)
@@ -81,6 +107,8 @@ def test_points_elsewhere(lab):
         {"at": [(0, 0, np.inf)]},
         {"at": "here"},
         {"at": np.zeros((1, 1, 3))},
+        {"at": np.zeros((2, 2, 4))},
+        {"pixels": np.zeros((2, 2, 3), int)},
         {"at": [(0, 0, 1j)]},
         {"at": [[0, 0, 4], [0, 0]]},
         {"pixels": [(0.5, 1)]},
@@ -101,6 +129,10 @@ def test_arguments_that_contradict_each_other_are_refused(lab):
             iso.probe(lab, **options)
     with pytest.raises(iso.ArgumentError, match="no probes"):
         iso.probe(lab.replace(probes=()))
+    with pytest.raises(iso.ArgumentError, match="samples has no effect"):
+        iso.section(lab, row=1, samples=5)
+    with pytest.raises(iso.ArgumentError, match="no effect on pixels"):
+        iso.probe(lab, pixels=[(400, 300)], elsewhere="nearest")
     for options in ({}, {"row": 1, "column": 1}, {"row": 600}, {"row": -1}, {"between": ((0, 0), (1, np.nan))}):
         with pytest.raises(iso.ArgumentError):
             iso.section(lab, **options)
@@ -223,3 +255,15 @@ def test_many_points_are_those_of_single_ones_and_complete(lab):
     unpickled = pickle.loads(pickle.dumps(gaps))
     np.testing.assert_array_equal(unpickled.brightness, gaps.brightness)
     assert not unpickled.brightness.flags.writeable
+
+
+def test_values_are_a_table_of_pandas(lab):
+    pandas = pytest.importorskip("pandas")
+    table = iso.probe(lab, per_light=True).to_dataframe()
+    assert isinstance(table, pandas.DataFrame) and list(table.index) == ["P1", "P2", "P3", "P4"]
+    assert table.loc["P2", "position.x"] == iso.probe(lab).position[1, 0]
+    np.testing.assert_array_equal(table["light.lamp"], iso.probe(lab, per_light=True).lights[:, 0])
+    section = iso.section(lab, row=300).to_dataframe()
+    assert len(section) == 800 and {"screen.x", "normal.z", "brightness"} <= set(section.columns)
+    many = iso.probe(lab, at=on_the_sphere(2000)).to_dataframe()
+    assert len(many) == 2000 and "position.z" in many

@@ -93,11 +93,41 @@ def test_every_mistake_is_reported_at_once():
         )
     problems = caught.value.problems
     assert [problem.path for problem in problems] == ["material.clay.diffuse", "sphere[0].radius", "sphere[0].material"]
-    assert problems[0].message == "`material.clay.diffuse` is 2"
+    assert problems[0].message == "`materials['clay'].diffuse` is 2"
+    assert problems[1].message == "`shapes[0].radius` (Sphere) is -1"
     assert problems[0].help == "allowed: 0 to 1"
     assert problems[0].line is None
     assert "did you mean `clay`?" in str(caught.value)
     assert pickle.loads(pickle.dumps(caught.value)).problems == problems
+
+
+def test_messages_speak_of_classes_and_attributes(lab):
+    box = iso.Box(name="crate", center=(9, 9, 9), size=(1, 1, 1), material="clay")
+    tube = iso.Cylinder(name="tube", start=(7, 7, 7), end=(7, 7, 8), radius=0.1, material="clay")
+    two = lab.replace(shapes=[*lab.shapes, box, tube], shadows=False)
+    for change, message in (
+        (
+            lambda: two.replace(shapes=[*two.shapes[:2], tube.replace(radius=-1)]),
+            "`shapes[2].radius` (Cylinder 'tube') is -1",
+        ),
+        (
+            lambda: two.replace(lights=[lab.lights[0].replace(intensity=-1)]),
+            "`lights[0].intensity` (PointLight 'lamp') is -1",
+        ),
+        (lambda: two.set({"light.lamp.intensity": -1}), "`lights[0].intensity` (PointLight 'lamp') is -1"),
+        (lambda: lab.replace(camera=iso.Camera(eye=(0, 0, 0), forward=(0, 0, 1))), "screen=Screen(distance=5, x=(-4, 4)"),
+        (lambda: lab.replace(materials={}), "materials={'clay': Material(…)}"),
+    ):
+        with pytest.raises(iso.SceneError) as caught:
+            change()
+        assert message in str(caught.value)
+        assert "[[" not in str(caught.value) and " = " not in str(caught.value)
+    for parts, message in (({"lights": []}, "lights=[PointLight(…)]"), ({"shapes": [], "probes": []}, "shapes=[Sphere(…)]")):
+        with pytest.warns(iso.SceneWarning) as warned:
+            lab.replace(**parts)
+        assert any(message in str(one.message) for one in warned)
+    with pytest.raises(iso.SceneError, match=r"`sphere\[0\].radius` is -1"):
+        iso.Scene.from_toml(lab.to_toml().replace("radius = 1", "radius = -1"))
 
 
 def test_mistakes_in_a_text_have_their_lines():
@@ -172,7 +202,6 @@ def test_values_are_set_by_their_paths(lab):
         "light.lump.position",
         "light[1].position",
         "light.lamp.colour",
-        "material.clay",
         "nothing",
         "",
         "camera.eye.x",
@@ -259,3 +288,78 @@ def test_files_that_a_scene_names_are_found_again(tmp_path, monkeypatch):
     np.testing.assert_array_equal(file["brightness"], expected["brightness"])
     with pytest.raises(iso.SceneError, match="vase.obj"):
         _ = iso.read(tmp_path / "mesh.npz").scene
+
+
+@pytest.mark.filterwarnings("ignore::isophote.SceneWarning")
+def test_a_path_stands_for_the_scene_in_its_file(lab, lab_map, tmp_path):
+    path = REPOSITORY / "scenes" / "lab.toml"
+    np.testing.assert_array_equal(iso.render(str(path))["brightness"], lab_map["brightness"])
+    lab_map.save(tmp_path / "map.npz")
+    np.testing.assert_array_equal(iso.render(tmp_path / "map.npz")["brightness"], lab_map["brightness"])
+    assert iso.probe(path).names == iso.probe(lab).names
+    assert iso.section(path, row=300).count == 800
+    assert iso.surface(path, size=(8, 4)).shape == (4, 8)
+    assert "brightness" in iso.sweep(path, {"light.lamp.intensity": [1, 2]})
+    with pytest.raises(FileNotFoundError):
+        iso.render(tmp_path / "missing.toml")
+
+
+def test_what_is_no_scene_and_no_material_is_an_error_of_the_package(lab):
+    for use in (
+        lambda: iso.render(5),
+        lambda: iso.render({"version": 1}),
+        lambda: iso.probe(None),
+        lambda: iso.section(5, row=1),
+        lambda: iso.surface(5),
+        lambda: iso.grid(5),
+        lambda: iso.sweep(5, {}),
+        lambda: iso.render_to_zarr(5, None, "x.zarr"),
+    ):
+        with pytest.raises(iso.ArgumentError, match="scene is .*; allowed: a Scene, or the path of a scene file"):
+            use()
+    light = iso.PointLight(position=(0, 0, 0), intensity=1)
+    clay = iso.Material(diffuse=0.5)
+    point = ((0, 0, 1), (0, 0, -1))
+    for use, name in (
+        (lambda: iso.brightness(*point, light, 0.5), "material"),
+        (lambda: iso.brightness(*point, 0.5, clay), "lights"),
+        (lambda: iso.brightness(*point, light, clay, 5), "convention"),
+        (lambda: iso.brightness(*point, light, clay, ambient=1), "ambient"),
+    ):
+        with pytest.raises(iso.ArgumentError, match=f"{name} is"):
+            use()
+    with pytest.raises(iso.SceneError, match="Material"):
+        lab.replace(materials={"clay": 0.5})
+    with pytest.raises(iso.SceneError, match="the name of a material"):
+        iso.Sphere(center=(0, 0, 5), radius=1, material=0.5)
+
+
+def test_scenes_and_what_they_hold_are_copied_and_pickled(lab):
+    for thing in (lab, lab.materials, lab.shapes[0], lab.lights[0], lab.camera, iso.scenes.photometric()):
+        for again in (copy.copy(thing), copy.deepcopy(thing), pickle.loads(pickle.dumps(thing))):
+            assert again == thing
+
+
+def test_whole_parts_are_set_by_their_paths(lab):
+    spot = iso.SpotLight(position=(5, 5, -10), target=(0, 0, 5), inner_angle=5, outer_angle=10, intensity=7)
+    mirror = iso.Material(diffuse=0, specular=0.5, shininess=80)
+    ball = iso.Sphere(name="other", center=(0, 0, 5), radius=1, material="clay")
+    changed = lab.set({"light.lamp": spot, "material.clay": mirror, "sphere.ball": ball})
+    assert changed.lights == (spot.replace(name="lamp"),)
+    assert changed.materials["clay"] == mirror and changed.shapes == (ball,)
+    assert lab.set({"light[0]": spot}).lights == changed.lights
+    for values in ({"light.lamp": 5}, {"material.clay": 1}, {"sphere.ball": spot}):
+        with pytest.raises(iso.SceneError, match="allowed: a "):
+            lab.set(values)
+    with pytest.raises(iso.ArgumentError, match="None"):
+        lab.set({"light.lamp": None})
+
+
+def test_that_pixels_are_not_square_is_said_once(lab):
+    with pytest.warns(iso.SceneWarning, match="not square") as caught:
+        scene = lab.with_resolution((800, 500))
+    assert len(caught) == 1
+    # Warnings are errors in these tests.
+    scene.with_resolution((800, 400)).set({"camera.screen.x": (-3, 3)}).replace(
+        camera=lab.camera.replace(resolution=(10, 90))
+    )

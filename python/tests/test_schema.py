@@ -19,6 +19,8 @@ CLASSES = {
     "camera": [iso.Camera],
     "camera/screen": [iso.Screen],
     "camera/window": [iso.Window],
+    "camera/intrinsics": [iso.Intrinsics],
+    "camera/pose": [iso.Pose],
     "sampling": [iso.Sampling],
     "material": [iso.Material],
     "light": LIGHTS,

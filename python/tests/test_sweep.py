@@ -87,6 +87,60 @@ def test_a_sweep_over_words_and_colours(small):
     np.testing.assert_array_equal(none["brightness"].values, iso.render(small)["brightness"])
 
 
+def test_paired_values_make_one_map_each(small):
+    found = iso.sweep(small, PARAMETERS, paired=True)
+    assert found["brightness"].dims == ("pair", "y", "x") and found.sizes["pair"] == 3
+    assert found["material.clay.shininess"].values.tolist() == SHININESS
+    assert found["light.lamp.position.value"].dims == ("pair", "axis")
+    for number, (position, shininess) in enumerate(zip(POSITIONS, SHININESS)):
+        scene = small.set({"light.lamp.position": position, "material.clay.shininess": shininess})
+        np.testing.assert_array_equal(found["brightness"][number], iso.render(scene)["brightness"])
+    for parameters in ({**PARAMETERS, "convention": ["lab"]}, {}):
+        with pytest.raises(iso.ArgumentError, match="paired"):
+            iso.sweep(small, parameters, paired=True)
+
+
+def test_a_list_of_scenes_is_swept(small, tmp_path):
+    scenes = [small, small.replace(convention="radiance"), small.set({"camera.screen.distance": 4})]
+    found = iso.sweep(scenes)
+    assert found["brightness"].dims == ("scene", "y", "x")
+    assert found["brightness.units"].values.tolist() == ["W/m²", "W/(m²·sr)", "W/m²"]
+    for number, scene in enumerate(scenes):
+        np.testing.assert_array_equal(found["brightness"][number], iso.render(scene)["brightness"])
+    with pytest.raises(iso.ArgumentError, match="scene 1 has"):
+        iso.sweep([small, small.with_resolution((40, 30))])
+    for wrong in ([], [5]):
+        with pytest.raises(iso.ArgumentError):
+            iso.sweep(wrong)
+    with pytest.raises(iso.ArgumentError):
+        iso.sweep(small)
+
+
+def test_whole_lights_and_materials_are_swept(small):
+    lamp = small.lights[0]
+    lights = [lamp, iso.LambertianLight(position=lamp.position, target=(0, 0, 5), intensity=100)]
+    materials = [iso.Material(diffuse=value) for value in (0.2, 0.4)]
+    found = iso.sweep(small, {"light.lamp": lights, "material.clay": materials})
+    assert found.sizes["light.lamp"] == found.sizes["material.clay"] == 2
+    assert found["material.clay.value"].values[0] == "Material(diffuse=0.2)"
+    scene = small.set({"light.lamp": lights[1], "material.clay": materials[1]})
+    np.testing.assert_array_equal(found["brightness"][1, 1], iso.render(scene)["brightness"])
+    with pytest.raises(iso.ArgumentError, match="part of the other"):
+        iso.sweep(small, {"light.lamp": lights, "light.lamp.position": POSITIONS})
+
+
+@needs_zarr
+def test_the_store_of_a_sweep_is_read_as_the_dataset_it_was(small, tmp_path):
+    store = tmp_path / "sweep.zarr"
+    parameters = {"convention": ["lab", "radiance"], "light.lamp.position": POSITIONS}
+    found = iso.sweep(small, parameters, channels=["brightness", "normal"], store=store)
+    again = iso.read(store)
+    xarray.testing.assert_identical(again.load(), found.load())
+    assert again["axis"].values.tolist() == ["x", "y", "z"] and again["convention"].values.tolist() == ["lab", "radiance"]
+    # Warnings are errors in these tests.
+    assert "brightness" in xarray.open_zarr(store)
+
+
 def test_what_is_wrong_with_a_sweep_is_known_before_it_begins(small, tmp_path):
     store = tmp_path / "sweep.zarr"
     for parameters in (

@@ -1,6 +1,6 @@
 //! What every file says about itself, in any format.
 
-use isophote::map::{Channel, Map, Region, Resolution, Window};
+use isophote::map::{Channel, Map, Provenance, Region, Resolution, Window};
 use serde::{Deserialize, Serialize};
 
 /// The description stored as JSON in every file; it is enough to interpret the numbers and to render them again.
@@ -112,6 +112,19 @@ impl FileMetadata {
             channel.stored_as = names;
         }
         metadata
+    }
+
+    /// Where the map comes from.
+    #[must_use]
+    pub fn provenance(&self) -> Provenance {
+        Provenance {
+            program: self.program.clone(),
+            title: self.title.clone(),
+            scene: self.scene.clone(),
+            convention: self.convention.clone(),
+            renderer: self.renderer.clone(),
+            color_space: self.color_space.clone(),
+        }
     }
 
     /// JSON on a single line.

@@ -19,6 +19,13 @@ pub enum ProbePosition {
     NearestTo(Vector),
     /// The surface point visible at the centre of a pixel.
     Pixel(Pixel),
+    /// The surface point visible at a point of the screen, which may lie outside the window; in metres or degrees.
+    Screen {
+        /// To the right.
+        x: f64,
+        /// Upwards.
+        y: f64,
+    },
     /// A point of a sphere given by angles relative to the camera's axes, in radians: θ from the direction towards the
     /// viewer (opposite to the direction of view), φ from +x of the screen towards +y.
     Angles {
@@ -147,6 +154,9 @@ pub enum ProbeError {
         /// The requested pixel.
         pixel: Pixel,
     },
+    /// A point of the screen sees no surface.
+    #[error("no surface is seen there on the screen")]
+    NothingThere,
 }
 
 impl PreparedScene {
@@ -183,6 +193,11 @@ impl PreparedScene {
                 Err(None) => Err(ProbeError::NoShapes),
             },
             ProbePosition::Pixel(pixel) => self.probe_pixel(pixel),
+            ProbePosition::Screen { x, y } => {
+                let position = ScreenPosition::Point { x, y };
+                let hit = self.trace(position).ok_or(ProbeError::NothingThere)?;
+                Ok(self.reading(hit, Some(position), SeenFromEye::Seen))
+            }
             ProbePosition::Angles { shape, theta, phi } => {
                 let frame = self.frame();
                 let ring = frame.right * libm::cos(phi) + frame.up * libm::sin(phi);

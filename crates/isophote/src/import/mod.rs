@@ -69,6 +69,18 @@ pub fn mesh_from_bytes(bytes: &[u8], format: MeshFormat) -> Result<TriangleMesh,
     }
 }
 
+/// The triangles of arrays: the vertices, the three corners of each triangle, and a direction at each vertex, if there are any.
+///
+/// # Errors
+/// [`Fault`]: indices out of range; a direction of no length; no triangle with an area.
+pub fn mesh_from_arrays(
+    vertices: &[[f64; 3]],
+    faces: &[[u64; 3]],
+    normals: Option<&[[f64; 3]]>,
+) -> Result<TriangleMesh, Fault> {
+    mesh::arrays::read(vertices, faces, normals)
+}
+
 /// The spheres in the contents of a file.
 ///
 /// # Errors

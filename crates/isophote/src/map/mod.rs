@@ -256,6 +256,14 @@ impl Map {
         self.channels.retain(|channel| is_wanted(&channel.quantity));
     }
 
+    /// Adds the shape at each pixel as a channel, if the map does not hold it yet.
+    pub fn add_shapes(&mut self) {
+        if self.channel(&Quantity::Shape).is_none() {
+            let values = Values::Index(self.mask.shapes());
+            self.channels.push(Channel { quantity: Quantity::Shape, unit: String::new(), values });
+        }
+    }
+
     /// The channel with this quantity, if the map holds it.
     #[must_use]
     pub fn channel(&self, quantity: &Quantity) -> Option<&Channel> {

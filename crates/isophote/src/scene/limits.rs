@@ -38,6 +38,12 @@ pub const SHININESS: f64 = 1e5;
 pub const PERSPECTIVE_FIELD: RangeInclusive<f64> = 1e-6..=179.9999;
 /// The field of view of a fisheye camera, in degrees.
 pub const FISHEYE_FIELD: RangeInclusive<f64> = 1e-6..=360.0;
+/// Focal lengths of a calibrated camera, in pixels.
+pub const FOCAL_LENGTH: RangeInclusive<f64> = 1e-3..=1e9;
+/// The farthest that a principal point may be from the first pixel, in pixels.
+pub const PRINCIPAL_POINT: f64 = 1e9;
+/// How far the product of a rotation and its transpose may be from the identity, in any element.
+pub const ROTATION: f64 = 1e-6;
 /// The farthest edges of a panorama in longitude, in degrees.
 pub const LONGITUDE: f64 = 360.0;
 /// The farthest edges of a panorama in latitude, in degrees.

@@ -15,7 +15,7 @@ mod shapes;
 use std::collections::BTreeMap;
 
 pub use amount::Amount;
-pub use camera::{CameraSource, ProjectionName, ScreenSource, WindowSource};
+pub use camera::{CameraSource, IntrinsicsSource, PoseSource, ProjectionName, ScreenSource, WindowSource};
 use declare::{TableSource, tables};
 pub use files::{MeshSource, SpheresSource};
 pub use light::{AmbientSource, EmissionName, LightSource};

@@ -100,6 +100,69 @@ impl<'t> Table<'t> {
         all_finite.then_some(numbers)
     }
 
+    /// Three rows of three numbers.
+    pub(super) fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]> {
+        let rows: [[f64; 3]; 3] = self.list(key, "a list of 3 rows, each a list of 3 numbers", as_row)?;
+        let path = self.path.key(key);
+        for (number, row) in rows.iter().enumerate() {
+            for (column, value) in row.iter().enumerate() {
+                if self.finite(&path.index(number).index(column), *value).is_none() {
+                    self.problems.reported.insert(path);
+                    return None;
+                }
+            }
+        }
+        Some(rows)
+    }
+
+    /// Any number of rows of three numbers.
+    pub(super) fn rows(&mut self, key: &'static str) -> Option<Vec<[f64; 3]>> {
+        let rows = self.several(key, "a list of 3 numbers", as_row)?;
+        for (number, row) in rows.iter().enumerate() {
+            if let Some(column) = row.iter().position(|value| !value.is_finite()) {
+                let path = self.path.key(key);
+                self.finite(&path.index(number).index(column), row[column]);
+                self.problems.reported.insert(path);
+                return None;
+            }
+        }
+        Some(rows)
+    }
+
+    /// Any number of rows of three whole numbers.
+    pub(super) fn rows_of_counts(&mut self, key: &'static str) -> Option<Vec<[u64; 3]>> {
+        self.several(key, "a list of 3 whole numbers, not negative", |value| {
+            let Value::Array(items) = value else { return None };
+            let [a, b, c] = items.as_slice() else { return None };
+            Some([as_count(&a.value)?, as_count(&b.value)?, as_count(&c.value)?])
+        })
+    }
+
+    /// A list of any length. Only the first item that is not as expected is reported: there may be millions.
+    fn several<T>(
+        &mut self,
+        key: &'static str,
+        expected: &str,
+        convert: impl Fn(&Value) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let node = self.find(key)?;
+        let path = self.path.key(key);
+        let Value::Array(items) = &node.value else {
+            self.wrong_type(&path, &node.value, &format!("a list, each of whose items is {expected}"));
+            return None;
+        };
+        let mut list = Vec::with_capacity(items.len());
+        for (index, item) in items.iter().enumerate() {
+            let Some(value) = convert(&item.value) else {
+                self.wrong_type(&path.index(index), &item.value, expected);
+                self.problems.reported.insert(path);
+                return None;
+            };
+            list.push(value);
+        }
+        Some(list)
+    }
+
     pub(super) fn counts<const N: usize>(&mut self, key: &'static str) -> Option<[u64; N]> {
         self.list(key, &format!("a list of {N} whole numbers, not negative"), as_count)
     }
@@ -244,6 +307,12 @@ fn as_number(value: &Value) -> Option<f64> {
         Value::Float(number) => Some(*number),
         _ => None,
     }
+}
+
+fn as_row(value: &Value) -> Option<[f64; 3]> {
+    let Value::Array(items) = value else { return None };
+    let [x, y, z] = items.as_slice() else { return None };
+    Some([as_number(&x.value)?, as_number(&y.value)?, as_number(&z.value)?])
 }
 
 fn as_count(value: &Value) -> Option<u64> {

@@ -1,5 +1,6 @@
 //! Triangle meshes, one file per format.
 
+pub(super) mod arrays;
 mod build;
 pub(super) mod glb;
 pub(super) mod obj;

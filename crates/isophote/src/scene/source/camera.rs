@@ -12,7 +12,6 @@ tables! {
     #[serde(deny_unknown_fields)]
     pub struct CameraSource {
         /// Where the eye is.
-        #[schemars(required)]
         pub eye: Option<[f64; 3]>,
         /// Direction of view, of any length but zero. Either this or `target`.
         pub forward: Option<[f64; 3]>,
@@ -34,6 +33,10 @@ tables! {
         pub projection: Option<ProjectionName>,
         /// The window of a perspective camera. Either this or `field_of_view`.
         pub screen: Option<ScreenSource>,
+        /// The intrinsic parameters of a calibrated perspective camera (formula 2.11). Instead of `screen` and `field_of_view`.
+        pub intrinsics: Option<IntrinsicsSource>,
+        /// Where a calibrated camera is (formula 2.12). Instead of `eye`, `forward`, `target` and `up`.
+        pub pose: Option<PoseSource>,
         /// The angle that the width of a perspective image spans, below 180; or the angle across the circle of a fisheye, up to
         /// 360; in degrees.
         #[schemars(range(min = *limits::FISHEYE_FIELD.start(), max = *limits::FISHEYE_FIELD.end()))]
@@ -64,6 +67,35 @@ tables! {
         /// Lower and upper edge of the window; the first is smaller.
         #[schemars(required)]
         pub y: Option<[f64; 2]>,
+    }
+
+    /// The intrinsic parameters of a pinhole camera, in pixels; the centre of the top left pixel is (0, 0), y runs down.
+    #[serde(deny_unknown_fields)]
+    pub struct IntrinsicsSource {
+        /// Focal length in widths of a pixel.
+        #[schemars(required, range(min = *limits::FOCAL_LENGTH.start(), max = *limits::FOCAL_LENGTH.end()))]
+        pub fx: Option<f64>,
+        /// Focal length in heights of a pixel.
+        #[schemars(required, range(min = *limits::FOCAL_LENGTH.start(), max = *limits::FOCAL_LENGTH.end()))]
+        pub fy: Option<f64>,
+        /// Column of the principal point.
+        #[schemars(required, range(min = -limits::PRINCIPAL_POINT, max = limits::PRINCIPAL_POINT))]
+        pub cx: Option<f64>,
+        /// Row of the principal point.
+        #[schemars(required, range(min = -limits::PRINCIPAL_POINT, max = limits::PRINCIPAL_POINT))]
+        pub cy: Option<f64>,
+    }
+
+    /// From the axes of the scene to those of the camera, whose x runs to the right, y down and z along the direction of view:
+    /// rotation × point + translation.
+    #[serde(deny_unknown_fields)]
+    pub struct PoseSource {
+        /// Three rows: the camera's x, y and z axes in those of the scene.
+        #[schemars(required)]
+        pub rotation: Option<[[f64; 3]; 3]>,
+        /// Where the scene's origin is in the camera's axes.
+        #[schemars(required)]
+        pub translation: Option<[f64; 3]>,
     }
 
     /// The window of an orthographic camera.

@@ -10,9 +10,15 @@ tables! {
     pub struct MeshSource {
         /// A name of its own; by default `mesh[0]`, `mesh[1]` and so on.
         pub name: Option<String>,
-        /// An OBJ, PLY, STL or binary glTF file; a relative path starts at the scene file.
-        #[schemars(required)]
+        /// An OBJ, PLY, STL or binary glTF file; a relative path starts at the scene file. Either this or `vertices` and
+        /// `faces`.
         pub file: Option<String>,
+        /// The points of the mesh itself, instead of a file.
+        pub vertices: Option<Vec<[f64; 3]>>,
+        /// The three corners of each triangle: which of the `vertices`, counted from 0; counter-clockwise as seen from outside.
+        pub faces: Option<Vec<[u64; 3]>>,
+        /// A direction at each of the `vertices`, for smooth shading.
+        pub normals: Option<Vec<[f64; 3]>>,
         /// Factors along the file's own axes, in the scene's unit of length per unit of the file.
         #[schemars(inner(range(min = *limits::SCALE.start(), max = *limits::SCALE.end())), extend("default" = [1, 1, 1]))]
         pub scale: Option<[f64; 3]>,

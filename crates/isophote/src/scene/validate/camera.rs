@@ -1,12 +1,12 @@
 //! Validates the camera.
 
-use super::Validator;
 use super::numbers::{Aim, vector_text};
+use super::{Validator, rounded};
 use crate::camera::{Camera, Handedness};
 use crate::map::Resolution;
 use crate::scene::document::Path;
 use crate::scene::limits;
-use crate::scene::source::{CameraSource, SceneSource};
+use crate::scene::source::{CameraSource, PoseSource, SceneSource};
 use crate::vector::Vector;
 
 impl Validator<'_> {
@@ -16,31 +16,101 @@ impl Validator<'_> {
             self.problems.missing(&Path::root(), "camera", "write a table [camera] with `eye`, `forward` and `screen`");
             return None;
         };
-        let eye = self.required_point(&path, "eye", camera.eye);
-        let aim = Aim {
-            direction: ("forward", camera.forward),
-            target: camera.target,
-            tilt: camera.tilt,
-            azimuth: camera.azimuth,
+        let handedness = source.handedness.unwrap_or(Handedness::Right);
+        let [eye, forward, up] = match &camera.pose {
+            Some(pose) => self.pose(&path, camera, pose, handedness),
+            None => self.placed(&path, camera),
         };
-        let forward = self.aim(&path, eye, &aim);
-        let up = match camera.up {
-            Some(up) => self.direction(&path.key("up"), up),
-            None => forward.map(|forward| aim.rise().unwrap_or_else(|| default_up(forward))),
-        };
-        if let (Some(forward), Some(up)) = (forward, up) {
-            self.not_parallel(&path, camera, forward, up);
-        }
         let resolution = self.resolution(&path.key("resolution"), camera.resolution.unwrap_or([800, 600]));
         let projection = self.projection(&path, camera, resolution);
         Some(Camera {
             eye: eye?,
             forward: forward?,
             up: up?,
-            handedness: source.handedness.unwrap_or(Handedness::Right),
+            handedness,
             projection: projection?,
             resolution: resolution?,
         })
+    }
+
+    /// The eye, the direction of view and what is up.
+    fn placed(&mut self, path: &Path, camera: &CameraSource) -> [Option<Vector>; 3] {
+        let eye = self.required_point(path, "eye", camera.eye);
+        let aim = Aim {
+            direction: ("forward", camera.forward),
+            target: camera.target,
+            tilt: camera.tilt,
+            azimuth: camera.azimuth,
+        };
+        let forward = self.aim(path, eye, &aim);
+        let up = match camera.up {
+            Some(up) => self.direction(&path.key("up"), up),
+            None => forward.map(|forward| aim.rise().unwrap_or_else(|| default_up(forward))),
+        };
+        if let (Some(forward), Some(up)) = (forward, up) {
+            self.not_parallel(path, camera, forward, up);
+        }
+        [eye, forward, up]
+    }
+
+    /// The same of a calibrated camera (2.12).
+    fn pose(
+        &mut self,
+        path: &Path,
+        camera: &CameraSource,
+        pose: &PoseSource,
+        handedness: Handedness,
+    ) -> [Option<Vector>; 3] {
+        let others = [
+            ("eye", camera.eye.is_some()),
+            ("forward", camera.forward.is_some()),
+            ("target", camera.target.is_some()),
+            ("tilt", camera.tilt.is_some()),
+            ("azimuth", camera.azimuth.is_some()),
+            ("up", camera.up.is_some()),
+        ];
+        for (key, _) in others.into_iter().filter(|(_, is_written)| *is_written) {
+            let message = format!("`camera` has both `pose` and `{key}`");
+            self.wrong(&path.key(key), message, "allowed: one of the two");
+        }
+        let path = path.key("pose");
+        if handedness == Handedness::Left {
+            let message = "`camera.pose` is in a scene whose `handedness` is left".into();
+            self.wrong(&path, message, "allowed: `handedness = \"right\"`, which calibrations are for");
+        }
+        let rotation = self.rotation_rows(&path, pose.rotation);
+        let translation = self.required_point(&path, "translation", pose.translation);
+        let (Some([x, y, z]), Some(t)) = (rotation, translation) else { return [None; 3] };
+        [Some(-(x * t.x + y * t.y + z * t.z)), Some(z), Some(-y)]
+    }
+
+    /// The rows of a rotation.
+    fn rotation_rows(&mut self, path: &Path, written: Option<[[f64; 3]; 3]>) -> Option<[Vector; 3]> {
+        let Some(rows) = written else {
+            let help = "write `rotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]`: the camera's axes to the right, down and forward";
+            self.problems.missing(path, "rotation", help);
+            return None;
+        };
+        let rows = rows.map(Vector::from);
+        let [x, y, z] = rows;
+        let products =
+            [x.dot(x) - 1.0, y.dot(y) - 1.0, z.dot(z) - 1.0, x.dot(y), y.dot(z), z.dot(x), x.cross(y).dot(z) - 1.0];
+        // NaN, of numbers whose squares overflow, is not small.
+        if products.iter().all(|product| product.abs() <= limits::ROTATION) {
+            return Some(rows);
+        }
+        let path = path.key("rotation");
+        let message = if x.cross(y).dot(z) < 0.0 {
+            format!("`{path}` mirrors: its determinant is {}", rounded(x.cross(y).dot(z)))
+        } else {
+            format!("`{path}` is no rotation")
+        };
+        let help = format!(
+            "allowed: three rows of length 1 at right angles to each other, to within {:e}, with the determinant 1",
+            limits::ROTATION
+        );
+        self.wrong(&path, message, &help);
+        None
     }
 
     pub(super) fn not_parallel(&mut self, path: &Path, camera: &CameraSource, forward: Vector, up: Vector) {

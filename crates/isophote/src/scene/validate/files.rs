@@ -22,11 +22,15 @@ impl ShapeSource for MeshSource {
     }
 
     fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
-        if let Some((_, geometry)) = validator.kept.meshes.iter().find(|(form, _)| *form == MeshForm::of(self)) {
+        let form = MeshForm::of(self);
+        if let Some((_, geometry)) = validator.kept.meshes.iter().find(|(known, _)| *known == form) {
             return Some(geometry.clone());
         }
         let placing = validator.mesh_placing(path, self);
-        let mesh = validator.imported(path, self.file.as_deref(), import::read_mesh)?;
+        let mesh = match self.vertices.is_some() || self.faces.is_some() || self.normals.is_some() {
+            true => validator.mesh_of_arrays(path, self)?,
+            false => validator.imported(path, self.file.as_deref(), import::read_mesh)?,
+        };
         let TriangleMesh { vertices, triangles, normals, materials, degenerate } = mesh;
         let (slots, materials) = validator.slots(path, materials, self.material.is_some())?;
         let normals = normals.filter(|_| self.smooth.unwrap_or(true));
@@ -98,6 +102,9 @@ pub(super) struct GeometryCache {
 #[derive(PartialEq)]
 struct MeshForm {
     file: Option<String>,
+    vertices: Option<Vec<[f64; 3]>>,
+    faces: Option<Vec<[u64; 3]>>,
+    normals: Option<Vec<[f64; 3]>>,
     scale: [f64; 3],
     rotation: Option<RotationSource>,
     position: [f64; 3],
@@ -109,6 +116,9 @@ impl MeshForm {
     fn of(source: &MeshSource) -> Self {
         Self {
             file: source.file.clone(),
+            vertices: source.vertices.clone(),
+            faces: source.faces.clone(),
+            normals: source.normals.clone(),
             scale: source.scale.unwrap_or([1.0; 3]),
             rotation: source.rotation,
             position: source.position.unwrap_or_default(),
@@ -175,6 +185,36 @@ impl Validator<'_> {
                     ImportError::Content { .. } => "mend the file, or name another one".into(),
                 };
                 self.wrong(&path.key("file"), error.to_string(), &help);
+                None
+            }
+        }
+    }
+
+    /// A mesh that is written out.
+    fn mesh_of_arrays(&mut self, path: &Path, mesh: &MeshSource) -> Option<TriangleMesh> {
+        if mesh.file.is_some() {
+            let message = format!("`{path}` has a `file`, and `vertices`, `faces` or `normals` too");
+            self.wrong(&path.key("file"), message, "allowed: a file, or the mesh itself");
+            return None;
+        }
+        if mesh.vertices.is_none() {
+            self.problems.missing(path, "vertices", "write `vertices = [[x, y, z], …]`, the points of the mesh");
+        }
+        if mesh.faces.is_none() {
+            self.problems.missing(path, "faces", "write `faces = [[0, 1, 2], …]`, the corners of each triangle");
+        }
+        let (vertices, faces) = (mesh.vertices.as_ref()?, mesh.faces.as_ref()?);
+        if let Some(normals) = &mesh.normals
+            && normals.len() != vertices.len()
+        {
+            let message = format!("`{path}` has {} normals for {} vertices", normals.len(), vertices.len());
+            self.wrong(&path.key("normals"), message, "allowed: one for each vertex");
+            return None;
+        }
+        match import::mesh_from_arrays(vertices, faces, mesh.normals.as_deref()) {
+            Ok(mesh) => Some(mesh),
+            Err(fault) => {
+                self.wrong(&path.key("faces"), format!("`{path}` is no mesh: {fault}"), "mend its arrays");
                 None
             }
         }

@@ -173,7 +173,9 @@ impl Validator<'_> {
                 self.warn(&root.key("material").key(name), message, "leave it out, or use it");
             }
         }
-        if let Some(camera) = camera {
+        // The pixels of a calibrated camera are as they are.
+        let is_calibrated = source.camera.as_ref().is_some_and(|camera| camera.intrinsics.is_some());
+        if let Some(camera) = camera.filter(|_| !is_calibrated) {
             self.square_pixels(camera);
         }
     }

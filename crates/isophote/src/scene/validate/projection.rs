@@ -5,7 +5,7 @@ use crate::camera::{Extent, Fisheye, Mapping, Projection, Screen};
 use crate::map::Resolution;
 use crate::scene::document::Path;
 use crate::scene::limits;
-use crate::scene::source::{CameraSource, ProjectionName, ScreenSource, WindowSource};
+use crate::scene::source::{CameraSource, IntrinsicsSource, ProjectionName, ScreenSource, WindowSource};
 use crate::units::Keyword;
 
 /// The smallest width and height of a panorama, in degrees.
@@ -36,25 +36,73 @@ impl Validator<'_> {
     }
 
     fn perspective(&mut self, path: &Path, camera: &CameraSource, resolution: Option<Resolution>) -> Option<Screen> {
-        match (&camera.screen, camera.field_of_view) {
-            (Some(_), Some(_)) => {
-                let message = "`camera` has both `screen` and `field_of_view`".into();
-                self.wrong(&path.key("field_of_view"), message, "allowed: one of the two");
-                None
-            }
-            (None, Some(field_of_view)) => {
+        let distance = self.length.to_metres(1.0);
+        match (&camera.screen, camera.field_of_view, &camera.intrinsics) {
+            (None, None, Some(intrinsics)) => self.intrinsics(path, intrinsics, distance, resolution),
+            (Some(_), None, Some(_)) => self.either(path, "screen", "intrinsics"),
+            (_, Some(_), Some(_)) => self.either(path, "field_of_view", "intrinsics"),
+            (Some(_), Some(_), None) => self.either(path, "screen", "field_of_view"),
+            (None, Some(field_of_view), None) => {
                 let field_of_view = self.field_of_view(path, field_of_view, limits::PERSPECTIVE_FIELD)?;
-                let distance = self.length.to_metres(1.0);
                 Some(Screen::of_field_of_view(field_of_view, distance, resolution?))
             }
-            (Some(screen), None) => self.screen(path, screen),
-            (None, None) => {
+            (Some(screen), None, None) => self.screen(path, screen),
+            (None, None, None) => {
                 let help =
                     "write `screen = { distance = 5, x = [-4, 4], y = [-3, 3] }`, or `field_of_view = 40` instead";
                 self.problems.missing(path, "screen", help);
                 None
             }
         }
+    }
+
+    fn either<T>(&mut self, path: &Path, one: &str, other: &str) -> Option<T> {
+        self.wrong(&path.key(other), format!("`camera` has both `{one}` and `{other}`"), "allowed: one of the two");
+        None
+    }
+
+    /// The window of a calibrated camera (2.11).
+    fn intrinsics(
+        &mut self,
+        path: &Path,
+        written: &IntrinsicsSource,
+        distance: f64,
+        resolution: Option<Resolution>,
+    ) -> Option<Screen> {
+        let path = path.key("intrinsics");
+        let principal = -limits::PRINCIPAL_POINT..=limits::PRINCIPAL_POINT;
+        let [fx, fy] = [("fx", written.fx), ("fy", written.fy)]
+            .map(|(key, value)| self.pixels(&path, key, value, &limits::FOCAL_LENGTH));
+        let [cx, cy] =
+            [("cx", written.cx), ("cy", written.cy)].map(|(key, value)| self.pixels(&path, key, value, &principal));
+        let (fx, fy, cx, cy) = (fx?, fy?, cx?, cy?);
+        let Resolution { width, height } = resolution?;
+        let [width, height] = [width, height].map(f64::from);
+        Some(Screen {
+            distance,
+            x: [(-0.5 - cx) / fx * distance, (width - 0.5 - cx) / fx * distance],
+            y: [-(height - 0.5 - cy) / fy * distance, (0.5 + cy) / fy * distance],
+        })
+    }
+
+    fn pixels(
+        &mut self,
+        path: &Path,
+        key: &str,
+        written: Option<f64>,
+        allowed: &std::ops::RangeInclusive<f64>,
+    ) -> Option<f64> {
+        let Some(value) = written else {
+            self.problems.missing(path, key, format!("write `{key} = …`, in pixels"));
+            return None;
+        };
+        if allowed.contains(&value) {
+            return Some(value);
+        }
+        let path = path.key(key);
+        let help = format!("allowed: {:e} to {:e} pixels", allowed.start(), allowed.end());
+        self.wrong(&path, format!("`{path}` is {value}"), &help);
+        None
     }
 
     fn screen(&mut self, path: &Path, screen: &ScreenSource) -> Option<Screen> {
@@ -115,8 +163,9 @@ impl Validator<'_> {
 
     fn refuse_keys_of_other_projections(&mut self, path: &Path, camera: &CameraSource, name: ProjectionName) {
         use ProjectionName::{FisheyeEqualArea, FisheyeEquidistant, Orthographic, Panorama, Perspective};
-        let keys: [(&str, bool, &[ProjectionName]); 5] = [
+        let keys: [(&str, bool, &[ProjectionName]); 6] = [
             ("screen", camera.screen.is_some(), &[Perspective]),
+            ("intrinsics", camera.intrinsics.is_some(), &[Perspective]),
             ("field_of_view", camera.field_of_view.is_some(), &[Perspective, FisheyeEquidistant, FisheyeEqualArea]),
             ("window", camera.window.is_some(), &[Orthographic]),
             ("longitude", camera.longitude.is_some(), &[Panorama]),
