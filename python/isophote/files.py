@@ -27,7 +27,7 @@ class MapFile(Mapping[str, NDArray[Any]]):
         self.path = path
         # The working directory may have changed by the time the values are read.
         self._place = os.path.abspath(path)
-        self._directory = os.path.dirname(self._place) if directory is None else os.path.abspath(directory)
+        self._directory = None if directory is None else os.path.abspath(directory)
         self.metadata: dict[str, Any] = json.loads(_isophote.read_metadata(path))
         self._channels = {channel["name"]: channel for channel in self.metadata["channels"]}
         self._arrays: dict[str, NDArray[Any]] | None = None
@@ -40,7 +40,10 @@ class MapFile(Mapping[str, NDArray[Any]]):
     @property
     def scene(self) -> Scene:
         """The scene that was rendered."""
-        return Scene.from_toml(self.metadata["scene"], directory=self._directory, name=self.path)
+        if self._directory is not None:
+            return Scene.from_toml(self.metadata["scene"], directory=self._directory, name=self.path)
+        core = _isophote.Scene.from_output(json.dumps(self.metadata), self._place, self.path)
+        return Scene.of_core(core, core.directory)
 
     @property
     def units(self) -> dict[str, str]:
@@ -114,7 +117,8 @@ class MapFile(Mapping[str, NDArray[Any]]):
 def read(path: str | os.PathLike[str], *, directory: str | os.PathLike[str] | None = None) -> MapFile:
     """Opens a file or store written by Isophote, with its scene and its channels.
 
-    ``directory``: the base directory for relative file names in the scene; by default the directory of the file.
+    ``directory``: the base directory for relative file names in the scene. By default the scene has the files that it was
+    rendered from: small ones are in the file itself, others are looked for where they were; other contents are an error.
     """
     return MapFile(os.fspath(path), None if directory is None else os.fspath(directory))
 

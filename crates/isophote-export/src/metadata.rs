@@ -1,6 +1,6 @@
 //! What every file says about itself, in any format.
 
-use isophote::map::{Channel, Map, Region, Resolution, Window};
+use isophote::map::{Channel, Map, Region, Resolution, SourceFile, Window};
 use serde::{Deserialize, Serialize};
 
 /// The description stored as JSON in every file; it is enough to interpret the numbers and to render them again.
@@ -32,6 +32,9 @@ pub struct FileMetadata {
     pub picture: Option<PictureMetadata>,
     /// The scene as a TOML scene file, from which the map can be rendered again.
     pub scene: String,
+    /// The files that the scene names, as they were read.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<SourceFile>,
 }
 
 /// A channel in a file.
@@ -82,6 +85,7 @@ impl FileMetadata {
             channels: map.channels().iter().map(ChannelMetadata::of).collect(),
             picture: None,
             scene: map.provenance.scene.clone(),
+            files: map.provenance.files.clone(),
         }
     }
 

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::Path;
 
+use isophote::map::SourceFile;
 use isophote_export::FileMetadata;
 use serde::Deserialize;
 use serde_json::{Map as JsonMap, Value, json};
@@ -97,6 +98,15 @@ impl Identity {
         Ok(Self { metadata, plan, arrays })
     }
 
+    /// Without the paths of the scene's files, which differ between computers.
+    fn without_places(&self) -> Self {
+        let mut identity = self.clone();
+        for file in &mut identity.metadata.files {
+            file.path.clear();
+        }
+        identity
+    }
+
     /// How the requested identity differs from this one.
     pub fn changes(&self, asked: &Self) -> Vec<Change> {
         let (here, there) = (&asked.metadata, &self.metadata);
@@ -114,13 +124,30 @@ impl Identity {
         if changes.is_empty() {
             changes.extend(changed_line(&there.scene, &here.scene));
         }
-        if changes.is_empty() && self != asked {
+        if changes.is_empty() {
+            changes.extend(changed_file(&there.files, &here.files));
+        }
+        let [stored, asked] = [self, asked].map(Self::without_places);
+        if changes.is_empty() && stored != asked {
             let [stored, asked] =
-                [self, asked].map(|identity| format!("{:08x}", crc32c::crc32c(&identity.to_json(None))));
+                [stored, asked].map(|identity| format!("{:08x}", crc32c::crc32c(&identity.to_json(None))));
             changes.push(Change { what: "the checksum of the description", stored, asked });
         }
         changes
     }
+}
+
+/// The first file of the scene whose content differs.
+fn changed_file(stored: &[SourceFile], asked: &[SourceFile]) -> Option<Change> {
+    let named = |files: &[SourceFile], name: &str| {
+        let file = files.iter().find(|file| file.name == name);
+        file.map_or("absent".into(), |file| format!("‘{name}’, {}", file.describe()))
+    };
+    let differs = |file: &&SourceFile, others: &[SourceFile]| !others.iter().any(|other| file.is_same_content(other));
+    let changed =
+        asked.iter().find(|file| differs(file, stored)).or(stored.iter().find(|file| differs(file, asked)))?;
+    let [stored, asked] = [stored, asked].map(|files| named(files, &changed.name));
+    Some(Change { what: "a file of the scene", stored, asked })
 }
 
 fn size(metadata: &FileMetadata) -> String {

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::render::Renderer;
-use isophote::scene::{Scene, Syntax};
+use isophote::scene::{CarriedFiles, Scene, Syntax};
 use isophote_export::FileMetadata;
 
 use crate::array::ChannelArray;
@@ -197,8 +197,8 @@ impl Store {
     fn damaged_descriptions(&self) -> Result<Vec<Damage>, StoreError> {
         let mut damages = Vec::new();
         let metadata = &self.identity.metadata;
-        let directory = self.files.root().parent().unwrap_or(Path::new(""));
-        let scene = Scene::from_text_in(directory, "the store's scene", &metadata.scene, Syntax::Toml)
+        let files = CarriedFiles::of_output(self.files.root(), &metadata.files);
+        let scene = Scene::from_text_with(&files, None, "the store's scene", &metadata.scene, Syntax::Toml)
             .map_err(|error| StoreError::Damaged { path: self.files.path(ZARR_JSON), reason: error.to_string() })?;
         for (name, _, bytes) in describe::coordinates(&PreparedScene::new(&scene), &metadata.window)? {
             let file = format!("{name}/c/0");

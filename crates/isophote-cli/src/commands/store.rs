@@ -7,7 +7,7 @@ use anyhow::{Error, Result, anyhow};
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::render::{RenderError, SimdRenderer};
-use isophote::scene::{Scene, Syntax};
+use isophote::scene::Scene;
 use isophote::threads::Threads;
 use isophote_zarr::{Check, MapStatistics, Opening, Outcome, Request, Store, StoreError, Workers};
 use serde_json::json;
@@ -97,8 +97,7 @@ pub fn merge(arguments: &MergeArguments) -> Result<String> {
     end_in_order();
     let store = Store::open(&arguments.store).map_err(explained)?;
     let name = arguments.store.display().to_string();
-    let directory = arguments.store.parent().unwrap_or(Path::new(""));
-    let scene = PreparedScene::new(&Scene::from_text_in(directory, &name, &store.metadata().scene, Syntax::Toml)?);
+    let scene = PreparedScene::new(&load::carried_scene(&arguments.store, &name, store.metadata())?);
     let check = if arguments.check { Check::Content } else { Check::Presence };
     let statistics = store.merge(check).map_err(explained)?;
     printed(&statistics, &scene, arguments.json)

@@ -2,10 +2,12 @@
 
 use super::Validator;
 use crate::color::{ColorSpace, Component, Rgb};
+use crate::import::NoFiles;
 use crate::scene::document::Path;
 use crate::scene::limits;
 use crate::scene::problems::Problems;
 use crate::scene::source::{Amount, SceneSource};
+use crate::scene::source_files::NotedFiles;
 use crate::scene::{Lighting, SceneColor};
 use crate::units::Keyword;
 
@@ -55,7 +57,8 @@ impl Validator<'_> {
             convention: self.convention,
             shadows: self.shadows,
             collapse: ComponentSelector::Component(component),
-            files: self.files,
+            // Materials and lights name none.
+            files: NotedFiles::new(&NoFiles),
             materials: Vec::new(),
             problems: Problems::default(),
             warnings: Problems::default(),
