@@ -77,9 +77,12 @@ impl Identity {
             isophote: u32,
         }
         let damaged = |reason: String| StoreError::Damaged { path: path.join(ZARR_JSON), reason };
-        let mut json: Value = serde_json::from_slice(text).map_err(|error| damaged(error.to_string()))?;
-        let attributes = &mut json["attributes"];
-        let [metadata, plan] = ["isophote", "isophote_plan"].map(|key| attributes[key].take());
+        let mut group: Value = serde_json::from_slice(text).map_err(|error| damaged(error.to_string()))?;
+        // Anything may stand where an object is expected: what is looked for in it is then absent.
+        let mut take = |pointer| group.pointer_mut(pointer).map_or(Value::Null, Value::take);
+        let metadata = take("/attributes/isophote");
+        let plan = take("/attributes/isophote_plan");
+        let arrays = object(take("/consolidated_metadata/metadata"));
         match Version::deserialize(&metadata) {
             Err(_) => {
                 return Err(StoreError::Foreign { path: path.into(), what: "no Zarr store of Isophote".into() });
@@ -94,7 +97,6 @@ impl Identity {
         if !plan.is_sound() || plan.full != metadata.full {
             return Err(damaged("its plan does not fit its image".into()));
         }
-        let arrays = object(json["consolidated_metadata"]["metadata"].take());
         Ok(Self { metadata, plan, arrays })
     }
 

@@ -18,10 +18,10 @@ use crate::error::{Damage, StoreError};
 use crate::files::{Files, Lock, Sharing};
 use crate::identity::{Identity, ZARR_JSON};
 use crate::json::pretty;
-use crate::plan::{Part, Plan, Shard};
+use crate::plan::{Part, Plan};
 use crate::preview::{Boxes, Preview};
 use crate::record::Record;
-use crate::statistics::MapStatistics;
+use crate::statistics::{MapStatistics, ShardStatistics};
 
 /// The small picture of the whole map.
 const PREVIEW: &str = "preview.png";
@@ -34,7 +34,7 @@ pub struct Store {
     /// For each shard of the plan, whether it was done when the store was opened.
     pub(crate) was_done: Vec<bool>,
     done: AtomicU64,
-    _lock: Lock,
+    pub(crate) lock: Lock,
 }
 
 /// The store that is requested.
@@ -129,7 +129,7 @@ impl Store {
         let is_done = |shard| Ok(Record::read(&files, &arrays, shard)?.is_ok());
         let was_done = identity.plan.shards().map(is_done).collect::<Result<Vec<bool>, StoreError>>()?;
         let done = AtomicU64::new(count(&was_done));
-        Ok(Self { files, identity, arrays, was_done, done, _lock: lock })
+        Ok(Self { files, identity, arrays, was_done, done, lock })
     }
 
     /// What the store says about itself.
@@ -156,6 +156,13 @@ impl Store {
         self.done.load(Ordering::Relaxed)
     }
 
+    /// Whether other processes are kept from writing to the store. It is not so on file systems without locks: there, a
+    /// shard that another process has written meanwhile ends the computation with an error.
+    #[must_use]
+    pub fn is_locked(&self) -> bool {
+        self.lock.is_held
+    }
+
     pub(crate) fn count_one(&self) {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
@@ -168,9 +175,11 @@ impl Store {
     /// # Errors
     /// Lists all missing or damaged shards in one error.
     pub fn merge(&self, check: Check) -> Result<MapStatistics, StoreError> {
-        let mut records = Vec::new();
+        let plan = self.identity.plan;
+        let mut preview = Preview::new(Boxes::new(plan.full));
+        let mut shards = Vec::new();
         let mut damages = if check == Check::Content { self.damaged_descriptions()? } else { Vec::new() };
-        for shard in self.identity.plan.shards() {
+        for shard in plan.shards() {
             match Record::read(&self.files, &self.arrays, shard)? {
                 Err(damage) => damages.push(damage),
                 Ok(record) => {
@@ -178,16 +187,22 @@ impl Store {
                         Check::Presence => None,
                         Check::Content => record.check(&self.files, &self.arrays, shard)?,
                     };
+                    let of_preview = |reason| Damage {
+                        place: Record::key(shard),
+                        reason: format!("has a preview that does not fit: {reason}"),
+                    };
+                    let added = preview.add(plan.region(shard), &record.preview).map_err(of_preview);
+                    let damage = damage.or(added.err());
                     if damage.is_some() {
                         Record::forget(&self.files, shard)?;
                     }
                     damages.extend(damage);
-                    records.push((shard, record));
+                    shards.push(record.statistics);
                 }
             }
         }
         if damages.is_empty() {
-            self.finish(records)
+            self.finish(&preview, &shards)
         } else {
             Err(StoreError::Incomplete { path: self.files.root().into(), damages })
         }
@@ -216,17 +231,10 @@ impl Store {
         Ok(damages)
     }
 
-    fn finish(&self, records: Vec<(Shard, Record)>) -> Result<MapStatistics, StoreError> {
+    fn finish(&self, preview: &Preview, shards: &[ShardStatistics]) -> Result<MapStatistics, StoreError> {
         let Identity { metadata, plan, .. } = &self.identity;
         let quantities = self.quantities();
-        let mut preview = Preview::new(Boxes::new(plan.full));
-        let mut shards = Vec::with_capacity(records.len());
-        for (shard, record) in records {
-            let damaged = |reason| StoreError::Damaged { path: self.files.path(&Record::key(shard)), reason };
-            preview.add(plan.region(shard), &record.preview).map_err(damaged)?;
-            shards.push(record.statistics);
-        }
-        let statistics = MapStatistics::new(plan.full.count(), &quantities, &shards);
+        let statistics = MapStatistics::new(plan.full.count(), &quantities, shards);
         if let (Some(main), Some(channel)) = (quantities.first(), metadata.channels.first())
             && main.is_scalar()
         {

@@ -19,6 +19,10 @@ use crate::failure::{self, Paused, Usage};
 use crate::progress::{Progress, end_in_order};
 use crate::{load, numbers, threads};
 
+/// Two processes that compute the same shard write the same bytes, but one that merges meanwhile may see half of them.
+const NO_LOCKS: &str = "warning: this file system has no locks, so nothing keeps another process from writing to the store; \
+    make sure that none does, except with --shard";
+
 /// The store to render, if there is one; refuses options that need a store, or that do not work with one.
 pub fn asked_for(arguments: &RenderArguments) -> Result<Option<&Path>, Usage> {
     let Some(store) = arguments.output.iter().find(|path| load::is_store(path)) else {
@@ -66,6 +70,9 @@ pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
     };
     let store = Store::prepare(path, &scene, &renderer, &request).map_err(explained)?;
     if !arguments.quiet {
+        if !store.is_locked() {
+            failure::note(NO_LOCKS);
+        }
         for note in options_without_effect(arguments) {
             failure::note(&note);
         }
@@ -96,6 +103,9 @@ pub fn merge(arguments: &MergeArguments) -> Result<String> {
     // Once a record may have been removed, Ctrl-C must not say that nothing was written.
     end_in_order();
     let store = Store::open(&arguments.store).map_err(explained)?;
+    if !store.is_locked() {
+        failure::note(NO_LOCKS);
+    }
     let name = arguments.store.display().to_string();
     let scene = PreparedScene::new(&load::carried_scene(&arguments.store, &name, store.metadata())?);
     let check = if arguments.check { Check::Content } else { Check::Presence };
