@@ -39,7 +39,7 @@ class MapFile(Map):
         self.path = path
         # The working directory may have changed by the time the values are read.
         self._place = os.path.abspath(path)
-        self._directory = os.path.dirname(self._place) if directory is None else os.path.abspath(directory)
+        self._directory = None if directory is None else os.path.abspath(directory)
         self._about: dict[str, Any] = json.loads(_isophote.read_metadata(path))
         self._channels = {channel["name"]: channel for channel in self._about["channels"]}
         self._units = FrozenDict({name: channel["unit"] for name, channel in self._channels.items()})
@@ -58,7 +58,11 @@ class MapFile(Map):
     def scene(self) -> Scene:
         """The scene that was rendered."""
         if self._read_scene is None:
-            self._read_scene = Scene.from_toml(self._about["scene"], directory=self._directory, name=self.path)
+            if self._directory is not None:
+                self._read_scene = Scene.from_toml(self._about["scene"], directory=self._directory, name=self.path)
+            else:
+                core = _isophote.Scene.from_output(json.dumps(self._about), self._place, self.path)
+                self._read_scene = Scene.of_core(core, core.directory)
         return self._read_scene
 
     @property
@@ -213,7 +217,8 @@ def read(path: str | os.PathLike[str], *, directory: str | os.PathLike[str] | No
     """Opens a file or store written by Isophote, with its scene and its channels. The store of a sweep is opened as the
     Dataset that the sweep returned; its variable ``rendered`` tells which maps are there, if some are missing.
 
-    ``directory``: the base directory for relative file names in the scene; by default the directory of the file.
+    ``directory``: the base directory for relative file names in the scene. By default the scene has the files that it was
+    rendered from: small ones are in the file itself, others are looked for where they were; other contents are an error.
     """
     if os.path.isdir(path) and is_sweep(os.fspath(path)):
         return reopened(os.fspath(path))

@@ -6,7 +6,8 @@ use std::sync::{Arc, OnceLock};
 use isophote::map::Resolution;
 use isophote::prepare::PreparedScene;
 use isophote::scene::library::Starter;
-use isophote::scene::{FileResolver, Scene as CoreScene, SceneError, Syntax};
+use isophote::scene::{CarriedFiles, FileResolver, Scene as CoreScene, SceneError, Syntax};
+use isophote_export::FileMetadata;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -126,6 +127,23 @@ impl Scene {
         Self::new(py, scene, None)
     }
 
+    /// The scene in an output, whose description is given as JSON, with the files that it was made of.
+    #[staticmethod]
+    fn from_output(py: Python<'_>, metadata: &str, path: PathBuf, name: String) -> PyResult<Self> {
+        let metadata: FileMetadata = serde_json::from_str(metadata).map_err(|error| error::internal(py, error))?;
+        let scene = Self::read(py, !metadata.files.is_empty(), move || {
+            let files = CarriedFiles::of_output(&path, &metadata.files);
+            CoreScene::from_text_with(&files, None, &name, &metadata.scene, Syntax::Toml)
+        })?;
+        Self::new(py, scene, None)
+    }
+
+    /// The base directory of the file names in the scene.
+    #[getter]
+    fn directory(&self) -> PathBuf {
+        self.core().source().origin.directory().map_or(PathBuf::new(), PathBuf::from)
+    }
+
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         Self::new(py, Self::read(py, true, move || CoreScene::from_file(&path))?, None)
@@ -139,8 +157,7 @@ impl Scene {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, PathBuf))> {
         let scene = slf.get();
         let again = slf.get_type().getattr("from_json")?;
-        let directory = scene.core().source().origin.directory().map_or(PathBuf::new(), PathBuf::from);
-        Ok((again, (scene.to_json(slf.py())?, directory)))
+        Ok((again, (scene.to_json(slf.py())?, scene.directory())))
     }
 
     fn to_toml(&self) -> String {

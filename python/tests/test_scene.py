@@ -286,8 +286,12 @@ def test_files_that_a_scene_names_are_found_again(tmp_path, monkeypatch):
     monkeypatch.chdir(REPOSITORY)
     assert file.scene == scene.with_resolution((40, 30))
     np.testing.assert_array_equal(file["brightness"], expected["brightness"])
+    # The file carries the mesh.
+    carried = iso.read(tmp_path / "mesh.npz").scene
+    np.testing.assert_array_equal(iso.render(carried)["brightness"], expected["brightness"])
+    (tmp_path / "elsewhere").mkdir()
     with pytest.raises(iso.SceneError, match="vase.obj"):
-        _ = iso.read(tmp_path / "mesh.npz").scene
+        _ = iso.read(tmp_path / "mesh.npz", directory=tmp_path / "elsewhere").scene
 
 
 @pytest.mark.filterwarnings("ignore::isophote.SceneWarning")

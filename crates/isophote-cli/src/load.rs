@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 use isophote::scene::library::Starter;
 use isophote::scene::source::SamplingSource;
-use isophote::scene::{Scene, SceneError, Syntax, error};
+use isophote::scene::{CarriedFiles, Scene, SceneError, Syntax, error};
 use isophote_export::{FileMetadata, Format, read_metadata};
 
 use crate::args::{RenderArguments, SceneArgument};
@@ -53,12 +53,17 @@ fn read(argument: &SceneArgument) -> Result<(String, Scene)> {
     } else if Format::from_path(path).is_some() || is_store(path) {
         let no_scene = |error| SceneError::unreadable(&name, format!("no scene can be taken out of it: {error}"), None);
         let metadata = metadata(path).map_err(no_scene)?;
-        let directory = path.parent().unwrap_or(Path::new(""));
-        Scene::from_text_in(directory, &name, &metadata.scene, Syntax::Toml)?
+        carried_scene(path, &name, &metadata)?
     } else {
         Scene::from_file(path)?
     };
     Ok((name, scene))
+}
+
+/// The scene in an output, with the files that it was made of.
+pub fn carried_scene(output: &Path, name: &str, metadata: &FileMetadata) -> Result<Scene, SceneError> {
+    let files = CarriedFiles::of_output(output, &metadata.files);
+    Scene::from_text_with(&files, None, name, &metadata.scene, Syntax::Toml)
 }
 
 /// The metadata of an output file or store.

@@ -1,6 +1,6 @@
 //! What every file says about itself, in any format.
 
-use isophote::map::{Channel, Map, Provenance, Region, Resolution, Window};
+use isophote::map::{Channel, Map, Provenance, Region, Resolution, SourceFile, Window};
 use serde::{Deserialize, Serialize};
 
 /// The description stored as JSON in every file; it is enough to interpret the numbers and to render them again.
@@ -32,6 +32,9 @@ pub struct FileMetadata {
     pub picture: Option<PictureMetadata>,
     /// The scene as a TOML scene file, from which the map can be rendered again.
     pub scene: String,
+    /// The files that the scene names, as they were read.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<SourceFile>,
 }
 
 /// A channel in a file.
@@ -96,6 +99,7 @@ impl FileMetadata {
             channels: map.channels().iter().map(ChannelMetadata::of).collect(),
             picture: None,
             scene: map.provenance.scene.clone(),
+            files: map.provenance.files.clone(),
         }
     }
 
@@ -121,6 +125,7 @@ impl FileMetadata {
             program: self.program.clone(),
             title: self.title.clone(),
             scene: self.scene.clone(),
+            files: self.files.clone(),
             convention: self.convention.clone(),
             renderer: self.renderer.clone(),
             color_space: self.color_space.clone(),

@@ -34,6 +34,7 @@ pub(crate) fn map_over(size: Resolution, window: Window, seen: impl Fn(f64, f64)
         program: "isophote 0.1.0".into(),
         title: "Sample".into(),
         scene: String::new(),
+        files: Vec::new(),
         convention: "lab (3.3)".into(),
         renderer: "double reference".into(),
         color_space: None,

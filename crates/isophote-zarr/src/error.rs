@@ -9,6 +9,7 @@ use isophote::render::RenderError;
 use isophote_export::{ExportError, FileMetadata};
 
 use crate::change::Change;
+use crate::plan::Shard;
 
 /// Why a store could not be created, continued or read.
 #[derive(Debug, thiserror::Error)]
@@ -76,6 +77,14 @@ pub enum StoreError {
     Busy {
         /// The store.
         path: PathBuf,
+    },
+    /// Another process has written a shard, on a file system where it could not be kept from it.
+    #[error("‘{}’: another process has written the shard {shard} meanwhile, and this file system has no locks; let only one write", path.display())]
+    Met {
+        /// The store.
+        path: PathBuf,
+        /// The shard that both have computed.
+        shard: Shard,
     },
     /// The memory limit is too small for even one shard.
     #[error("a limit of {limit} MiB of memory is too small: one shard of this map needs {needed} MiB")]

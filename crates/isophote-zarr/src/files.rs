@@ -22,6 +22,8 @@ pub struct Files {
 /// While this is held, no conflicting process writes.
 pub struct Lock {
     _file: File,
+    /// False where the file system has no locks.
+    pub is_held: bool,
 }
 
 /// Who may write at the same time.
@@ -68,6 +70,7 @@ impl Files {
         let path = self.path(LOCK);
         let open = File::options().create(true).truncate(false).write(true).open(&path);
         let file = open.map_err(|reason| StoreError::Write { path, reason })?;
+        let mut is_held = true;
         match file.try_lock() {
             Ok(()) => {
                 self.remove_unfinished()?;
@@ -78,9 +81,9 @@ impl Files {
             }
             Err(TryLockError::WouldBlock) if sharing == Sharing::Together => self.share(&file)?,
             Err(TryLockError::WouldBlock) => return Err(StoreError::Busy { path: self.root.clone() }),
-            Err(TryLockError::Error(_)) => {}
+            Err(TryLockError::Error(_)) => is_held = false,
         }
-        Ok(Lock { _file: file })
+        Ok(Lock { _file: file, is_held })
     }
 
     /// Waits briefly, because another sharing process may be looking for leftovers.
@@ -121,17 +124,22 @@ impl Files {
     /// Writes the bytes to a file, replacing its content.
     pub fn put(&self, key: &str, bytes: &[u8]) -> Result<(), StoreError> {
         let path = self.path(key);
-        let put = self.prepared(&path, bytes).and_then(|file| file.persist(&path).map_err(|error| error.error));
-        put.map(drop).map_err(|reason| StoreError::Write { path, reason })
+        let put = self.prepared(&path, bytes).and_then(|file| {
+            file.persist(&path).map_err(|error| error.error)?;
+            sync_folder(path.parent())
+        });
+        put.map_err(|reason| StoreError::Write { path, reason })
     }
 
     /// Writes the bytes to a file unless it already exists; returns whether it did.
     pub fn put_new(&self, key: &str, bytes: &[u8]) -> Result<bool, StoreError> {
         let path = self.path(key);
-        let put =
-            self.prepared(&path, bytes).and_then(|file| file.persist_noclobber(&path).map_err(|error| error.error));
+        let put = self.prepared(&path, bytes).and_then(|file| {
+            file.persist_noclobber(&path).map_err(|error| error.error)?;
+            sync_folder(path.parent())
+        });
         match put {
-            Ok(_) => Ok(true),
+            Ok(()) => Ok(true),
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
             Err(reason) => Err(StoreError::Write { path, reason }),
         }
@@ -153,7 +161,7 @@ impl Files {
     /// A hidden file with this content, synced to disk and ready to be renamed; if it is not, it deletes itself.
     fn prepared(&self, path: &Path, bytes: &[u8]) -> io::Result<tempfile::NamedTempFile> {
         if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder)?;
+            make_folders(folder)?;
         }
         let mut builder = tempfile::Builder::new();
         #[cfg(unix)]
@@ -171,12 +179,37 @@ impl Files {
     }
 
     fn make_folder(&self, path: &Path) -> Result<(), StoreError> {
-        fs::create_dir_all(path).map_err(|reason| StoreError::Write { path: self.root.clone(), reason })
+        make_folders(path).map_err(|reason| StoreError::Write { path: self.root.clone(), reason })
     }
 
     fn read_error(&self, key: &str, reason: io::Error) -> StoreError {
         StoreError::Read { path: self.path(key), reason }
     }
+}
+
+/// Makes a folder and those above it that are missing, and syncs the folders in which they appear.
+fn make_folders(folder: &Path) -> io::Result<()> {
+    let missing = folder.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()).count();
+    fs::create_dir_all(folder)?;
+    folder.ancestors().take(missing).try_for_each(|made| sync_folder(made.parent()))
+}
+
+/// Makes sure that a power failure does not take away the names in a folder. Without this a record could outlive the shard
+/// that it speaks of, since file systems may write the two names in any order.
+#[cfg(unix)]
+fn sync_folder(folder: Option<&Path>) -> io::Result<()> {
+    let folder = folder.filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match File::open(folder).and_then(|folder| folder.sync_all()) {
+        // Some network file systems cannot sync a folder, and write names at once.
+        Err(error) if matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) => Ok(()),
+        synced => synced,
+    }
+}
+
+/// Elsewhere folders cannot be opened; the file system writes names in order.
+#[cfg(not(unix))]
+fn sync_folder(_: Option<&Path>) -> io::Result<()> {
+    Ok(())
 }
 
 /// If a parent of the path is a file rather than a folder, the path does not exist either.

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::Path;
 
+use isophote::map::SourceFile;
 use isophote_export::FileMetadata;
 use serde::Deserialize;
 use serde_json::{Map as JsonMap, Value, json};
@@ -76,9 +77,12 @@ impl Identity {
             isophote: u32,
         }
         let damaged = |reason: String| StoreError::Damaged { path: path.join(ZARR_JSON), reason };
-        let mut json: Value = serde_json::from_slice(text).map_err(|error| damaged(error.to_string()))?;
-        let attributes = &mut json["attributes"];
-        let [metadata, plan] = ["isophote", "isophote_plan"].map(|key| attributes[key].take());
+        let mut group: Value = serde_json::from_slice(text).map_err(|error| damaged(error.to_string()))?;
+        // Anything may stand where an object is expected: what is looked for in it is then absent.
+        let mut take = |pointer| group.pointer_mut(pointer).map_or(Value::Null, Value::take);
+        let metadata = take("/attributes/isophote");
+        let plan = take("/attributes/isophote_plan");
+        let arrays = object(take("/consolidated_metadata/metadata"));
         match Version::deserialize(&metadata) {
             Err(_) => {
                 return Err(StoreError::Foreign { path: path.into(), what: "no Zarr store of Isophote".into() });
@@ -93,8 +97,16 @@ impl Identity {
         if !plan.is_sound() || plan.full != metadata.full {
             return Err(damaged("its plan does not fit its image".into()));
         }
-        let arrays = object(json["consolidated_metadata"]["metadata"].take());
         Ok(Self { metadata, plan, arrays })
+    }
+
+    /// Without the paths of the scene's files, which differ between computers.
+    fn without_places(&self) -> Self {
+        let mut identity = self.clone();
+        for file in &mut identity.metadata.files {
+            file.path.clear();
+        }
+        identity
     }
 
     /// How the requested identity differs from this one.
@@ -114,13 +126,30 @@ impl Identity {
         if changes.is_empty() {
             changes.extend(changed_line(&there.scene, &here.scene));
         }
-        if changes.is_empty() && self != asked {
+        if changes.is_empty() {
+            changes.extend(changed_file(&there.files, &here.files));
+        }
+        let [stored, asked] = [self, asked].map(Self::without_places);
+        if changes.is_empty() && stored != asked {
             let [stored, asked] =
-                [self, asked].map(|identity| format!("{:08x}", crc32c::crc32c(&identity.to_json(None))));
+                [stored, asked].map(|identity| format!("{:08x}", crc32c::crc32c(&identity.to_json(None))));
             changes.push(Change { what: "the checksum of the description", stored, asked });
         }
         changes
     }
+}
+
+/// The first file of the scene whose content differs.
+fn changed_file(stored: &[SourceFile], asked: &[SourceFile]) -> Option<Change> {
+    let named = |files: &[SourceFile], name: &str| {
+        let file = files.iter().find(|file| file.name == name);
+        file.map_or("absent".into(), |file| format!("‘{name}’, {}", file.describe()))
+    };
+    let differs = |file: &&SourceFile, others: &[SourceFile]| !others.iter().any(|other| file.is_same_content(other));
+    let changed =
+        asked.iter().find(|file| differs(file, stored)).or(stored.iter().find(|file| differs(file, asked)))?;
+    let [stored, asked] = [stored, asked].map(|files| named(files, &changed.name));
+    Some(Change { what: "a file of the scene", stored, asked })
 }
 
 fn size(metadata: &FileMetadata) -> String {

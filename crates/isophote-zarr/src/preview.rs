@@ -103,6 +103,7 @@ impl Preview {
             program: metadata.program.clone(),
             title: metadata.title.clone(),
             scene: metadata.scene.clone(),
+            files: metadata.files.clone(),
             convention: metadata.convention.clone(),
             renderer: metadata.renderer.clone(),
             color_space: metadata.color_space.clone(),

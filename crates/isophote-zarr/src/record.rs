@@ -20,6 +20,25 @@ pub struct Record {
     pub preview: String,
 }
 
+/// What stands before and after a record and before its checksum, which has [`DIGITS`] digits.
+const BEFORE: &str = "{\"record\":";
+const BETWEEN: &str = ",\"crc32c\":\"";
+const AFTER: &str = "\"}";
+const DIGITS: usize = 8;
+
+/// A record with its checksum, as one JSON object.
+fn sealed(record: &str) -> String {
+    format!("{BEFORE}{record}{BETWEEN}{:08x}{AFTER}", crc32c::crc32c(record.as_bytes()))
+}
+
+/// The record in a sealed one; none if a byte of it is not as it was written.
+fn opened(sealed: &[u8]) -> Option<&[u8]> {
+    let rest = sealed.strip_prefix(BEFORE.as_bytes())?.strip_suffix(AFTER.as_bytes())?;
+    let (rest, checksum) = rest.split_at_checked(rest.len().checked_sub(DIGITS)?)?;
+    let record = rest.strip_suffix(BETWEEN.as_bytes())?;
+    (format!("{:08x}", crc32c::crc32c(record)).as_bytes() == checksum).then_some(record)
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct StoredFile {
     bytes: u64,
@@ -60,8 +79,8 @@ impl Record {
             preview: preview.unwrap_or_default(),
         };
         let path = files.path(&Self::key(shard));
-        let json = serde_json::to_vec(&record).map_err(|error| StoreError::Write { path, reason: error.into() })?;
-        files.put(&Self::key(shard), &json)
+        let json = serde_json::to_string(&record).map_err(|error| StoreError::Write { path, reason: error.into() })?;
+        files.put(&Self::key(shard), sealed(&json).as_bytes())
     }
 
     /// The record of a shard whose files all exist and have the recorded lengths.
@@ -69,7 +88,8 @@ impl Record {
         let damage = |place, reason: &str| Ok(Err(Damage { place, reason: reason.into() }));
         let key = Self::key(shard);
         let Some(json) = files.get(&key)? else { return damage(format!("shard {shard}"), "is not computed") };
-        let Ok(record) = serde_json::from_slice::<Self>(&json) else { return damage(key, "is damaged") };
+        let Some(json) = opened(&json) else { return damage(key, "is damaged: its checksum is wrong") };
+        let Ok(record) = serde_json::from_slice::<Self>(json) else { return damage(key, "is damaged") };
         if record.files.len() != arrays.len() {
             return damage(key, "is of another map");
         }

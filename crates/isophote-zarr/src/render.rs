@@ -86,6 +86,7 @@ impl Store {
             renderer,
             observer,
             due: &due,
+            is_alone: part.is_none(),
             next: AtomicUsize::new(0),
             is_stopped: AtomicBool::new(false),
             error: Mutex::new(None),
@@ -138,6 +139,8 @@ struct Work<'w> {
     renderer: &'w (dyn Renderer + Sync),
     observer: Option<&'w dyn Observer>,
     due: &'w [Shard],
+    /// Whether no other process should write to the store.
+    is_alone: bool,
     next: AtomicUsize,
     is_stopped: AtomicBool,
     error: Mutex<Option<StoreError>>,
@@ -173,6 +176,10 @@ impl Work<'_> {
         let region = Some(self.store.plan().region(shard));
         let settings = RenderSettings { region, quantities: rendered(&self.store.quantities()), observer: Some(self) };
         let map = self.renderer.render(self.scene, &settings)?;
+        // It was not done when the store was opened.
+        if !self.store.is_locked() && self.is_alone && Record::read(files, arrays, shard)?.is_ok() {
+            return Err(StoreError::Met { path: files.root().into(), shard });
+        }
         Record::make(files, arrays, self.store.plan(), shard, &map, &|| match self.advance(0) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(RenderError::Interrupted.into()),
@@ -188,5 +195,55 @@ impl Observer for Work<'_> {
             return ControlFlow::Break(());
         }
         self.observer.map_or(ControlFlow::Continue(()), |observer| observer.advance(pixels))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use isophote::map::{Quantity, Resolution};
+    use isophote::render::ReferenceRenderer;
+    use isophote::scene::library::Starter;
+    use isophote::scene::{Scene, Syntax};
+
+    use super::*;
+    use crate::store::{Opening, Request};
+
+    const WORKERS: Workers = Workers { threads: NonZeroUsize::MIN, memory: None };
+
+    fn opened(path: &Path, scene: &PreparedScene) -> Store {
+        let request = Request {
+            quantities: vec![Quantity::Brightness],
+            opening: Opening::Continue,
+            part: None,
+            shard_side: 16.try_into().ok(),
+        };
+        Store::prepare(path, scene, &ReferenceRenderer, &request).unwrap()
+    }
+
+    /// On a file system without locks, two processes believe that each is alone.
+    #[test]
+    fn a_shard_that_somebody_else_has_written_meanwhile_is_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = Scene::from_text("the lab's", Starter::Lab.text(), Syntax::Toml).unwrap();
+        let scene = PreparedScene::new(&scene.with_resolution(Resolution { width: 40, height: 20 }).unwrap());
+        let path = folder.path().join("map.zarr");
+        let mut store = opened(&path, &scene);
+        store.lock.is_held = false;
+        // The other one, which has been at the first shard.
+        let shard = store.plan().shards().next().unwrap();
+        let settings = RenderSettings {
+            region: Some(store.plan().region(shard)),
+            quantities: rendered(&store.quantities()),
+            observer: None,
+        };
+        let map = ReferenceRenderer.render(&scene, &settings).unwrap();
+        Record::make(&store.files, &store.arrays, store.plan(), shard, &map, &|| Ok(())).unwrap();
+        let error = store.render(&scene, &ReferenceRenderer, WORKERS, None, None).unwrap_err();
+        assert!(matches!(error, StoreError::Met { shard: found, .. } if found == shard), "{error}");
+        drop(store);
+        // Opened again, what is done counts as done.
+        opened(&path, &scene).render(&scene, &ReferenceRenderer, WORKERS, None, None).unwrap();
     }
 }

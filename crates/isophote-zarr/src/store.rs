@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::render::Renderer;
-use isophote::scene::{Scene, Syntax};
+use isophote::scene::{CarriedFiles, Scene, Syntax};
 use isophote_export::FileMetadata;
 
 use crate::array::ChannelArray;
@@ -18,10 +18,10 @@ use crate::error::{Damage, StoreError};
 use crate::files::{Files, Lock, Sharing};
 use crate::identity::{Identity, ZARR_JSON};
 use crate::json::pretty;
-use crate::plan::{Part, Plan, Shard};
+use crate::plan::{Part, Plan};
 use crate::preview::{Boxes, Preview};
 use crate::record::Record;
-use crate::statistics::MapStatistics;
+use crate::statistics::{MapStatistics, ShardStatistics};
 
 /// The small picture of the whole map.
 const PREVIEW: &str = "preview.png";
@@ -34,7 +34,7 @@ pub struct Store {
     /// For each shard of the plan, whether it was done when the store was opened.
     pub(crate) was_done: Vec<bool>,
     done: AtomicU64,
-    _lock: Lock,
+    pub(crate) lock: Lock,
 }
 
 /// The store that is requested.
@@ -128,7 +128,7 @@ impl Store {
         let is_done = |shard| Ok(Record::read(&files, &arrays, shard)?.is_ok());
         let was_done = identity.plan.shards().map(is_done).collect::<Result<Vec<bool>, StoreError>>()?;
         let done = AtomicU64::new(count(&was_done));
-        Ok(Self { files, identity, arrays, was_done, done, _lock: lock })
+        Ok(Self { files, identity, arrays, was_done, done, lock })
     }
 
     /// What the store says about itself.
@@ -155,6 +155,13 @@ impl Store {
         self.done.load(Ordering::Relaxed)
     }
 
+    /// Whether other processes are kept from writing to the store. It is not so on file systems without locks: there, a
+    /// shard that another process has written meanwhile ends the computation with an error.
+    #[must_use]
+    pub fn is_locked(&self) -> bool {
+        self.lock.is_held
+    }
+
     pub(crate) fn count_one(&self) {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
@@ -167,9 +174,11 @@ impl Store {
     /// # Errors
     /// Lists all missing or damaged shards in one error.
     pub fn merge(&self, check: Check) -> Result<MapStatistics, StoreError> {
-        let mut records = Vec::new();
+        let plan = self.identity.plan;
+        let mut preview = Preview::new(Boxes::new(plan.full));
+        let mut shards = Vec::new();
         let mut damages = if check == Check::Content { self.damaged_descriptions()? } else { Vec::new() };
-        for shard in self.identity.plan.shards() {
+        for shard in plan.shards() {
             match Record::read(&self.files, &self.arrays, shard)? {
                 Err(damage) => damages.push(damage),
                 Ok(record) => {
@@ -177,16 +186,22 @@ impl Store {
                         Check::Presence => None,
                         Check::Content => record.check(&self.files, &self.arrays, shard)?,
                     };
+                    let of_preview = |reason| Damage {
+                        place: Record::key(shard),
+                        reason: format!("has a preview that does not fit: {reason}"),
+                    };
+                    let added = preview.add(plan.region(shard), &record.preview).map_err(of_preview);
+                    let damage = damage.or(added.err());
                     if damage.is_some() {
                         Record::forget(&self.files, shard)?;
                     }
                     damages.extend(damage);
-                    records.push((shard, record));
+                    shards.push(record.statistics);
                 }
             }
         }
         if damages.is_empty() {
-            self.finish(records)
+            self.finish(&preview, &shards)
         } else {
             Err(StoreError::Incomplete { path: self.files.root().into(), damages })
         }
@@ -196,8 +211,8 @@ impl Store {
     fn damaged_descriptions(&self) -> Result<Vec<Damage>, StoreError> {
         let mut damages = Vec::new();
         let metadata = &self.identity.metadata;
-        let directory = self.files.root().parent().unwrap_or(Path::new(""));
-        let scene = Scene::from_text_in(directory, "the store's scene", &metadata.scene, Syntax::Toml)
+        let files = CarriedFiles::of_output(self.files.root(), &metadata.files);
+        let scene = Scene::from_text_with(&files, None, "the store's scene", &metadata.scene, Syntax::Toml)
             .map_err(|error| StoreError::Damaged { path: self.files.path(ZARR_JSON), reason: error.to_string() })?;
         for (name, _, bytes) in describe::coordinates(&PreparedScene::new(&scene), &metadata.window)? {
             let file = format!("{name}/c/0");
@@ -215,17 +230,10 @@ impl Store {
         Ok(damages)
     }
 
-    fn finish(&self, records: Vec<(Shard, Record)>) -> Result<MapStatistics, StoreError> {
+    fn finish(&self, preview: &Preview, shards: &[ShardStatistics]) -> Result<MapStatistics, StoreError> {
         let Identity { metadata, plan, .. } = &self.identity;
         let quantities = self.quantities();
-        let mut preview = Preview::new(Boxes::new(plan.full));
-        let mut shards = Vec::with_capacity(records.len());
-        for (shard, record) in records {
-            let damaged = |reason| StoreError::Damaged { path: self.files.path(&Record::key(shard)), reason };
-            preview.add(plan.region(shard), &record.preview).map_err(damaged)?;
-            shards.push(record.statistics);
-        }
-        let statistics = MapStatistics::new(plan.full.count(), &quantities, &shards);
+        let statistics = MapStatistics::new(plan.full.count(), &quantities, shards);
         if let (Some(main), Some(channel)) = (quantities.first(), metadata.channels.first())
             && main.is_scalar()
         {

@@ -27,6 +27,7 @@ pub(crate) fn square_map(pixels: u32, half: f64, seen: impl Fn(f64, f64) -> Opti
         program: "isophote 0.1.0".into(),
         title: "Sample".into(),
         scene: String::new(),
+        files: Vec::new(),
         convention: "lab (3.3)".into(),
         renderer: "double reference".into(),
         color_space: None,

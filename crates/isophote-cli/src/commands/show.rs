@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use anyhow::Result;
+use isophote::map::SourceFile;
 use isophote::text::significant;
 use isophote_export::FileMetadata;
 
@@ -53,6 +54,10 @@ fn to_text(metadata: &FileMetadata) -> String {
             names => format!(", stored as {names}"),
         };
         row("channel", format!("{}, {unit}{stored_as}", channel.name));
+    }
+    for SourceFile { name, bytes, sha256, content, .. } in &metadata.files {
+        let carried = if content.is_some() { ", carried" } else { "" };
+        row("file", format!("{name}, {bytes} bytes{carried}, SHA-256 {sha256}"));
     }
     if let Some(picture) = &metadata.picture {
         let [black, white] = picture.range.map(|value| significant(value, 12));

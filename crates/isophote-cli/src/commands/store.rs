@@ -7,7 +7,7 @@ use anyhow::{Error, Result, anyhow};
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
 use isophote::render::{RenderError, SimdRenderer};
-use isophote::scene::{Scene, Syntax};
+use isophote::scene::Scene;
 use isophote::threads::Threads;
 use isophote_zarr::{Check, MapStatistics, Opening, Outcome, Request, Store, StoreError, Workers};
 use serde_json::json;
@@ -18,6 +18,10 @@ use crate::channels;
 use crate::failure::{self, Paused, Usage};
 use crate::progress::{Progress, end_in_order};
 use crate::{load, numbers, threads};
+
+/// Two processes that compute the same shard write the same bytes, but one that merges meanwhile may see half of them.
+const NO_LOCKS: &str = "warning: this file system has no locks, so nothing keeps another process from writing to the store; \
+    make sure that none does, except with --shard";
 
 /// The store to render, if there is one; refuses options that need a store, or that do not work with one.
 pub fn asked_for(arguments: &RenderArguments) -> Result<Option<&Path>, Usage> {
@@ -66,6 +70,9 @@ pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
     };
     let store = Store::prepare(path, &scene, &renderer, &request).map_err(explained)?;
     if !arguments.quiet {
+        if !store.is_locked() {
+            failure::note(NO_LOCKS);
+        }
         for note in options_without_effect(arguments) {
             failure::note(&note);
         }
@@ -96,9 +103,11 @@ pub fn merge(arguments: &MergeArguments) -> Result<String> {
     // Once a record may have been removed, Ctrl-C must not say that nothing was written.
     end_in_order();
     let store = Store::open(&arguments.store).map_err(explained)?;
+    if !store.is_locked() {
+        failure::note(NO_LOCKS);
+    }
     let name = arguments.store.display().to_string();
-    let directory = arguments.store.parent().unwrap_or(Path::new(""));
-    let scene = PreparedScene::new(&Scene::from_text_in(directory, &name, &store.metadata().scene, Syntax::Toml)?);
+    let scene = PreparedScene::new(&load::carried_scene(&arguments.store, &name, store.metadata())?);
     let check = if arguments.check { Check::Content } else { Check::Presence };
     let statistics = store.merge(check).map_err(explained)?;
     printed(&statistics, &scene, arguments.json)

@@ -28,6 +28,7 @@ fn begun(full: Resolution, size: Resolution) -> MapBuilder {
         program: "isophote 0.1.0".into(),
         title: "Сфера, \"пример\" # 1\nвторая строка".into(),
         scene: "version = 1\n[sphere]\nradius = 1.0 # мм\n".into(),
+        files: Vec::new(),
         convention: "lab (3.3)".into(),
         renderer: "cpu, double".into(),
         color_space: None,

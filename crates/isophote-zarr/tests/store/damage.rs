@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use isophote_zarr::{Check, Opening, Store, StoreError};
+use isophote_zarr::{Check, Opening, Store, StoreError, read_metadata};
 
 use crate::common::{Folder, Job, TWO_LIGHTS, scene};
 
@@ -31,12 +31,24 @@ fn damage_is_found_by_its_file_and_mended_by_continuing() {
     let (folder, _) = Job::default().complete(&scene);
     let before = folder.tree();
     assert!(!before.contains_key("brightness/c/3/4"), "nothing is seen there");
-    let harms: [Harm; 7] = [
+    let harms: [Harm; 9] = [
         ("brightness/c/1/2", |path| fs::remove_file(path).unwrap(), Check::Presence, "is missing"),
         ("normal/c/1/2/0", |path| fs::write(path, "short").unwrap(), Check::Presence, "has 5 bytes in place of"),
         ("brightness/c/1/2", |path| flip(path, 50), Check::Content, "has the checksum"),
         ("shape/c/1/2", |path| flip(path, usize::MAX), Check::Content, "has the checksum"),
         (".isophote/shards/1/2.json", |path| fs::write(path, "{").unwrap(), Check::Presence, "is damaged"),
+        (
+            ".isophote/shards/1/2.json",
+            |path| edit(path, "\"lit\":", "\"lit\":1"),
+            Check::Presence,
+            "its checksum is wrong",
+        ),
+        (
+            ".isophote/shards/1/2.json",
+            |path| edit(path, "\"preview\":\"", "\"preview\":\"?"),
+            Check::Presence,
+            "its checksum",
+        ),
         ("brightness/zarr.json", |path| flip(path, 9), Check::Content, "is missing or changed"),
         ("brightness/c/3/4", |path| put(path), Check::Presence, "should not be there"),
     ];
@@ -61,11 +73,18 @@ fn a_damaged_chunk_is_named_even_if_the_record_fits() {
     let last = bytes.len() - 4 - 16;
     flip(&file, usize::from(u16::from_le_bytes([bytes[last], bytes[last + 1]])));
     let mut json: serde_json::Value = serde_json::from_slice(&fs::read(&record).unwrap()).unwrap();
-    json["files"][2]["crc32c"] = crc32c::crc32c(&fs::read(&file).unwrap()).into();
+    json["record"]["files"][2]["crc32c"] = crc32c::crc32c(&fs::read(&file).unwrap()).into();
+    json["crc32c"] = format!("{:08x}", crc32c::crc32c(json["record"].to_string().as_bytes())).into();
     fs::write(&record, json.to_string()).unwrap();
     let found = damages(&folder, Check::Content);
     let expected = "normal/c/1/2/0 cannot be decoded: its chunk in row 3, column 3 has the checksum ";
     assert!(found.len() == 1 && found[0].starts_with(expected), "{found:?}");
+}
+
+fn edit(path: &Path, from: &str, to: &str) {
+    let text = fs::read_to_string(path).unwrap();
+    assert!(text.contains(from), "{text}");
+    fs::write(path, text.replacen(from, to, 1)).unwrap();
 }
 
 fn put(path: &Path) {
@@ -88,6 +107,21 @@ fn shards_that_were_not_computed_are_listed() {
     assert!(error.ends_with("and 5 more"), "{error}");
 }
 
+/// A record is read back as it was written, or not at all: any other byte counts as not done.
+#[test]
+fn no_byte_of_a_record_is_trusted() {
+    let scene = scene(TWO_LIGHTS, 20, 20);
+    let (folder, _) = Job::default().complete(&scene);
+    let path = folder.file(".isophote/shards/0/0.json");
+    let bytes = fs::read(&path).unwrap();
+    for at in (0..bytes.len()).step_by(7).chain([bytes.len() - 1]) {
+        flip(&path, at);
+        assert_eq!(damages(&folder, Check::Presence).len(), 1, "byte {at}");
+        fs::write(&path, &bytes).unwrap();
+    }
+    assert!(damages(&folder, Check::Content).is_empty());
+}
+
 #[test]
 fn a_description_that_makes_no_sense_is_an_error_and_no_panic() {
     let scene = scene(TWO_LIGHTS, 20, 20);
@@ -105,5 +139,10 @@ fn a_description_that_makes_no_sense_is_an_error_and_no_panic() {
         assert!(text.contains(from), "{from}");
         fs::write(folder.file("zarr.json"), text.replace(from, to)).unwrap();
         assert!(Store::open(&folder.store()).is_err(), "{to}");
+    }
+    for odd in ["[]", "\"x\"", "1", "null", "{}", "{\"attributes\":[]}", "{\"attributes\":{\"isophote\":[]}}", "[[[["] {
+        fs::write(folder.file("zarr.json"), odd).unwrap();
+        assert!(Store::open(&folder.store()).is_err(), "{odd}");
+        assert!(read_metadata(&folder.store()).is_err(), "{odd}");
     }
 }

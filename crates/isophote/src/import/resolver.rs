@@ -40,6 +40,20 @@ pub enum ReadFailure {
     Unknown(Vec<String>),
     /// No files can be read at all.
     NoFiles,
+    /// It is not where an output says that it was.
+    Gone {
+        /// Its length and hash at that time.
+        was: String,
+    },
+    /// It is no longer the file that an output was made of.
+    Changed {
+        /// Its length and hash at that time.
+        was: String,
+        /// Where the changed file is.
+        at: PathBuf,
+        /// The length and hash of the changed file.
+        is: String,
+    },
 }
 
 impl ReadFailure {
@@ -52,6 +66,10 @@ impl ReadFailure {
             Self::Directory => format!("‘{file}’ is a directory; a file is needed"),
             Self::NoFile => format!("‘{file}’ is a pipe or a device; a file is needed"),
             Self::Unknown(_) => format!("there is no file ‘{file}’ here"),
+            Self::Gone { was } => format!("the file ‘{file}’ that this was made of ({was}) is not there any more"),
+            Self::Changed { was, at, is } => {
+                format!("the file ‘{file}’ that this was made of ({was}) has changed: ‘{}’ is {is}", at.display())
+            }
             Self::NoFiles => format!("the scene names the file ‘{file}’; none can be read here"),
         }
     }
@@ -63,6 +81,10 @@ impl ReadFailure {
             Self::Unreadable(_) | Self::Directory | Self::NoFile => "a relative path starts at the scene file".into(),
             Self::Unknown(known) if known.is_empty() => "there are no files".into(),
             Self::Unknown(known) => format!("allowed: {}", known.join(", ")),
+            Self::Gone { .. } | Self::Changed { .. } => {
+                "put that file back; or write the scene beside other files: isophote show OUTPUT --scene > scene.toml"
+                    .into()
+            }
             Self::NoFiles => "allowed: shapes whose numbers stand in the scene itself".into(),
         }
     }

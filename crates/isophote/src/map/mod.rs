@@ -3,12 +3,14 @@
 mod builder;
 mod coordinates;
 mod mask;
+mod source_file;
 mod totals;
 mod values;
 
 pub use builder::{MapBuilder, MapError};
 pub use coordinates::{CoordinateAxis, Coordinates};
 pub use mask::{Mask, Run};
+pub use source_file::SourceFile;
 pub use totals::{Extreme, Totals, totals};
 pub use values::{Scalars, Values};
 
@@ -220,6 +222,9 @@ pub struct Provenance {
     pub title: String,
     /// The whole scene, as a TOML scene file that renders this map again.
     pub scene: String,
+    /// The files that the scene names, as they were read.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<SourceFile>,
     /// The brightness convention and its formula number, such as `lab (3.3)`.
     pub convention: String,
     /// The renderer and its precision.

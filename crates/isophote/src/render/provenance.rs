@@ -10,6 +10,7 @@ pub fn provenance(scene: &PreparedScene, renderer: String) -> Provenance {
         program: concat!("isophote ", env!("CARGO_PKG_VERSION")).into(),
         title: scene.scene().title.clone(),
         scene: scene.source_text().to_owned(),
+        files: scene.scene().files().to_vec(),
         convention: scene.scene().convention.label(),
         renderer,
         color_space: scene.components().map(|components| components.space.name().to_owned()),

@@ -13,6 +13,7 @@ mod parts;
 mod problems;
 mod sampling;
 pub mod source;
+mod source_files;
 mod table;
 mod validate;
 
@@ -24,11 +25,13 @@ pub use filter::Filter;
 pub use parts::{Grid, Material, Probe, Shape};
 pub use sampling::Sampling;
 pub use source::SceneSource;
+pub use source_files::CarriedFiles;
 
 pub use crate::import::{MemoryFiles, NoFiles, Origin, ReadFailure, Resolver};
 
 use crate::camera::Camera;
 use crate::light::{Ambient, Light};
+use crate::map::SourceFile;
 use crate::reflectance::Convention;
 use crate::shape::Primitive;
 use crate::units::{LengthUnit, ScreenUnit, UnitSystem};
@@ -53,6 +56,7 @@ pub struct Scene {
     pub(crate) probes: Vec<Probe>,
     pub(crate) grids: Vec<Grid>,
     pub(crate) warnings: Vec<Problem>,
+    pub(crate) files: Vec<SourceFile>,
     pub(crate) source: SceneSource,
 }
 
@@ -185,6 +189,12 @@ impl Scene {
     #[must_use]
     pub fn warnings(&self) -> &[Problem] {
         &self.warnings
+    }
+
+    /// The files that it names, as they were read.
+    #[must_use]
+    pub fn files(&self) -> &[SourceFile] {
+        &self.files
     }
 
     /// The scene as it was written.

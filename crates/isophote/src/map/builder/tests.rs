@@ -12,6 +12,7 @@ fn begun() -> MapBuilder {
         program: "a test".into(),
         title: String::new(),
         scene: String::new(),
+        files: Vec::new(),
         convention: "lab (3.3)".into(),
         renderer: "none".into(),
         color_space: None,

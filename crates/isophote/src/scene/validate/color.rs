@@ -2,11 +2,13 @@
 
 use super::Validator;
 use crate::color::{ColorSpace, Component, Rgb};
+use crate::import::NoFiles;
 use crate::reflectance::Reflectance;
 use crate::scene::document::Path;
 use crate::scene::limits;
 use crate::scene::problems::Problems;
 use crate::scene::source::{Amount, SceneSource};
+use crate::scene::source_files::NotedFiles;
 use crate::scene::{Lighting, SceneColor};
 use crate::units::Keyword;
 
@@ -56,7 +58,8 @@ impl Validator<'_> {
             convention: self.convention,
             shadows: self.shadows,
             collapse: ComponentSelector::Component(component),
-            files: self.files,
+            // Materials and lights name none.
+            files: NotedFiles::new(&NoFiles),
             materials: Vec::new(),
             problems: Problems::default(),
             warnings: Problems::default(),

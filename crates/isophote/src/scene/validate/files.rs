@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::Validator;
 use super::shapes::{ShapeSource, shape_head};
 use crate::import::{self, ImportError, MaterialSlots, Resolver, TriangleMesh};
+use crate::map::SourceFile;
 use crate::reflectance::Convention;
 use crate::scene::Scene;
 use crate::scene::document::Path;
@@ -24,7 +25,9 @@ impl ShapeSource for MeshSource {
     fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         let form = MeshForm::of(self);
         if let Some((_, geometry)) = validator.kept.meshes.iter().find(|(known, _)| *known == form) {
-            return Some(geometry.clone());
+            let geometry = geometry.clone();
+            validator.note_kept(self.file.as_deref());
+            return Some(geometry);
         }
         let placing = validator.mesh_placing(path, self);
         let mesh = match self.vertices.is_some() || self.faces.is_some() || self.normals.is_some() {
@@ -65,7 +68,9 @@ impl ShapeSource for SpheresSource {
 
     fn geometry(&self, validator: &mut Validator<'_>, path: &Path) -> Option<Geometry> {
         if let Some((_, geometry)) = validator.kept.clouds.iter().find(|(form, _)| *form == CloudForm::of(self)) {
-            return Some(geometry.clone());
+            let geometry = geometry.clone();
+            validator.note_kept(self.file.as_deref());
+            return Some(geometry);
         }
         let list = validator.imported(path, self.file.as_deref(), import::read_spheres)?;
         let length = validator.length;
@@ -96,6 +101,7 @@ impl ShapeSource for SpheresSource {
 pub(super) struct GeometryCache {
     meshes: Vec<(MeshForm, Geometry)>,
     clouds: Vec<(CloudForm, Geometry)>,
+    files: Vec<SourceFile>,
 }
 
 /// The parts of a mesh's source that determine its geometry.
@@ -160,11 +166,19 @@ impl GeometryCache {
         Self {
             meshes: before.mesh.iter().map(MeshForm::of).zip(meshes).collect(),
             clouds: before.spheres.iter().map(CloudForm::of).zip(clouds).collect(),
+            files: earlier.files.clone(),
         }
     }
 }
 
 impl Validator<'_> {
+    /// Notes a file whose content an earlier scene has read.
+    fn note_kept(&self, file: Option<&str>) {
+        for file in self.kept.files.iter().filter(|known| Some(known.name.as_str()) == file) {
+            self.files.note(file.clone());
+        }
+    }
+
     /// The contents of a file; relative paths start at the scene file.
     fn imported<T>(
         &mut self,
@@ -176,7 +190,7 @@ impl Validator<'_> {
             self.problems.missing(path, "file", "write `file = \"…\"`, a path that starts at the scene file");
             return None;
         };
-        match read(self.files, file) {
+        match read(&self.files, file) {
             Ok(content) => Some(content),
             Err(error) => {
                 let help = match &error {

@@ -20,6 +20,7 @@ use super::document::Path;
 use super::error::{Problem, ProblemKind};
 use super::problems::{Problems, short};
 use super::source::SceneSource;
+use super::source_files::NotedFiles;
 use super::{Scene, Shape, limits};
 use crate::camera::{Camera, Extent, Projection};
 use crate::import::Resolver;
@@ -41,7 +42,7 @@ pub(super) fn validate(
         convention: source.convention.unwrap_or(Convention::Radiance),
         shadows: source.shadows.unwrap_or(false),
         collapse: ComponentSelector::Luminance(source.color_space.unwrap_or_default()),
-        files,
+        files: NotedFiles::new(files),
         materials: source.material.keys().cloned().collect(),
         problems,
         warnings: Problems::default(),
@@ -60,7 +61,7 @@ pub(super) fn validate(
     validator.probes_against_shapes(&probes, &shapes);
     validator.words_of_advice(&source, camera.as_ref(), &shapes);
     let color = validator.color(&source);
-    let Validator { length, convention, shadows, problems, warnings, .. } = validator;
+    let Validator { length, convention, shadows, files, problems, warnings, .. } = validator;
     match camera {
         Some(camera) if problems.is_empty() => Ok(Scene {
             title: source.title.clone().unwrap_or_default(),
@@ -78,6 +79,7 @@ pub(super) fn validate(
             probes: probes.into_iter().flatten().collect(),
             grids: grids.into_iter().flatten().collect(),
             warnings: warnings.into_list(),
+            files: files.into_list(),
             source,
         }),
         _ => Err(problems.into_list()),
@@ -94,7 +96,7 @@ struct Validator<'f> {
     /// How three numbers become one.
     collapse: ComponentSelector,
     /// The files that the scene names.
-    files: &'f dyn Resolver,
+    files: NotedFiles<'f>,
     /// The names of the materials, in order.
     materials: Vec<String>,
     /// What need not be read again.
