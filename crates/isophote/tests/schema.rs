@@ -68,7 +68,7 @@ fn the_reader_knows_exactly_the_keys_of_the_schema() {
         let keys: BTreeSet<&str> = properties.keys().map(String::as_str).collect();
         assert_eq!(known.split(", ").collect::<BTreeSet<_>>(), keys, "{place}");
     }
-    assert_eq!(tables, 23, "the scene, and every sort of table in it");
+    assert_eq!(tables, 24, "the scene, and every sort of table in it");
 }
 
 /// A table in which a value is at a limit of the schema is valid in some scene; just beyond, it is refused in each. What else
@@ -170,7 +170,8 @@ fn the_documentation_has_the_limits_of_whole_scenes() {
     has("| size of the file", &(limits::FILE_BYTES >> 20));
     assert_eq!([limits::SHAPES, limits::LIGHTS, limits::PROBES], [limits::SHAPES; 3]);
     has("| shapes of all kinds together, lights, probes", &limits::SHAPES);
-    has("| grids", &limits::GRIDS);
+    assert_eq!(limits::AREAS, limits::GRIDS);
+    has("| areas, grids", &limits::GRIDS);
     has("| coordinates", &limits::COORDINATE);
     has("| radius, side, length", &limits::SMALLEST);
     has("| `points`", &Resolution::MOST_IN_MEMORY);
