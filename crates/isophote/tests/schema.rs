@@ -170,7 +170,8 @@ fn the_documentation_has_the_limits_of_whole_scenes() {
     has("| size of the file", &(limits::FILE_BYTES >> 20));
     assert_eq!([limits::SHAPES, limits::LIGHTS, limits::PROBES], [limits::SHAPES; 3]);
     has("| shapes of all kinds together, lights, probes", &limits::SHAPES);
-    has("| grids", &limits::GRIDS);
+    assert_eq!(limits::AREAS, limits::GRIDS);
+    has("| areas, grids", &limits::GRIDS);
     has("| coordinates", &limits::COORDINATE);
     has("| radius, side, length", &limits::SMALLEST);
     has("| `points`", &Resolution::MOST_IN_MEMORY);

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use isophote::scene::library::Starter;
+use isophote::scene::library::{Language, Starter};
 
 use crate::args::parse;
 
@@ -12,6 +12,10 @@ pub struct NewArguments {
     /// Which scene
     #[arg(value_name = "NAME", value_parser = parse::keyword::<Starter>())]
     pub name: Starter,
+
+    /// Language of the comments and the title
+    #[arg(long, value_name = "LANGUAGE", default_value = "en", value_parser = parse::keyword::<Language>())]
+    pub lang: Language,
 
     /// Write to FILE (by default NAME.toml), or - for standard output
     #[arg(short, long, value_name = "FILE")]

@@ -1,5 +1,6 @@
 //! One file per command: raw arguments become a job; the job runs and returns the text for standard output.
 
+mod areas;
 mod cells;
 mod check;
 mod grid;

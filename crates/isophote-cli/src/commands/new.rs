@@ -12,13 +12,14 @@ use crate::failure::Usage;
 /// Writes a starter scene.
 pub fn run(arguments: &NewArguments) -> Result<String> {
     let name = arguments.name.name();
+    let text = arguments.name.text_in(arguments.lang);
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
     if path == Path::new("-") {
-        return Ok(arguments.name.text().to_owned());
+        return Ok(text.to_owned());
     }
     if path.exists() && !arguments.force {
         return Err(Usage(format!("{} exists; --force overwrites it", path.display())).into());
     }
-    write_atomically(&path, |file| Ok(std::io::Write::write_all(file, arguments.name.text().as_bytes())?))?;
+    write_atomically(&path, |file| Ok(std::io::Write::write_all(file, text.as_bytes())?))?;
     Ok(format!("{}\n", path.display()))
 }

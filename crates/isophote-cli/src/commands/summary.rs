@@ -9,6 +9,7 @@ use isophote::units::Keyword;
 use isophote_zarr::MapStatistics;
 use serde::Serialize;
 
+use super::areas::{AreaJson, Areas};
 use super::reading_json::ProbeJson;
 use super::reading_table;
 use crate::channels::unit;
@@ -23,6 +24,7 @@ pub struct Summary {
     statistics: Option<Statistics>,
     refined: Option<Refined>,
     probes: Vec<Reading>,
+    areas: Areas,
 }
 
 /// How much of a map was supersampled.
@@ -51,6 +53,7 @@ impl Summary {
             statistics: statistics(map, main),
             refined: Refined::of(map),
             probes: readings(scene),
+            areas: Areas::of(scene),
         }
     }
 
@@ -65,6 +68,7 @@ impl Summary {
             statistics: main.and_then(|main| main.statistics),
             refined: None,
             probes: readings(scene),
+            areas: Areas::of(scene),
         }
     }
 
@@ -115,6 +119,10 @@ impl Summary {
             text.push('\n');
             text.push_str(&reading_table::text(&rows, scene));
         }
+        if !self.areas.is_empty() {
+            text.push('\n');
+            text.push_str(&self.areas.to_text(description));
+        }
         text
     }
 
@@ -153,6 +161,7 @@ impl Summary {
                 .iter()
                 .map(|(name, reading, published)| ProbeJson::new(name, reading, *published, scene))
                 .collect(),
+            areas: self.areas.to_json(description),
         }
     }
 }
@@ -192,6 +201,8 @@ pub struct SummaryJson {
     min: Option<ExtremeJson>,
     mean: Option<f64>,
     probes: Vec<ProbeJson>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    areas: Vec<AreaJson>,
 }
 
 #[derive(Serialize)]

@@ -1,4 +1,4 @@
-//! Thirty nasty scene files: each is used or refused with words, and none makes the program panic.
+//! Sixty nasty scene files: each is used or refused with words, and none makes the program panic.
 
 use crate::common::{COURSE, Folder, LAB, ROOM};
 
@@ -54,7 +54,7 @@ fn mutated(seed: u64) -> Vec<u8> {
 fn mutated_scenes_are_used_or_refused_and_never_make_the_program_panic() {
     let folder = Folder::new();
     let mut codes = Vec::new();
-    for seed in 0..30 {
+    for seed in 0..60 {
         folder.write("nasty.toml", mutated(seed));
         let outcome = folder.run("render nasty.toml --size 12x9 -o map.csv --figure map.svg");
         match outcome.code {

@@ -1,5 +1,6 @@
-//! Analysis of maps and prepared scenes: statistics, isophotes, values at points and along lines.
+//! Analysis of maps and prepared scenes: statistics, isophotes, values at points, along lines and over areas.
 
+pub mod area;
 mod cells;
 mod explain;
 pub mod isophotes;

@@ -238,7 +238,7 @@ impl PreparedScene {
         ProbeReading { hit, shading, terms, blockers, seen, components: None }
     }
 
-    fn seen_from_eye(&self, hit: &Hit) -> SeenFromEye {
+    pub(super) fn seen_from_eye(&self, hit: &Hit) -> SeenFromEye {
         if hit.point.cos_theta_o <= 0.0 {
             return SeenFromEye::FacesAway;
         }

@@ -71,7 +71,7 @@ impl PreparedScene {
     }
 
     /// The shading of a hit; for a scene with colours, its luminance (3.10).
-    fn shade_colored(&self, hit: &Hit, position: ScreenPosition) -> Shading {
+    pub(super) fn shade_colored(&self, hit: &Hit, position: ScreenPosition) -> Shading {
         let shade = |scene: &Self, hit: &Hit| scene.shade(hit, Some(position), |_, _| {});
         let Some(components) = self.components() else { return shade(self, hit) };
         // Each component traces separately, because the accuracy needed depends on its highlights.

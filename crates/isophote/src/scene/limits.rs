@@ -14,6 +14,8 @@ pub const LIGHTS: usize = 100_000;
 pub const SHAPES: usize = 100_000;
 /// Probes in a scene.
 pub const PROBES: usize = 100_000;
+/// Areas in a scene.
+pub const AREAS: usize = 1000;
 /// Grids in a scene.
 pub const GRIDS: usize = 1000;
 /// The largest coordinate, in metres: a tenth of a light year.

@@ -32,7 +32,8 @@ impl Scene {
         if is_unreadable {
             syntax_problems.truncate(1);
             let help = "what follows could not be read because of this; mend it and check again";
-            syntax_problems[0].help = Some(help.into());
+            // Advice on the problem itself is better.
+            syntax_problems[0].help.get_or_insert_with(|| help.into());
         }
         problems.extend(syntax_problems);
         let source = SceneSource { origin: files.origin(), ..SceneSource::read(&document, &mut problems) };

@@ -22,7 +22,7 @@ pub use document::Syntax;
 pub use error::{Problem, ProblemKind, SceneError, TextPosition};
 pub use files::FileResolver;
 pub use filter::Filter;
-pub use parts::{Grid, Material, Probe, Shape};
+pub use parts::{Area, AreaOutline, AreaPlace, Grid, Material, Probe, Shape};
 pub use sampling::Sampling;
 pub use source::SceneSource;
 pub use source_files::CarriedFiles;
@@ -54,6 +54,7 @@ pub struct Scene {
     /// For a scene with colours: the materials and lights above then hold luminances, which must not be used for shading.
     pub(crate) color: Option<Box<SceneColor>>,
     pub(crate) probes: Vec<Probe>,
+    pub(crate) areas: Vec<Area>,
     pub(crate) grids: Vec<Grid>,
     pub(crate) warnings: Vec<Problem>,
     pub(crate) files: Vec<SourceFile>,
@@ -177,6 +178,12 @@ impl Scene {
     #[must_use]
     pub fn probes(&self) -> &[Probe] {
         &self.probes
+    }
+
+    /// The areas of interest, in the order of the file.
+    #[must_use]
+    pub fn areas(&self) -> &[Area] {
+        &self.areas
     }
 
     /// The grids, in the order of the file.

@@ -49,6 +49,94 @@ pub struct Probe {
     pub published: Option<f64>,
 }
 
+/// A circle or a rectangle whose extremes and mean are reported. Lengths in metres, or in degrees on the screen of a camera
+/// that has them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Area {
+    /// Its name, unique among the areas.
+    pub name: String,
+    /// Where it is.
+    pub place: AreaPlace,
+    /// Its outline.
+    pub outline: AreaOutline,
+}
+
+/// Where an area is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AreaPlace {
+    /// On a flat shape.
+    Surface {
+        /// Index of the shape.
+        shape: usize,
+        /// Its centre.
+        center: Vector,
+        /// The unit vectors along its width and its height.
+        axes: [Vector; 2],
+    },
+    /// On the screen: its centre, x and y.
+    Screen([f64; 2]),
+}
+
+/// The outline of an area.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AreaOutline {
+    /// A circle.
+    Circle {
+        /// Its radius.
+        radius: f64,
+    },
+    /// A rectangle.
+    Rectangle {
+        /// Half its width and half its height.
+        half: [f64; 2],
+    },
+}
+
+impl AreaOutline {
+    /// Its area, in square metres or square degrees.
+    #[must_use]
+    pub fn content(&self) -> f64 {
+        match *self {
+            Self::Circle { radius } => std::f64::consts::PI * radius * radius,
+            Self::Rectangle { half: [width, height] } => 4.0 * width * height,
+        }
+    }
+
+    /// The nearest place within: places are (1, 0) and (0, 1) at the ends of its half axes.
+    #[must_use]
+    pub fn within(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        match self {
+            Self::Circle { .. } => {
+                let distance = libm::hypot(u, v).max(1.0);
+                [u / distance, v / distance]
+            }
+            Self::Rectangle { .. } => [u.clamp(-1.0, 1.0), v.clamp(-1.0, 1.0)],
+        }
+    }
+
+    /// How far a place within is from the centre.
+    #[must_use]
+    pub fn offset(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        match *self {
+            Self::Circle { radius } => [u * radius, v * radius],
+            Self::Rectangle { half: [width, height] } => [u * width, v * height],
+        }
+    }
+}
+
+impl AreaPlace {
+    /// The point at an offset from the centre, on a surface.
+    #[must_use]
+    pub fn point(&self, [along_width, along_height]: [f64; 2]) -> Option<Vector> {
+        match *self {
+            Self::Surface { center, axes: [width, height], .. } => {
+                Some(center + width * along_width + height * along_height)
+            }
+            Self::Screen(_) => None,
+        }
+    }
+}
+
 /// Points on a rectangle at which the irradiance is computed. Lengths in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {

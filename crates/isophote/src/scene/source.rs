@@ -20,7 +20,7 @@ use declare::{TableSource, tables};
 pub use files::{MeshSource, SpheresSource};
 pub use light::{AmbientSource, EmissionName, LightSource};
 pub use material::MaterialSource;
-pub use points::{GridSource, ProbeSource};
+pub use points::{AreaSource, GridSource, ProbeSource};
 pub use sampling::SamplingSource;
 pub use schema::schema;
 pub use shapes::{
@@ -116,6 +116,9 @@ tables! {
         /// Points whose values are reported.
         #[schemars(default, extend("default" = []))]
         pub probe: Vec<ProbeSource>,
+        /// Circles and rectangles whose extremes and mean are reported.
+        #[schemars(default, extend("default" = []))]
+        pub area: Vec<AreaSource>,
         /// Grids of points at which the irradiance is computed.
         #[schemars(default, extend("default" = []))]
         pub grid: Vec<GridSource>,

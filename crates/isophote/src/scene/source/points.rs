@@ -17,6 +17,27 @@ tables! {
         pub published: Option<f64>,
     }
 
+    /// A circle or a rectangle, on a plane or on the screen, whose largest, smallest and mean brightness are reported.
+    #[serde(deny_unknown_fields)]
+    pub struct AreaSource {
+        /// A name of its own; by default `area[0]`, `area[1]` and so on.
+        pub name: Option<String>,
+        /// The name of the plane, rectangle or disk that it is on. Without it, it is on the screen.
+        pub on: Option<String>,
+        /// Its centre, a point of that surface.
+        pub center: Option<[f64; 3]>,
+        /// Its centre on the screen: x and y, in the unit of the screen. Only without `on`.
+        pub at: Option<[f64; 2]>,
+        /// The radius of a circle. Either this or `size`.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        pub radius: Option<f64>,
+        /// Width and height of a rectangle. Either this or `radius`.
+        pub size: Option<[f64; 2]>,
+        /// The direction of the height of a rectangle on a surface; what of it is along the normal does not count.
+        #[schemars(extend("default" = [0, 1, 0]))]
+        pub up: Option<[f64; 3]>,
+    }
+
     /// Points on a rectangle at which the irradiance (illuminance) is computed, with no need of a surface there.
     #[serde(deny_unknown_fields)]
     pub struct GridSource {

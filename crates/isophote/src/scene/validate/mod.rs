@@ -1,5 +1,6 @@
 //! From a scene as written to a valid scene: every check, once.
 
+mod areas;
 mod camera;
 mod color;
 mod files;
@@ -55,6 +56,7 @@ pub(super) fn validate(
     let lights = validator.lights(&source);
     let ambient = validator.ambient(&source);
     let probes = validator.probes(&source);
+    let areas = validator.areas(&source, camera.as_ref(), &shapes);
     let grids = validator.grids(&source);
     validator.eye_against_shapes(camera.as_ref(), &shapes);
     validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
@@ -77,6 +79,7 @@ pub(super) fn validate(
             ambient,
             color: color.map(Box::new),
             probes: probes.into_iter().flatten().collect(),
+            areas: areas.into_iter().flatten().collect(),
             grids: grids.into_iter().flatten().collect(),
             warnings: warnings.into_list(),
             files: files.into_list(),
