@@ -242,7 +242,7 @@ fn shape(element: NumberFormat, [rows, columns]: [u64; 2]) -> Vec<u64> {
 
 fn attributes(quantity: &Quantity, unit: &str) -> JsonMap<String, Value> {
     let mut attributes = json!({ "long_name": quantity.name(), "units": unit });
-    if matches!(quantity, Quantity::Position | Quantity::Normal) {
+    if matches!(quantity, Quantity::Position | Quantity::Normal | Quantity::CameraNormal) {
         attributes["components"] = json!(["x", "y", "z"]);
     }
     if *quantity == Quantity::Color {
