@@ -26,7 +26,7 @@ nitpicky = True
 # Types of other packages, which are linked nowhere: the site is built without the network.
 nitpick_ignore_regex = [
     ("py:.*", r"(numpy|np|matplotlib|xarray|distributed|collections|os|typing)\..*"),
-    ("py:.*", r"(Vector|Pair|Size|Amount|ArrayLike|Channels|Progress)"),
+    ("py:.*", r"pandas\..*"),
 ]
 
 # Links to headings work as they do where the pages are read without a site.
@@ -42,8 +42,15 @@ nb_merge_streams = True
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 # Named at the top of the reference, which is where they are explained.
-TYPES = ("Vector", "Pair", "Size", "Amount", "ArrayLike", "Channels", "Progress")
-PLAIN = {"Number": "float", "Whole": "int", "Word": "str", "Flag": "bool"}
+# fmt: off
+TYPES = (
+    "Vector", "Pair", "Size", "Amount", "Matrix", "Vectors", "Triples", "ArrayLike", "Channels", "Progress", "SceneOrPath",
+    "AnyLight", "AnyShape", "ConventionName", "Quantities", "Precision", "Elsewhere", "Side", "SurfaceProjection", "Colormap",
+    "Handedness",
+)
+# fmt: on
+PLAIN = {"Number": "float", "Whole": "int", "Word": "str", "Flag": "bool", "MaterialName": "str", "File": "str"}
+nitpick_ignore_regex.append(("py:.*", rf"(isophote\._types\.)?({'|'.join(TYPES)})"))
 autodoc_type_aliases = {name: name for name in (*TYPES, *PLAIN)}
 maximum_signature_line_length = 90
 python_use_unqualified_type_names = True
@@ -67,7 +74,7 @@ def signature(app, what, name, obj, options, signature, returned):
     if signature is not None:
         signature = re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", signature)
         signature = re.sub(r"~?[\w.]*Annotated\[(.+?), <function .+? at 0x[0-9a-f]+>\]", r"\1", signature)
-        signature = re.sub(r"\b(Number|Whole|Word|Flag)\b", lambda match: PLAIN[match[0]], signature)
+        signature = re.sub(rf"\b({'|'.join(PLAIN)})\b", lambda match: PLAIN[match[0]], signature)
         signature = signature.replace("<factory>", "{}")
     if returned is not None:
         returned = re.sub(r"~numpy\.ndarray\[.+?, ~numpy\.dtype\[(.+?)\]\]", r"~numpy.typing.NDArray[\1]", returned)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._xarray import NOT_SCALAR
 from .errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ def plot_map(
     options: dict[str, Any],
 ) -> matplotlib.axes.Axes:
     """See :meth:`isophote.Map.plot`."""
-    if channel in ("position", "normal", "shape"):
+    if channel in NOT_SCALAR and channel != "color":
         raise ArgumentError(f"the channel {channel!r} is no picture; allowed: channels of one number a pixel, and color")
     _refuse(options)
     if isinstance(isophotes, (bool, np.bool_)):

@@ -9,7 +9,7 @@ from .materials import Convention
 LengthUnit = Literal["m", "cm", "mm"]
 Handedness = Literal["right", "left"]
 Quantities = Literal["radiometric", "photometric"]
-ColorSpace = Literal["rec709", "rec2020", "display-p3", "acescg"]
+ColorSpace = Literal["rec709", "rec2020", "display-p3", "aces-cg"]
 ConventionName = Literal["irradiance", "lambert", "lab", "course", "course-pi", "radiance"] | Convention
 Projection = Literal["perspective", "orthographic", "fisheye-equidistant", "fisheye-equal-area", "panorama"]
 Filter = Literal["box", "triangle", "gaussian", "mitchell"]

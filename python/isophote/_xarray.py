@@ -16,9 +16,13 @@ if TYPE_CHECKING:
 COMPONENTS: dict[str, tuple[str, list[str]]] = {
     "position": ("axis", ["x", "y", "z"]),
     "normal": ("axis", ["x", "y", "z"]),
+    "camera-normal": ("axis", ["x", "y", "z"]),
     "color": ("component", ["red", "green", "blue"]),
 }
 """The third dimension of vectors, and its labels."""
+
+NOT_SCALAR = ("shape", "material", *COMPONENTS)
+"""The channels that are not one number a pixel: vectors and indices."""
 
 
 def dataset(of: Map) -> xarray.Dataset:

@@ -93,9 +93,10 @@ class MapFile(Map):
     def _array(self, channel: str) -> NDArray[Any]:
         if self._arrays is None:
             self._arrays = self._read()
-            if "shape" in self._arrays:
-                # EXR has floats alone.
-                self._arrays["shape"] = self._arrays["shape"].astype(np.int32)
+            for name in ("shape", "material"):
+                if name in self._arrays:
+                    # EXR and CSV have floats alone.
+                    self._arrays[name] = self._arrays[name].astype(np.int32)
             for array in (*self._arrays.values(), *self._extra.values()):
                 array.flags.writeable = False
         return self._arrays[channel]

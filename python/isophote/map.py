@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from . import _html, _isophote
 from ._convert import FrozenDict, Invalid, number
 from ._types import Colormap
+from ._xarray import NOT_SCALAR
 from .errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -62,10 +63,10 @@ class Isophote:
 class Map(Mapping[str, NDArray[Any]]):
     """A map: a dictionary from channel names to arrays.
 
-    The arrays are views of the map's own memory, float64 (float32 in single precision, int32 for ``shape``), of shape
-    height × width, or height × width × 3 for ``position``, ``normal`` and ``color``. Row 0 is at the top. They are
-    read-only. Where no surface is seen they are 0 (``shape`` is −1); :attr:`mask`, which ``m["mask"]`` gives too, tells
-    these pixels from dark ones.
+    The arrays are views of the map's own memory, float64 (float32 in single precision, int32 for ``shape`` and
+    ``material``), of shape height × width, or height × width × 3 for ``position``, ``normal``, ``camera-normal`` and
+    ``color``. Row 0 is at the top. They are read-only. Where no surface is seen they are 0 (``shape`` and ``material`` are
+    −1); :attr:`mask`, which ``m["mask"]`` gives too, tells these pixels from dark ones.
 
     Maps are copied and pickled with their values, so they can be sent to other processes. They never change.
     """
@@ -81,9 +82,9 @@ class Map(Mapping[str, NDArray[Any]]):
         return self is other
 
     @overload
-    def __getitem__(self, channel: Literal["position", "normal", "color"]) -> NDArray[np.float64]: ...
+    def __getitem__(self, channel: Literal["position", "normal", "camera-normal", "color"]) -> NDArray[np.float64]: ...
     @overload
-    def __getitem__(self, channel: Literal["shape"]) -> NDArray[np.int32]: ...
+    def __getitem__(self, channel: Literal["shape", "material"]) -> NDArray[np.int32]: ...
     @overload
     def __getitem__(self, channel: Literal["mask"]) -> NDArray[np.bool_]: ...
     @overload
@@ -200,7 +201,7 @@ class Map(Mapping[str, NDArray[Any]]):
                 raise KeyError(self._missing(channel))
             return channel
         for name in self.units:
-            if name not in ("position", "normal", "shape", "color"):
+            if name not in NOT_SCALAR:
                 return name
         raise ArgumentError(f"say which channel: none of {', '.join(self.units)} is one number a pixel")
 
@@ -323,7 +324,7 @@ class Map(Mapping[str, NDArray[Any]]):
     def _repr_html_(self) -> str:
         rows = [("map", repr(self)[1:-1])]
         thumbnail = ""
-        name = next((name for name in self if name not in ("position", "normal", "shape", "color")), None)
+        name = next((name for name in self if name not in NOT_SCALAR), None)
         if name is not None and self.mask.any():
             unit = self.units[name]
             for what, value in (("max", self.max(name)), ("min", self.min(name)), ("mean", self.mean(name))):

@@ -15,7 +15,8 @@ from .scene import Scene, SceneOrPath, scene_of
 __all__ = ["Channels", "channel_names", "render"]
 
 Channels = str | Sequence[str] | None
-"""Channel names; ``"lights"`` stands for the irradiance from each light, ``"all"`` for all available channels."""
+"""Channel names; ``"lights"`` stands for the irradiance from each light, ``"light-brightness"`` for the brightness from each,
+``"all"`` for all available channels but the latter."""
 
 
 def channel_names(scene: Scene, channels: Channels) -> list[str]:
@@ -28,10 +29,15 @@ def channel_names(scene: Scene, channels: Channels) -> list[str]:
     about = scene.core.describe()
     lights = [f"light.{name}" for name in about["lights"]]
     common = ["brightness", *color, "irradiance", "diffuse", "specular", "depth", "position", "normal", "shape"]
+    of_camera = ["z-depth", "cos_theta_o", "camera-normal", "material"]
     ambient = ["ambient", *(["ambient-error"] if scene.ambient is not None and scene.ambient.obstructed else [])]
     sampling = ["samples", "coverage"] if about["is_sampled"] else []
-    everything = [*common, *(ambient if scene.ambient is not None else []), *sampling, *lights]
-    words = {"all": everything, "lights": lights}
+    everything = [*common, *(ambient if scene.ambient is not None else []), *sampling, *of_camera, *lights]
+    words = {
+        "all": everything,
+        "lights": lights,
+        "light-brightness": [f"brightness.{name}" for name in about["lights"]],
+    }
     wanted: list[str] = []
     for name in [channels] if isinstance(channels, str) else channels:
         if not isinstance(name, str):
@@ -77,6 +83,8 @@ def render(
 
     ``channels``: names such as ``"brightness"`` (the default, with ``"color"`` if the scene has colours),
     ``"irradiance"``, ``"normal"``, ``"light.lamp"``; ``"lights"`` for every light separately, ``"all"`` for everything.
+    ``"light-brightness"`` is the brightness from every light separately, ``brightness.lamp`` and so on; each takes the time of
+    another map.
     ``size``: columns and rows, instead of the scene's resolution.
     ``region``: first column, first row, columns, rows: render only this part of the image.
     ``precision``: ``"double"``, or ``"single"`` at about twice the speed; docs/python/errors.md gives the error bounds.

@@ -111,7 +111,7 @@ class Scene(Part):
     - ``convention``: the formula of the brightness, one of :class:`Convention`
     - ``handedness``: ``"right"`` or ``"left"``: which way x runs on the screen (2.3)
     - ``quantities``: ``"radiometric"`` (W) or ``"photometric"`` (lm)
-    - ``color_space``: that of three-valued amounts, ``"rec709"``, ``"rec2020"``, ``"display-p3"`` or ``"acescg"``
+    - ``color_space``: that of three-valued amounts, ``"rec709"``, ``"rec2020"``, ``"display-p3"`` or ``"aces-cg"``
     - ``shadows``: whether shapes block light from each other; several shapes in a scene that does not say so are a warning
     - ``sampling``: rays per pixel, one by default
     - ``materials``: a dictionary from names

@@ -82,6 +82,50 @@ def test_each_lights_image_is_in_one_array():
     np.testing.assert_allclose(images.light_images().sum(axis=0), images["irradiance"], rtol=1e-14)
 
 
+def test_what_the_camera_sees_is_in_its_own_axes(lab, lab_map):
+    m, mask = lab_map, lab_map.mask
+    assert {"z-depth", "cos_theta_o", "camera-normal", "material"} <= set(m)
+    # The eye is at the origin, forward is z, up is y, and x runs to the right in this left-handed scene.
+    np.testing.assert_allclose(m["z-depth"][mask], m["position"][mask][:, 2], rtol=1e-14)
+    np.testing.assert_allclose(m["camera-normal"][mask], m["normal"][mask] * [1, -1, 1], atol=1e-15)
+    rows, columns = np.nonzero(mask)
+    some = slice(None, None, 997)
+    probes = iso.probe(lab, pixels=np.stack([columns, rows], axis=-1)[some])
+    np.testing.assert_allclose(m["cos_theta_o"][mask][some], probes.cos_theta_o, atol=1e-14)
+    np.testing.assert_array_equal(m["material"], np.where(mask, 0, -1))
+    assert m.units["z-depth"] == "m" and m.units["camera-normal"] == "1" and m.units["material"] == ""
+    for channel in ("z-depth", "cos_theta_o", "camera-normal"):
+        assert (m[channel][~mask] == 0).all()
+    with pytest.raises(iso.ArgumentError, match="no picture"):
+        m.plot("camera-normal")
+    assert m.to_xarray()["camera-normal"].dims == ("y", "x", "axis")
+
+
+def test_material_is_the_index_of_its_name():
+    scene = iso.scenes.two_lights()
+    m = iso.render(scene, channels=["material", "shape"])
+    names = sorted(scene.materials)
+    for index in np.unique(m.shapes[m.mask]):
+        assert (m["material"][m.shapes == index] == names.index(scene.shapes[index].material)).all()
+
+
+@pytest.mark.filterwarnings("ignore::isophote.SceneWarning")
+@pytest.mark.parametrize("name", ["two-lights", "color", "shadows", "spot"])
+@pytest.mark.parametrize("precision", ["double", "single"])
+def test_the_brightness_of_the_lights_adds_up(name, precision):
+    scene = iso.Scene.from_file(REPOSITORY / "scenes" / f"{name}.toml").replace(ambient=None, sampling=None)
+    m = iso.render(scene, size=(80, 60), channels=["brightness", "light-brightness"], precision=precision)
+    parts = [channel for channel in m if channel.startswith("brightness.")]
+    assert len(parts) == len(scene.lights)
+    total = sum(m[channel].astype(float) for channel in parts)
+    assert np.abs(total - m["brightness"]).max() <= (1e-12 if precision == "double" else 1e-5) * m.max("brightness")
+    assert {m.units[channel] for channel in parts} == {m.units["brightness"]}
+    first = scene.replace(lights=scene.lights[:1])
+    np.testing.assert_allclose(m[parts[0]], iso.render(first, size=(80, 60), precision=precision)["brightness"], rtol=1e-6)
+    with pytest.raises(iso.ArgumentError, match="no light named"):
+        iso.render(scene, channels=["brightness.lump"])
+
+
 def test_xarray_has_dimensions_coordinates_and_units(lab_map):
     dataset = lab_map.to_xarray()
     assert dataset["brightness"].dims == ("y", "x")

@@ -17,8 +17,13 @@ pub fn named(names: &[String], scene: &Scene) -> Result<Vec<Quantity>> {
             return Err(Usage(RenderError::NoColor.to_string()).into());
         }
         Quantity::from_name(name).filter(known).ok_or_else(|| {
-            let known =
-                Quantity::COMMON.iter().chain(&Quantity::OF_SAMPLING).chain(&color).chain(lights.iter().take(20));
+            let known = Quantity::COMMON
+                .iter()
+                .chain(&Quantity::OF_SAMPLING)
+                .chain(&Quantity::OF_CAMERA)
+                .chain(&[Quantity::Material])
+                .chain(&color)
+                .chain(lights.iter().take(20));
             let names: Vec<String> = known.map(Quantity::name).collect();
             Usage(format!("there is no channel `{name}`; allowed: {}", names.join(", "))).into()
         })

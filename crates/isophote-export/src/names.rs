@@ -19,6 +19,7 @@ pub fn unique(channels: &[Channel], allowed: fn(char) -> bool) -> Vec<String> {
     for channel in channels {
         let plain = match &channel.quantity {
             Quantity::Light(light) => Quantity::Light(cleaned(light, allowed)).name(),
+            Quantity::LightBrightness(light) => Quantity::LightBrightness(cleaned(light, allowed)).name(),
             other => other.name(),
         };
         let numbered = (2_u64..).map(|number| format!("{plain}_{number}"));

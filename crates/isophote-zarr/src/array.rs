@@ -212,7 +212,7 @@ fn description<N: Serialize>(
 
 fn attributes(quantity: &Quantity, unit: &str) -> Value {
     let mut attributes = json!({ "long_name": quantity.name(), "units": unit });
-    if matches!(quantity, Quantity::Position | Quantity::Normal) {
+    if matches!(quantity, Quantity::Position | Quantity::Normal | Quantity::CameraNormal) {
         attributes["components"] = json!(["x", "y", "z"]);
     }
     if *quantity == Quantity::Color {

@@ -22,9 +22,12 @@ pub fn sample(scene: &PreparedScene, renderer: &dyn Renderer, quantities: &[Quan
     Ok(renderer.render(scene, &settings)?)
 }
 
-/// The channels to compute: the requested ones and the irradiance, which shows which pixels are lit.
+/// The channels to compute: the requested ones, the irradiance, which shows which pixels are lit, and what others are derived
+/// from, which takes memory too.
 pub fn rendered(quantities: &[Quantity]) -> Vec<Quantity> {
-    quantities.iter().cloned().chain([Quantity::Irradiance]).collect()
+    let is_derived = |quantity: &Quantity| Quantity::OF_CAMERA.contains(quantity);
+    let geometry = if quantities.iter().any(is_derived) { vec![Quantity::Position, Quantity::Normal] } else { vec![] };
+    quantities.iter().cloned().chain([Quantity::Irradiance]).chain(geometry).collect()
 }
 
 /// Bytes per pixel that a shard is allowed while it is made: all channels of the map, and three times the largest one,

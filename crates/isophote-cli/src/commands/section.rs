@@ -86,7 +86,10 @@ impl Output {
 fn quantities(arguments: &SectionArguments, scene: &Scene) -> Result<Vec<Quantity>> {
     let quantities = named(&arguments.channel, scene)?;
     let unsuitable = |quantity: &&Quantity| {
-        !quantity.is_scalar() || matches!(quantity, Quantity::Light(_)) || Quantity::OF_SAMPLING.contains(quantity)
+        !quantity.is_scalar()
+            || matches!(quantity, Quantity::Light(_))
+            || Quantity::OF_SAMPLING.contains(quantity)
+            || quantity.is_derived()
     };
     if let Some(quantity) = quantities.iter().find(unsuitable) {
         let allowed = "brightness, irradiance, ambient, diffuse, specular, depth";

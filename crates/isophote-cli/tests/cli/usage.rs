@@ -47,7 +47,7 @@ fn a_region_outside_of_the_image_is_refused() {
 
 #[test]
 fn an_unknown_channel_is_refused_with_the_list() {
-    let list = "allowed: brightness, irradiance, ambient, diffuse, specular, depth, position, normal, shape, samples, coverage, ambient-error, light.lamp";
+    let list = "allowed: brightness, irradiance, ambient, diffuse, specular, depth, position, normal, shape, samples, coverage, ambient-error, z-depth, cos_theta_o, camera-normal, material, light.lamp";
     refused("render --channel brightnes", &["there is no channel `brightnes`", list]);
     refused("render --channel light.lump", &["there is no channel `light.lump`", list]);
     refused("section --row 1 --channel foo", &["there is no channel `foo`", list]);

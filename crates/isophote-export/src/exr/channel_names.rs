@@ -15,16 +15,19 @@ pub(super) fn of(map: &Map) -> Vec<Vec<String>> {
         Quantity::Depth => vec!["Z".into()],
         Quantity::Position => axes("P"),
         Quantity::Normal => axes("N"),
+        Quantity::CameraNormal => axes("camera-normal"),
         Quantity::Shape => vec!["shape.index".into()],
+        Quantity::Material => vec!["material.index".into()],
         Quantity::Irradiance
         | Quantity::Ambient
         | Quantity::AmbientError
         | Quantity::Diffuse
         | Quantity::Specular
+        | Quantity::LightBrightness(_)
         | Quantity::Light(_) => {
             vec![format!("{name}.Y")]
         }
-        Quantity::Samples | Quantity::Coverage => vec![format!("{name}.V")],
+        Quantity::Samples | Quantity::Coverage | Quantity::ZDepth | Quantity::CosThetaO => vec![format!("{name}.V")],
     };
     map.channels().iter().zip(names).map(in_file).collect()
 }

@@ -122,6 +122,16 @@ pub enum Quantity {
     Coverage,
     /// The standard error of [`Ambient`](Self::Ambient), where its obstruction is sampled.
     AmbientError,
+    /// The distance of P along the direction of view: that of the plane through P parallel to the screen.
+    ZDepth,
+    /// The cosine of the angle between the normal and the direction to the eye.
+    CosThetaO,
+    /// The unit normal in the axes of the camera, which run to the right, down and forward (2.12).
+    CameraNormal,
+    /// Index of the material that is seen among the scene's materials in the order of their names; −1 where there is none.
+    Material,
+    /// Brightness from the light with this name alone, one term of (3.1) to (3.6).
+    LightBrightness(String),
     /// The brightness of each component of the light: R, G, B in the scene's colour space. Only in scenes with colours,
     /// where every other quantity is a luminance (3.10).
     Color,
@@ -146,22 +156,33 @@ impl Quantity {
     /// The quantities that describe how the others were sampled.
     pub const OF_SAMPLING: [Self; 3] = [Self::Samples, Self::Coverage, Self::AmbientError];
 
+    /// The quantities that follow from the point and its normal, in terms of the camera.
+    pub const OF_CAMERA: [Self; 3] = [Self::ZDepth, Self::CosThetaO, Self::CameraNormal];
+
+    /// Whether it is made of other channels, or of other maps, once these are there.
+    #[must_use]
+    pub fn is_derived(&self) -> bool {
+        Self::OF_CAMERA.contains(self) || matches!(self, Self::Material | Self::LightBrightness(_))
+    }
+
     /// The unit of the quantity in a scene of this kind: `"1"` for pure numbers, `""` for indices.
     #[must_use]
     pub fn unit(&self, convention: Convention, units: UnitSystem, length: LengthUnit) -> &'static str {
         match self {
-            Self::Brightness | Self::Color | Self::Diffuse | Self::Specular => convention.unit(units),
+            Self::Brightness | Self::Color | Self::Diffuse | Self::Specular | Self::LightBrightness(_) => {
+                convention.unit(units)
+            }
             Self::Irradiance | Self::Ambient | Self::AmbientError | Self::Light(_) => units.irradiance_unit(),
-            Self::Depth | Self::Position => length.name(),
-            Self::Normal | Self::Samples | Self::Coverage => "1",
-            Self::Shape => "",
+            Self::Depth | Self::ZDepth | Self::Position => length.name(),
+            Self::Normal | Self::CameraNormal | Self::CosThetaO | Self::Samples | Self::Coverage => "1",
+            Self::Shape | Self::Material => "",
         }
     }
 
     /// Whether it is one number per pixel, so that it has levels and statistics.
     #[must_use]
     pub fn is_scalar(&self) -> bool {
-        !matches!(self, Self::Position | Self::Normal | Self::Shape | Self::Color)
+        !matches!(self, Self::Position | Self::Normal | Self::CameraNormal | Self::Shape | Self::Material | Self::Color)
     }
 
     /// Whether it can be shown as a picture: one number per pixel, or colours.
@@ -176,7 +197,14 @@ impl Quantity {
         if let Some(light) = name.strip_prefix("light.") {
             return Some(Self::Light(light.into()));
         }
-        let mut named = Self::COMMON.into_iter().chain(Self::OF_SAMPLING).chain([Self::Color]);
+        if let Some(light) = name.strip_prefix("brightness.") {
+            return Some(Self::LightBrightness(light.into()));
+        }
+        let mut named = Self::COMMON
+            .into_iter()
+            .chain(Self::OF_SAMPLING)
+            .chain(Self::OF_CAMERA)
+            .chain([Self::Material, Self::Color]);
         named.find(|quantity| quantity.name() == name)
     }
 
@@ -196,6 +224,11 @@ impl Quantity {
             Self::Samples => "samples".into(),
             Self::Coverage => "coverage".into(),
             Self::AmbientError => "ambient-error".into(),
+            Self::ZDepth => "z-depth".into(),
+            Self::CosThetaO => "cos_theta_o".into(),
+            Self::CameraNormal => "camera-normal".into(),
+            Self::Material => "material".into(),
+            Self::LightBrightness(light) => format!("brightness.{light}"),
             Self::Color => "color".into(),
             Self::Light(light) => format!("light.{light}"),
         }

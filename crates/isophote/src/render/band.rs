@@ -282,6 +282,11 @@ impl ScalarChannel {
             | Quantity::Shape
             | Quantity::Samples
             | Quantity::Coverage
+            | Quantity::ZDepth
+            | Quantity::CosThetaO
+            | Quantity::CameraNormal
+            | Quantity::Material
+            | Quantity::LightBrightness(_)
             | Quantity::Color => None,
         }
     }

@@ -55,11 +55,16 @@ fn depends_on_light(quantity: &Quantity) -> bool {
         | Quantity::Specular
         | Quantity::AmbientError
         | Quantity::Color
+        | Quantity::LightBrightness(_)
         | Quantity::Light(_) => true,
         Quantity::Depth
         | Quantity::Position
         | Quantity::Normal
         | Quantity::Shape
+        | Quantity::ZDepth
+        | Quantity::CosThetaO
+        | Quantity::CameraNormal
+        | Quantity::Material
         | Quantity::Samples
         | Quantity::Coverage => false,
     }

@@ -1,6 +1,7 @@
 //! From a prepared scene to a map.
 
 pub(crate) mod band;
+mod derived;
 mod fan_out;
 pub(crate) mod hits;
 pub(crate) mod layers;

@@ -2,7 +2,7 @@
 
 use super::band::{self, Sheet};
 use super::sampling::Renders;
-use super::{RenderError, RenderSettings, Renderer, layers, rays, sampling};
+use super::{RenderError, RenderSettings, Renderer, derived, layers, rays, sampling};
 use crate::lanes::Precision;
 use crate::map::{Map, Values};
 use crate::prepare::PreparedScene;
@@ -18,6 +18,12 @@ impl Renderer for ReferenceRenderer {
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
+        derived::render(scene, settings, |scene, settings| self.render_computed(scene, settings))
+    }
+}
+
+impl ReferenceRenderer {
+    fn render_computed(self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
         let centres =
             |memory, scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(memory, scene, settings);
         let layers = if scene.scene().sampling().is_multisampled() {
@@ -28,9 +34,7 @@ impl Renderer for ReferenceRenderer {
         };
         Ok(layers::combined(scene, &settings.quantities, layers))
     }
-}
 
-impl ReferenceRenderer {
     fn centres(
         self,
         memory: Vec<Values>,

@@ -8,7 +8,7 @@ use super::rows::{Candidate, RowsJob};
 use super::sampling::{self, Renders};
 use super::shading::emitters::Lighting;
 use super::tiles::{self, Tiles};
-use super::{RenderError, RenderSettings, Renderer, layers, rays};
+use super::{RenderError, RenderSettings, Renderer, derived, layers, rays};
 use crate::lanes::{Instructions, Precision};
 use crate::map::{Map, Region, Run, Values};
 use crate::outline::Outline;
@@ -163,7 +163,7 @@ impl Renderer for SimdRenderer {
     }
 
     fn render(&self, scene: &PreparedScene, settings: &RenderSettings<'_>) -> Result<Map, RenderError> {
-        self.render_in(Vec::new(), scene, settings)
+        derived::render(scene, settings, |scene, settings| self.render_in(Vec::new(), scene, settings))
     }
 
     fn render_again(
@@ -172,6 +172,7 @@ impl Renderer for SimdRenderer {
         settings: &RenderSettings<'_>,
         earlier: Map,
     ) -> Result<Map, RenderError> {
-        self.render_in(band::recycle([earlier]), scene, settings)
+        let mut memory = band::recycle([earlier]);
+        derived::render(scene, settings, |scene, settings| self.render_in(std::mem::take(&mut memory), scene, settings))
     }
 }

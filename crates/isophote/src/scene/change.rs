@@ -39,6 +39,17 @@ impl Scene {
         self.changed(|source| source.grid = vec![grid])
     }
 
+    /// The scene with one of its lights alone, and without ambient light.
+    ///
+    /// # Errors
+    /// None: a part of a valid scene is valid.
+    pub(crate) fn with_one_light(&self, light: usize) -> Result<Self, SceneError> {
+        self.changed(|source| {
+            source.light = vec![source.light.swap_remove(light)];
+            source.ambient = None;
+        })
+    }
+
     /// The scene after a change of its source that does not concern its files: none is read again.
     fn changed(&self, change: impl FnOnce(&mut SceneSource)) -> Result<Self, SceneError> {
         let mut source = self.source.clone();

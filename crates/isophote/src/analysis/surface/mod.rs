@@ -154,7 +154,8 @@ impl Surface<'_> {
     /// A channel of a camera, of a light that does not exist, or of colours in a scene without colours.
     pub fn map(&self, quantities: &[Quantity]) -> Result<Map, SurfaceError> {
         let of_camera = |quantity: &&Quantity| {
-            matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage | Quantity::AmbientError)
+            quantity.is_derived()
+                || matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage | Quantity::AmbientError)
         };
         if let Some(quantity) = quantities.iter().find(of_camera) {
             return Err(SurfaceError::ChannelOfCamera { name: quantity.name() });

@@ -92,6 +92,11 @@ pub fn is_mean(quantity: &Quantity) -> bool {
         | Quantity::Shape
         | Quantity::Samples
         | Quantity::Coverage
+        | Quantity::ZDepth
+        | Quantity::CosThetaO
+        | Quantity::CameraNormal
+        | Quantity::Material
+        | Quantity::LightBrightness(_)
         | Quantity::AmbientError => false,
     }
 }

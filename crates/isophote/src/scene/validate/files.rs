@@ -30,9 +30,10 @@ impl ShapeSource for MeshSource {
             return Some(geometry);
         }
         let placing = validator.mesh_placing(path, self);
-        let mesh = match self.vertices.is_some() || self.faces.is_some() || self.normals.is_some() {
-            true => validator.mesh_of_arrays(path, self)?,
-            false => validator.imported(path, self.file.as_deref(), import::read_mesh)?,
+        let mesh = if self.vertices.is_some() || self.faces.is_some() || self.normals.is_some() {
+            validator.mesh_of_arrays(path, self)?
+        } else {
+            validator.imported(path, self.file.as_deref(), import::read_mesh)?
         };
         let TriangleMesh { vertices, triangles, normals, materials, degenerate } = mesh;
         let (slots, materials) = validator.slots(path, materials, self.material.is_some())?;
