@@ -21,7 +21,7 @@ FUZZ_TARGETS := $(notdir $(basename $(wildcard fuzz/fuzz_targets/*.rs)))
 FUZZ_SECONDS := 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-python test-wasm check check-python check-wasm bench bench-python bench-instructions compare growth audit fuzz docs generate generated-is-current
+.PHONY: help demo test test-python test-wasm check check-python check-wasm bench bench-python bench-instructions compare growth trials audit fuzz docs generate generated-is-current
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-18s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -76,6 +76,10 @@ compare: ## Compare with NumPy, Numba, Dr.Jit, Mitsuba, Radiance and POV-Ray, an
 
 growth: ## Measure how the cost grows with spheres and samples, and write docs/growth.md (5 minutes)
 	python3 validation/growth/growth.py
+
+trials: ## Try mutated files, kills, signals, full disks and files meant to take long (10 minutes; TRIALS="--count 30 kills")
+	$(CARGO) build --quiet --release -p isophote-cli
+	python3 validation/trials/trials.py $(or $(CARGO_TARGET_DIR),target)/release/isophote $(TRIALS)
 
 bench-instructions: ## Count the instructions of every stage (needs valgrind; installs gungraun-runner)
 	@command -v valgrind >/dev/null || { echo "valgrind is missing: install it by your system's package manager"; exit 1; }

@@ -74,7 +74,10 @@ pub fn of_render(py: Python<'_>, error: &RenderError) -> PyErr {
         | RenderError::TooLarge { .. }
         | RenderError::NoSuchLight { .. }
         | RenderError::NoColor => value(py, error),
-        RenderError::Overflow { .. } | RenderError::Interrupted | RenderError::Threads(_) => render(py, error),
+        RenderError::Memory { .. }
+        | RenderError::Overflow { .. }
+        | RenderError::Interrupted
+        | RenderError::Threads(_) => render(py, error),
     }
 }
 

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error;
-use crate::job::{self, Progress};
+use crate::job::{self, Progress, Watch};
 use crate::names::{keyword, quantities};
 use crate::scene::Scene;
 
@@ -32,8 +32,15 @@ impl Plan {
         SimdRenderer::new(self.precision, Some(NonZeroUsize::MIN))
     }
 
-    fn open(&self, scene: &PreparedScene, part: Option<Part>, opening: Opening) -> Result<Store, StoreError> {
-        let request = Request { quantities: self.quantities.clone(), opening, part, shard_side: self.shard_side };
+    fn open(
+        &self,
+        scene: &PreparedScene,
+        part: Option<Part>,
+        opening: Opening,
+        workers: Option<Workers>,
+    ) -> Result<Store, StoreError> {
+        let request =
+            Request { quantities: self.quantities.clone(), opening, part, shard_side: self.shard_side, workers };
         Store::prepare(&self.path, scene, &self.renderer(), &request)
     }
 }
@@ -56,7 +63,7 @@ pub fn store_prepare(
     let opening = if resume { Opening::Continue } else { Opening::New };
     let found = job::run_to_its_end(py, &Progress::none(), move |_| {
         let prepared = content.prepared();
-        let store = plan.open(&prepared, None, opening)?;
+        let store = plan.open(&prepared, None, opening, None)?;
         Ok((store.due(None).map(|(number, _)| number).collect(), store.plan().count()))
     })?;
     found.map_err(|error| error::of_store(py, &error))
@@ -85,8 +92,9 @@ pub fn store_render(
     let total = u64::from(resolution.width) * u64::from(resolution.height);
     let outcome = job::run_to_its_end(py, &Progress { function: progress, total }, move |watch| {
         let prepared = content.prepared();
-        let store = plan.open(&prepared, part, Opening::Continue)?;
-        store.render(&prepared, &plan.renderer(), Workers { threads, memory }, part, Some(watch))
+        let workers = Workers { threads, memory, used: 0 };
+        let store = plan.open(&prepared, part, Opening::Continue, Some(workers))?;
+        store.render(&prepared, &plan.renderer(), workers, part, Some(watch))
     })?;
     outcome.map(|_| ()).map_err(|error| error::of_store(py, &error))
 }
@@ -95,12 +103,12 @@ pub fn store_render(
 #[pyfunction]
 pub fn store_merge(py: Python<'_>, path: PathBuf, check: bool) -> PyResult<Bound<'_, PyDict>> {
     let check = if check { Check::Content } else { Check::Presence };
-    let merged = job::run_to_its_end(py, &Progress::none(), move |_| merge(&path, check))?;
+    let merged = job::run_to_its_end(py, &Progress::none(), move |watch| merge(&path, check, watch))?;
     described(py, &merged.map_err(|error| error::of_store(py, &error))?)
 }
 
-fn merge(path: &Path, check: Check) -> Result<MapStatistics, StoreError> {
-    Store::open(path)?.merge(check)
+fn merge(path: &Path, check: Check, watch: &Watch) -> Result<MapStatistics, StoreError> {
+    Store::open(path)?.merge_observed(check, Some(watch))
 }
 
 fn plan(

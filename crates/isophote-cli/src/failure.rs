@@ -5,6 +5,7 @@ use std::io::{IsTerminal, Write};
 
 use isophote::render::RenderError;
 use isophote::scene::SceneError;
+use isophote::text::escaped;
 
 /// Invalid arguments, for this scene or in general: exit code 2.
 #[derive(Debug)]
@@ -42,13 +43,19 @@ impl fmt::Display for Paused {
 
 impl std::error::Error for Paused {}
 
+/// What an interruption of work on files is told as.
+pub const NOTHING_HALF_WRITTEN: &str = "interrupted; nothing was left half-written";
+
 /// Writes an error to standard error and chooses the exit code.
 pub fn report(error: &anyhow::Error) -> u8 {
     if let Some(scene_error) = find::<SceneError>(error) {
-        let count = scene_error.problems.len();
+        let count = scene_error.count();
         let plural = if count == 1 { "" } else { "s" };
         let report = scene_error.report(use_color());
-        note(&format!("{report}\n\n{count} problem{plural} in {}; nothing was written", scene_error.name));
+        note_drawn(&format!(
+            "{report}\n\n{count} problem{plural} in {}; nothing was written",
+            escaped(&scene_error.name)
+        ));
         return 3;
     }
     if let Some(paused) = find::<Paused>(error) {
@@ -56,15 +63,20 @@ pub fn report(error: &anyhow::Error) -> u8 {
         return 130;
     }
     if is_interruption(error) {
-        note("interrupted; nothing was left half-written");
+        note(NOTHING_HALF_WRITTEN);
         return 130;
     }
     note(&format!("error: {error:#}"));
     if find::<Usage>(error).is_some() { 2 } else { 1 }
 }
 
-/// Writes a line to standard error. The reader may close the pipe at any time, which would make `eprintln!` panic.
+/// Writes a line to standard error, with control characters escaped.
 pub fn note(text: &str) {
+    note_drawn(&escaped(text));
+}
+
+/// Writes a line that may have colours to standard error. The reader may close the pipe at any time, which would make `eprintln!` panic.
+pub fn note_drawn(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 

@@ -5,6 +5,7 @@ mod channels;
 mod commands;
 mod failure;
 mod load;
+mod memory;
 mod numbers;
 mod progress;
 mod table;

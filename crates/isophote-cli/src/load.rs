@@ -34,7 +34,7 @@ pub fn scene_to_render(arguments: &RenderArguments) -> Result<Scene> {
 
 fn warn(name: &str, scene: &Scene, quiet: bool) {
     if !quiet && !scene.warnings().is_empty() {
-        failure::note(&error::report(name, scene.warnings(), failure::use_color()));
+        failure::note_drawn(&error::report(name, scene.warnings(), failure::use_color()));
     }
 }
 

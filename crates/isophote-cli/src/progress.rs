@@ -4,6 +4,7 @@ use std::fmt;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -13,23 +14,65 @@ use crate::failure::{self, Interrupted};
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 static ENDS_IN_ORDER: AtomicBool = AtomicBool::new(false);
+static STAYS: Mutex<Option<String>> = Mutex::new(None);
+
+/// How long the work may take to end in order. Not all of it has a [`check`] every now and then.
+const GRACE: Duration = Duration::from_millis(700);
 
 /// From now on Ctrl-C ends the program with exit code 130, until [`end_in_order`] is called. It exits immediately,
-/// because the program may be waiting for input or far from the next [`check`].
+/// because the program may be waiting for input or far from the next [`check`]. After [`end_in_order`] the program has a
+/// moment for that; then, or at the second Ctrl-C, it ends all the same, without the files that were being written.
 pub fn watch_for_interrupts() {
     // Without the handler Ctrl-C kills the program, which at worst leaves a temporary file behind.
     let _ = ctrlc::set_handler(|| {
-        INTERRUPTED.store(true, Ordering::Relaxed);
+        let is_second = INTERRUPTED.swap(true, Ordering::Relaxed);
         if !ENDS_IN_ORDER.load(Ordering::Relaxed) {
             failure::note("interrupted; nothing was written");
             std::process::exit(130);
         }
+        if is_second {
+            end_at_once();
+        }
+        // On a thread of its own, so that the handler is free for the second signal. Without one, waiting would hide it.
+        let waiting = std::thread::Builder::new().spawn(|| {
+            std::thread::sleep(GRACE);
+            end_at_once();
+        });
+        if waiting.is_err() {
+            end_at_once();
+        }
     });
+}
+
+/// Ends the program although it is at work. Files appear under their names only when they are complete, so removing those
+/// that are being written leaves nothing half-written.
+fn end_at_once() -> ! {
+    let stays = STAYS.lock().unwrap_or_else(PoisonError::into_inner).take();
+    isophote_export::atomic::abandon_unfinished();
+    match stays {
+        Some(stays) => failure::note(&format!("interrupted; {stays}")),
+        None => failure::note(failure::NOTHING_HALF_WRITTEN),
+    }
+    std::process::exit(130)
+}
+
+/// What to say when the program ends at once: what stays, and how to go on.
+pub fn say_what_stays(text: &str) {
+    *STAYS.lock().unwrap_or_else(PoisonError::into_inner) = Some(text.into());
 }
 
 /// From now on Ctrl-C ends the work at the next [`check`], after cleaning up.
 pub fn end_in_order() {
     ENDS_IN_ORDER.store(true, Ordering::Relaxed);
+}
+
+/// Ends work that reports no progress when Ctrl-C is pressed.
+pub struct Patience;
+
+impl Observer for Patience {
+    fn advance(&self, _: u64) -> ControlFlow<()> {
+        if check().is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
 }
 
 /// Whether Ctrl-C was pressed.

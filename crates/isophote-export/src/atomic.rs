@@ -1,8 +1,12 @@
 //! Writes a file completely or not at all.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+use tempfile::NamedTempFile;
 
 use crate::error::ExportError;
 
@@ -26,14 +30,18 @@ pub fn write_atomically<T>(
     let at_path = |reason| ExportError::File { path: path.into(), reason };
     let target = replaceable(path)?;
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".isophote-").suffix(".part");
+    builder.prefix(PREFIX).suffix(SUFFIX);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
         // The umask still applies. The default for temporary files, 0600, would hide the result from everyone else.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    let temporary = builder.tempfile_in(folder_of(&target)).map_err(at_path)?;
+    remove_leftovers(folder_of(&target));
+    let temporary = begin(|| builder.tempfile_in(folder_of(&target))).map_err(at_path)?;
+    let _unfinished = Unfinished(temporary.path().into());
+    // Tells others that it is not a leftover; file systems without locks have leftovers for ever.
+    let _ = temporary.as_file().try_lock();
     let mut buffer = BufWriter::with_capacity(1 << 18, temporary.as_file());
     let result = write(&mut buffer).map_err(|error| match error {
         ExportError::Write(reason) => at_path(reason),
@@ -45,13 +53,71 @@ pub fn write_atomically<T>(
     Ok(result)
 }
 
-/// Whether [`write_atomically`] can write a file there, as far as can be told without trying; meant to be called before
-/// a long computation.
+const PREFIX: &str = ".isophote-";
+const SUFFIX: &str = ".part";
+
+/// The hidden files that are being written by this process.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Counts as unfinished as long as it lives.
+struct Unfinished(PathBuf);
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner).retain(|path| *path != self.0);
+    }
+}
+
+fn begin(create: impl FnOnce() -> io::Result<NamedTempFile>) -> io::Result<NamedTempFile> {
+    // Held while the file is created, so that none is created unnoticed while the program ends.
+    let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+    let file = create()?;
+    unfinished.push(file.path().into());
+    Ok(file)
+}
+
+/// Removes the files that other threads are writing, for a program that ends without waiting for them. A thread that would
+/// begin another one waits for ever.
+pub fn abandon_unfinished() {
+    let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+    for path in unfinished.iter() {
+        // A file that is complete by now has its own name.
+        let _ = fs::remove_file(path);
+    }
+    std::mem::forget(unfinished);
+}
+
+/// Removes hidden files of programs that were killed: those that nobody has locked for a minute. What cannot be removed
+/// does no harm.
+fn remove_leftovers(folder: &Path) {
+    const OLD: Duration = Duration::from_mins(1);
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let is_ours = name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
+        if is_ours && is_abandoned(&entry.path(), OLD).unwrap_or(false) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+fn is_abandoned(path: &Path, age: Duration) -> io::Result<bool> {
+    let metadata = fs::symlink_metadata(path)?;
+    let is_old = metadata.modified()?.elapsed().is_ok_and(|elapsed| elapsed >= age);
+    Ok(metadata.is_file() && is_old && File::options().write(true).open(path)?.try_lock().is_ok())
+}
+
+/// Whether [`write_atomically`] can write a file there, as far as can be told beforehand; meant to be called before
+/// a long computation. It tries to create a hidden file, as only the file system knows who may.
 ///
 /// # Errors
-/// A folder that does not exist; a target that is not an ordinary writable file.
+/// A folder that does not exist or in which no file may be created; a target that is not an ordinary writable file.
 pub fn check_target(path: &Path) -> Result<(), ExportError> {
-    replaceable(path).map(drop)
+    let target = replaceable(path)?;
+    let tried = begin(|| tempfile::Builder::new().prefix(PREFIX).suffix(SUFFIX).tempfile_in(folder_of(&target)));
+    let file = tried.map_err(|reason| ExportError::File { path: path.into(), reason })?;
+    drop(Unfinished(file.path().into()));
+    Ok(())
 }
 
 fn replaceable(path: &Path) -> Result<PathBuf, ExportError> {
@@ -79,9 +145,42 @@ fn folder_of(path: &Path) -> &Path {
 
 #[cfg(test)]
 mod tests {
-    use std::io;
-
     use super::*;
+
+    #[test]
+    fn leftovers_of_killed_programs_are_removed_and_files_at_work_are_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let [left, new, locked, other] =
+            [".isophote-left.part", ".isophote-new.part", ".isophote-locked.part", "x.part"]
+                .map(|name| folder.path().join(name));
+        let long_ago = std::time::SystemTime::now() - Duration::from_hours(1);
+        for path in [&left, &new, &locked, &other] {
+            let file = File::create(path).unwrap();
+            if *path != new {
+                file.set_modified(long_ago).unwrap();
+            }
+        }
+        let at_work = File::options().write(true).open(&locked).unwrap();
+        at_work.try_lock().unwrap();
+        write_text(&folder.path().join("map.csv"), "map").unwrap();
+        assert_eq!(names(folder.path()), [".isophote-locked.part", ".isophote-new.part", "map.csv", "x.part"]);
+        assert!(UNFINISHED.lock().unwrap().iter().all(|path| !path.starts_with(folder.path())));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_that_may_not_be_written_is_refused_beforehand() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.csv");
+        check_target(&path).unwrap();
+        assert!(names(folder.path()).is_empty());
+        fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o555)).unwrap();
+        // The superuser may write everywhere.
+        let may_write = fs::write(folder.path().join("try"), "").is_ok();
+        assert_eq!(check_target(&path).is_ok(), may_write);
+        fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).unwrap();
+    }
 
     fn names(folder: &Path) -> Vec<String> {
         let mut names: Vec<_> =

@@ -118,13 +118,9 @@ fn has_shapes(map: &Map) -> bool {
 const KEY: &str = "isophote: ";
 
 fn write_row(map: &Map, index: usize, shape: i32, out: &mut impl Write) -> Result<(), ExportError> {
-    let (region, window) = (map.region, map.window);
-    let width = region.size.width as usize;
-    let (column, row) = (index % width, index / width);
-    let x = centre(window.x, column, width);
-    let y = centre([window.y[1], window.y[0]], row, region.size.height as usize);
-    let (full_column, full_row) = (region.corner.column as usize + column, region.corner.row as usize + row);
-    write!(out, "{full_column},{full_row},{},{}", Number(x), Number(y))?;
+    let pixel = map.pixel(index);
+    let [x, y] = map.center(pixel);
+    write!(out, "{},{},{},{}", pixel.column, pixel.row, Number(x), Number(y))?;
     if has_shapes(map) {
         write!(out, ",{shape}")?;
     }
@@ -141,14 +137,6 @@ fn write_row(map: &Map, index: usize, shape: i32, out: &mut impl Write) -> Resul
     }
     writeln!(out)?;
     Ok(())
-}
-
-/// Centre of pixel `index` of `count` between two edges, weighted from both ends, so that a window symmetric about 0
-/// gives coordinates that are symmetric to the last bit.
-#[expect(clippy::cast_precision_loss, reason = "counts of pixels are 32-bit")]
-fn centre(edges: [f64; 2], index: usize, count: usize) -> f64 {
-    let (before, after) = (index as f64 + 0.5, (count - index) as f64 - 0.5);
-    (edges[0] * after + edges[1] * before) / count as f64
 }
 
 /// Searches only the comments at the beginning.

@@ -2,9 +2,9 @@
 
 use std::io::Read;
 
-/// Longer descriptions, in bytes, are treated as damage: none that this program writes comes close, and a false length
-/// must not exhaust memory.
-pub(crate) const LONGEST_JSON: u64 = 64 << 20;
+/// Longer descriptions, in bytes, are treated as damage: none that this program writes comes close, since a scene has 64 MiB
+/// at most, and a false length must not exhaust memory.
+pub(crate) const LONGEST_JSON: u64 = 256 << 20;
 
 /// Reads exactly `length` bytes; memory grows with what the file actually holds, not with what it claims.
 pub(crate) fn read_exactly(file: &mut impl Read, length: u64, limit: u64) -> Result<Vec<u8>, String> {

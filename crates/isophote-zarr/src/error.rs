@@ -9,7 +9,7 @@ use isophote::render::RenderError;
 use isophote_export::{ExportError, FileMetadata};
 
 use crate::change::Change;
-use crate::plan::Shard;
+use crate::plan::{Plan, Shard};
 
 /// Why a store could not be created, continued or read.
 #[derive(Debug, thiserror::Error)]
@@ -93,6 +93,12 @@ pub enum StoreError {
         limit: u64,
         /// The minimum needed, in MiB.
         needed: u64,
+    },
+    /// Shards that are too small for the image.
+    #[error("{shards} shards are too many; allowed: {} at most, with larger shards", Plan::MOST_SHARDS)]
+    TooManyShards {
+        /// How many there would be.
+        shards: u64,
     },
     /// Shards are missing or do not match their records.
     #[error("‘{}’ is incomplete: {}", path.display(), damages_text(damages))]

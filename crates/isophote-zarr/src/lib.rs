@@ -19,11 +19,13 @@ mod render;
 mod shard;
 mod statistics;
 mod store;
+mod workers;
 
 pub use change::Change;
 pub use error::{Damage, StoreError};
 pub use identity::read_metadata;
 pub use plan::{Part, Plan, Shard};
-pub use render::{Outcome, Workers};
+pub use render::Outcome;
 pub use statistics::{ChannelStatistics, MapStatistics};
 pub use store::{Check, Opening, Request, Store};
+pub use workers::Workers;

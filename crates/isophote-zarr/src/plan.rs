@@ -4,6 +4,7 @@ use std::fmt;
 use std::num::NonZeroU32;
 
 use isophote::map::{Pixel, Region, Resolution};
+use isophote::scene::limits;
 use serde::{Deserialize, Serialize};
 
 /// Side of the inner chunks: the amount that a reader decodes to get at one pixel, 2 MiB of doubles.
@@ -44,6 +45,9 @@ pub struct Part {
 }
 
 impl Plan {
+    /// The most shards of a store: the largest image in the smallest shards that are ever chosen. Each is a file of its own.
+    pub const MOST_SHARDS: u64 = 4_000_000;
+
     /// The plan for an image whose shards need this many bytes per pixel while they are made.
     #[must_use]
     pub fn new(full: Resolution, need_per_pixel: u64) -> Self {
@@ -69,7 +73,10 @@ impl Plan {
 
     /// Whether it divides the image into whole shards of whole chunks, which a damaged description may not.
     pub(crate) fn is_sound(&self) -> bool {
-        self.full.width > 0 && self.full.height > 0 && self.shard_side.get().is_multiple_of(self.inner_side.get())
+        let sides = [self.full.width, self.full.height];
+        sides.into_iter().all(|side| (1..=limits::SIDE).contains(&side))
+            && self.shard_side.get().is_multiple_of(self.inner_side.get())
+            && self.count() <= Self::MOST_SHARDS
     }
 
     /// Rows and columns of shards.
@@ -153,6 +160,15 @@ mod tests {
         }
         assert!(seen.iter().all(|&count| count == 1));
         assert_eq!(plan.count(), plan.shards().count() as u64);
+    }
+
+    #[test]
+    fn a_plan_has_no_more_shards_than_a_file_system_holds() {
+        let largest = Resolution { width: limits::SIDE, height: limits::SIDE };
+        assert!(Plan::new(largest, 100_000).is_sound());
+        assert!(!plan(limits::SIDE, limits::SIDE, 1).is_sound());
+        assert!(!plan(limits::SIDE, limits::SIDE, 400).is_sound());
+        assert!(!plan(u32::MAX, 10, 512).is_sound());
     }
 
     #[test]

@@ -1,6 +1,5 @@
 //! The computation: each worker renders a shard, writes it, and takes the next.
 
-use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -15,19 +14,7 @@ use crate::plan::{Part, Shard};
 use crate::record::Record;
 use crate::statistics::MapStatistics;
 use crate::store::{Check, Store};
-
-/// The memory that the program uses besides the shards in flight.
-const BASE: u64 = 48 << 20;
-const MIB: u64 = 1 << 20;
-
-/// The limits on concurrent work.
-#[derive(Clone, Copy, Debug)]
-pub struct Workers {
-    /// The maximum number of shards at a time, each on its own thread.
-    pub threads: NonZeroUsize,
-    /// A memory limit in bytes for the program and the shards in flight, which may reduce that number.
-    pub memory: Option<u64>,
-}
+use crate::workers::{SceneMemory, Workers};
 
 /// How far the store is.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,7 +66,8 @@ impl Store {
         observer: Option<&dyn Observer>,
     ) -> Result<Outcome, StoreError> {
         let due: Vec<Shard> = self.due(part).map(|(_, shard)| shard).collect();
-        let count = self.workers(workers, need(scene, renderer, &self.quantities())?, &lights(scene))?.min(due.len());
+        let need_per_pixel = need(scene, renderer, &self.quantities())?;
+        let count = workers.fitting(&self.plan(), need_per_pixel, &SceneMemory::of(scene))?.min(due.len());
         let work = Work {
             store: self,
             scene,
@@ -96,7 +84,7 @@ impl Store {
             return Err(error);
         }
         if part.is_none() {
-            return self.merge(Check::Presence).map(Outcome::Complete);
+            return self.merge_observed(Check::Presence, observer).map(Outcome::Complete);
         }
         let mut done = 0;
         for shard in self.plan().shards() {
@@ -104,32 +92,6 @@ impl Store {
         }
         Ok(Outcome::Part { done, left: self.plan().count() - done })
     }
-
-    /// How many shards may be in flight.
-    fn workers(&self, workers: Workers, need_per_pixel: u64, lights: &Lights) -> Result<usize, StoreError> {
-        let Some(limit) = workers.memory else { return Ok(workers.threads.get()) };
-        let base = BASE + lights.once;
-        let shard = need_per_pixel * self.plan().shard_pixels() + lights.each_worker;
-        let count = limit.saturating_sub(base) / shard;
-        if count == 0 {
-            return Err(StoreError::Memory { limit: limit / MIB, needed: (base + shard).div_ceil(MIB) });
-        }
-        Ok(workers.threads.get().min(usize::try_from(count).unwrap_or(usize::MAX)))
-    }
-}
-
-/// The memory that the lights take, in bytes.
-struct Lights {
-    /// To write and check them.
-    once: u64,
-    /// As the renderer places them for each shape.
-    each_worker: u64,
-}
-
-fn lights(scene: &PreparedScene) -> Lights {
-    let [lights, shapes] = [scene.scene().lights().len(), scene.scene().shapes().len()].map(|count| count as u64);
-    // The renderer caches a million placed lights plus those of one more shape before it clears the cache.
-    Lights { once: 1024 * lights, each_worker: 128 * (lights * shapes).min((1 << 20) + lights) }
 }
 
 /// What the workers share.
@@ -200,6 +162,7 @@ impl Observer for Work<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::num::NonZeroUsize;
     use std::path::Path;
 
     use isophote::map::{Quantity, Resolution};
@@ -210,7 +173,7 @@ mod tests {
     use super::*;
     use crate::store::{Opening, Request};
 
-    const WORKERS: Workers = Workers { threads: NonZeroUsize::MIN, memory: None };
+    const WORKERS: Workers = Workers { threads: NonZeroUsize::MIN, memory: None, used: 0 };
 
     fn opened(path: &Path, scene: &PreparedScene) -> Store {
         let request = Request {
@@ -218,6 +181,7 @@ mod tests {
             opening: Opening::Continue,
             part: None,
             shard_side: 16.try_into().ok(),
+            workers: None,
         };
         Store::prepare(path, scene, &ReferenceRenderer, &request).unwrap()
     }

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use isophote::map::Quantity;
 use isophote::prepare::PreparedScene;
-use isophote::render::Renderer;
+use isophote::render::{Observer, RenderError, Renderer};
 use isophote::scene::{CarriedFiles, Scene, Syntax};
 use isophote_export::FileMetadata;
 
@@ -22,6 +22,7 @@ use crate::plan::{Part, Plan};
 use crate::preview::{Boxes, Preview};
 use crate::record::Record;
 use crate::statistics::{MapStatistics, ShardStatistics};
+use crate::workers::{SceneMemory, Workers};
 
 /// The small picture of the whole map.
 const PREVIEW: &str = "preview.png";
@@ -48,6 +49,8 @@ pub struct Request {
     pub part: Option<Part>,
     /// Side of the shards of a new store; by default chosen to suit the channels.
     pub shard_side: Option<NonZeroU32>,
+    /// Who will compute it: if their memory is too little for one shard, nothing is created.
+    pub workers: Option<Workers>,
 }
 
 /// What to do if the store already exists.
@@ -88,6 +91,12 @@ impl Store {
             (None, Some(stored)) => Plan { full, ..stored.plan },
             (None, None) => Plan::new(full, describe::need_per_pixel(&sample)),
         };
+        if !plan.is_sound() {
+            return Err(StoreError::TooManyShards { shards: plan.count() });
+        }
+        if let Some(workers) = request.workers {
+            workers.fitting(&plan, describe::need_per_pixel(&sample), &SceneMemory::of(scene))?;
+        }
         let metadata = describe::metadata(&sample, scene, &request.quantities);
         let arrays = describe::sample_arrays(&sample, &metadata, plan);
         let coordinates = describe::coordinates(scene, &metadata.window)?;
@@ -174,11 +183,24 @@ impl Store {
     /// # Errors
     /// Lists all missing or damaged shards in one error.
     pub fn merge(&self, check: Check) -> Result<MapStatistics, StoreError> {
+        self.merge_observed(check, None)
+    }
+
+    /// Like [`merge`](Self::merge), for an observer that is told of the pixels of each shard, and may end it: nothing is
+    /// written then.
+    ///
+    /// # Errors
+    /// As for [`merge`](Self::merge), and an interruption.
+    pub fn merge_observed(&self, check: Check, observer: Option<&dyn Observer>) -> Result<MapStatistics, StoreError> {
         let plan = self.identity.plan;
         let mut preview = Preview::new(Boxes::new(plan.full));
         let mut shards = Vec::new();
         let mut damages = if check == Check::Content { self.damaged_descriptions()? } else { Vec::new() };
         for shard in plan.shards() {
+            let pixels = plan.region(shard).size.count();
+            if observer.is_some_and(|observer| observer.advance(pixels).is_break()) {
+                return Err(RenderError::Interrupted.into());
+            }
             match Record::read(&self.files, &self.arrays, shard)? {
                 Err(damage) => damages.push(damage),
                 Ok(record) => {

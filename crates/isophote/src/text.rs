@@ -1,4 +1,44 @@
-//! Numbers in readable form.
+//! Numbers and texts in readable form.
+
+use std::borrow::Cow;
+use std::fmt::Write;
+
+/// Whether a character must not reach a terminal as it is: it controls the terminal, or the direction of the text around it.
+#[must_use]
+pub fn is_control(character: char) -> bool {
+    character.is_control()
+        || matches!(character, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// A text for a terminal: [control characters](is_control) but line ends and tabs are shown as escapes, such as `\u001B`, which
+/// mean the same in a JSON or TOML string.
+#[must_use]
+pub fn escaped(text: &str) -> Cow<'_, str> {
+    escaped_but(text, &['\n', '\t'])
+}
+
+/// A text for one line of a terminal: line ends are shown as escapes too.
+#[must_use]
+pub fn escaped_line(text: &str) -> Cow<'_, str> {
+    escaped_but(text, &[])
+}
+
+fn escaped_but<'t>(text: &'t str, kept: &[char]) -> Cow<'t, str> {
+    let is_escaped = |character: char| is_control(character) && !kept.contains(&character);
+    if !text.contains(is_escaped) {
+        return text.into();
+    }
+    let mut escaped = String::with_capacity(text.len() + 16);
+    for character in text.chars() {
+        if is_escaped(character) {
+            // All of them have four digits. Writing to a string cannot fail.
+            let _ = write!(escaped, "\\u{:04X}", u32::from(character));
+        } else {
+            escaped.push(character);
+        }
+    }
+    escaped.into()
+}
 
 /// A number with this many significant digits, without trailing zeros; as a power of ten if it is very large or very small.
 #[must_use]
@@ -22,7 +62,16 @@ fn trimmed(number: &str) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use super::significant;
+    use super::{escaped, escaped_line, significant};
+
+    #[test]
+    fn what_controls_a_terminal_is_escaped_and_nothing_else() {
+        assert_eq!(escaped("\u{1b}]0;x\u{7}\u{1b}[2J\r"), "\\u001B]0;x\\u0007\\u001B[2J\\u000D");
+        assert_eq!(escaped("a\u{202e}b\u{2066}c\u{9b}\u{7f}\u{200f}"), "a\\u202Eb\\u2066c\\u009B\\u007F\\u200F");
+        assert_eq!(escaped("two\nlines\tand"), "two\nlines\tand");
+        assert_eq!(escaped_line("two\nlines\tand"), "two\\u000Alines\\u0009and");
+        assert_eq!(escaped_line("Сфера «шар» 球 é W/m²"), "Сфера «шар» 球 é W/m²");
+    }
 
     #[test]
     fn numbers_have_the_digits_that_were_asked_for_and_no_more() {

@@ -8,7 +8,7 @@ use isophote::map::{Map, Quantity};
 use isophote::prepare::PreparedScene;
 use isophote::scene::source::GridSource;
 use isophote::scene::{Grid, Scene};
-use isophote::text::significant;
+use isophote::text::{escaped_line, significant};
 use isophote::units::Keyword;
 use isophote_export::figure::FigureOptions;
 use serde::Serialize;
@@ -137,7 +137,7 @@ impl Summary<'_> {
             row
         };
         let rows: Vec<Vec<String>> = self.computed.iter().map(row).collect();
-        let title = self.scene.title();
+        let title = escaped_line(self.scene.title());
         let mut text = if title.is_empty() { String::new() } else { format!("{title}\n\n") };
         text.push_str(&table(&columns, &rows));
         for computed in &self.computed {

@@ -17,15 +17,25 @@ mod store;
 mod summary;
 mod surface;
 
+use std::borrow::Cow;
+use std::io::IsTerminal;
+
 use anyhow::Result;
 use clap::CommandFactory;
+use isophote::text::escaped;
 
 use crate::args::{Arguments, Command, RenderArguments};
 use crate::failure::Usage;
 
-/// Runs a command; returns the text for standard output.
+/// Runs a command; returns the text for standard output. What is in a scene or a file gets there with its control characters
+/// escaped, but in the scene itself where that goes to a program.
 pub fn run(arguments: Arguments) -> Result<String> {
-    match arguments.command {
+    let text = match arguments.command {
+        Some(Command::Completions { shell }) => return Ok(completions(shell)),
+        Some(Command::Man { command }) => return man(command.as_deref()),
+        Some(Command::Show(arguments)) if arguments.scene && !std::io::stdout().is_terminal() => {
+            return show::run(&arguments);
+        }
         None => rendered(&RenderArguments::lab()),
         Some(Command::Render(arguments)) => rendered(&arguments),
         Some(Command::Probe(arguments)) => probe::run(&arguments),
@@ -37,9 +47,11 @@ pub fn run(arguments: Arguments) -> Result<String> {
         Some(Command::New(arguments)) => new::run(&arguments),
         Some(Command::Show(arguments)) => show::run(&arguments),
         Some(Command::Schema) => Ok(isophote::scene::source::schema()),
-        Some(Command::Completions { shell }) => Ok(completions(shell)),
-        Some(Command::Man { command }) => man(command.as_deref()),
-    }
+    }?;
+    Ok(match escaped(&text) {
+        Cow::Borrowed(_) => text,
+        Cow::Owned(escaped) => escaped,
+    })
 }
 
 /// Renders into memory, or into a store that may be larger than memory.

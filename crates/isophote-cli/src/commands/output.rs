@@ -130,10 +130,17 @@ pub fn formula_label(map: &Map) -> String {
 /// Refuses a path given twice: only the last output would survive, without a warning.
 pub fn refuse_twice<'p>(paths: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), Usage> {
     let mut seen = HashSet::new();
-    match paths.into_iter().find(|path| !seen.insert(*path)) {
+    match paths.into_iter().find(|path| !seen.insert(place(path))) {
         Some(path) => Err(Usage(format!("{} would be written twice", path.display()))),
         None => Ok(()),
     }
+}
+
+/// Where a path leads, however it is written. A file that does not exist yet is in a folder that does.
+fn place(path: &Path) -> PathBuf {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let in_folder = || Some(folder.canonicalize().ok()?.join(path.file_name()?));
+    path.canonicalize().ok().or_else(in_folder).unwrap_or_else(|| path.into())
 }
 
 /// The format of a figure.

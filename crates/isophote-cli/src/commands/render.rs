@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use isophote::analysis::probe::ProbePosition;
 use isophote::map::{Map, Quantity, Region};
 use isophote::prepare::PreparedScene;
@@ -146,6 +146,7 @@ impl<'a> Job<'a> {
         progress.finish();
         map.map_err(|error| match error {
             RenderError::Region { .. } => Usage(error.to_string()).into(),
+            RenderError::Memory { .. } => anyhow!("{error}; -o NAME.zarr is computed part by part"),
             RenderError::TooLarge { .. } => Usage(format!("{error}; -o NAME.zarr takes larger ones")).into(),
             error => error.into(),
         })

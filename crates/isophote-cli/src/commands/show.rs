@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use anyhow::Result;
 use isophote::map::SourceFile;
-use isophote::text::significant;
+use isophote::text::{escaped_line, significant};
 use isophote_export::FileMetadata;
 
 use crate::args::ShowArguments;
@@ -26,7 +26,7 @@ fn to_text(metadata: &FileMetadata) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let mut row = |name: &str, value: String| {
-        let _ = writeln!(text, "  {name:<12}{value}");
+        let _ = writeln!(text, "  {name:<12}{}", escaped_line(&value));
     };
     let FileMetadata { full, region, window, .. } = metadata;
     row("title", metadata.title.clone());

@@ -16,8 +16,8 @@ use super::summary::Summary;
 use crate::args::{DEFAULT_ISOPHOTES, MergeArguments, RenderArguments};
 use crate::channels;
 use crate::failure::{self, Paused, Usage};
-use crate::progress::{Progress, end_in_order};
-use crate::{load, numbers, threads};
+use crate::progress::{self, Patience, Progress, end_in_order};
+use crate::{load, memory, numbers, threads};
 
 /// Two processes that compute the same shard write the same bytes, but one that merges meanwhile may see half of them.
 const NO_LOCKS: &str = "warning: this file system has no locks, so nothing keeps another process from writing to the store; \
@@ -58,7 +58,13 @@ pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
     let scene = PreparedScene::on_threads(&load::scene_to_render(arguments)?, &threads);
     // From here on a store may exist, so Ctrl-C must say how to resume it.
     end_in_order();
-    let workers = Workers { threads: arguments.threads.unwrap_or_else(threads::all), memory: arguments.store.memory };
+    let way = if arguments.store.shard.is_some() { "the same command goes on" } else { "--resume goes on" };
+    progress::say_what_stays(&format!("the shards that are done stay: {way} from there"));
+    let workers = Workers {
+        threads: arguments.threads.unwrap_or_else(threads::all),
+        memory: arguments.store.memory,
+        used: memory::peak(),
+    };
     let renderer = SimdRenderer::new(arguments.precision, Some(NonZeroUsize::MIN));
     let part = arguments.store.shard;
     let is_continued = arguments.store.resume || part.is_some();
@@ -67,6 +73,7 @@ pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
         opening: if is_continued { Opening::Continue } else { Opening::New },
         part,
         shard_side: arguments.store.shard_side,
+        workers: Some(workers),
     };
     let store = Store::prepare(path, &scene, &renderer, &request).map_err(explained)?;
     if !arguments.quiet {
@@ -102,6 +109,7 @@ pub fn render(arguments: &RenderArguments, path: &Path) -> Result<String> {
 pub fn merge(arguments: &MergeArguments) -> Result<String> {
     // Once a record may have been removed, Ctrl-C must not say that nothing was written.
     end_in_order();
+    progress::say_what_stays("the shards of the store stay as they are");
     let store = Store::open(&arguments.store).map_err(explained)?;
     if !store.is_locked() {
         failure::note(NO_LOCKS);
@@ -109,7 +117,7 @@ pub fn merge(arguments: &MergeArguments) -> Result<String> {
     let name = arguments.store.display().to_string();
     let scene = PreparedScene::new(&load::carried_scene(&arguments.store, &name, store.metadata())?);
     let check = if arguments.check { Check::Content } else { Check::Presence };
-    let statistics = store.merge(check).map_err(explained)?;
+    let statistics = store.merge_observed(check, Some(&Patience)).map_err(explained)?;
     printed(&statistics, &scene, arguments.json)
 }
 
@@ -167,6 +175,7 @@ fn explained(error: StoreError) -> Error {
         StoreError::Incomplete { .. } => {
             anyhow!("{error}; isophote render with --resume computes what is missing or damaged")
         }
+        StoreError::TooManyShards { .. } => Usage(format!("--shard-side: {error}")).into(),
         StoreError::Memory { .. } => Usage(format!("--memory: {error}")).into(),
         _ => error.into(),
     }

@@ -4,7 +4,7 @@ use isophote::analysis::probe::{ProbePosition, ProbeReading};
 use isophote::analysis::statistics::{Counts, Extreme, Statistics, counts, statistics};
 use isophote::map::{Map, Quantity, Region};
 use isophote::prepare::PreparedScene;
-use isophote::text::significant;
+use isophote::text::{escaped_line, significant};
 use isophote::units::Keyword;
 use isophote_zarr::MapStatistics;
 use serde::Serialize;
@@ -79,7 +79,7 @@ impl Summary {
         let unit = unit(&self.main, description);
         let mut lines = Vec::new();
         if !description.title().is_empty() {
-            lines.extend([description.title().to_owned(), String::new()]);
+            lines.extend([escaped_line(description.title()).into_owned(), String::new()]);
         }
         let mut row = |name: &str, value: String| lines.push(format!("  {name:<12}{value}"));
         row("image", format!("{} × {} pixels{}", resolution.width, resolution.height, self.region_text()));

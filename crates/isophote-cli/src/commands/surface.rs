@@ -9,7 +9,7 @@ use isophote::map::{Coordinates, Map, Quantity};
 use isophote::prepare::PreparedScene;
 use isophote::scene::Scene;
 use isophote::shape::Primitive;
-use isophote::text::significant;
+use isophote::text::{escaped_line, significant};
 use isophote::units::Keyword;
 use isophote::vector::Vector;
 use isophote_export::figure::FigureOptions;
@@ -114,7 +114,7 @@ impl Summary<'_> {
         let mut text = String::new();
         if !self.scene.title().is_empty() {
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "{}\n", self.scene.title());
+            let _ = writeln!(text, "{}\n", escaped_line(self.scene.title()));
         }
         let mut row = |name: &str, value: String| {
             let _ = writeln!(text, "  {name:<12}{value}");

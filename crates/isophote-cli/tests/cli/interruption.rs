@@ -5,7 +5,7 @@ use std::io::Read;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::common::{Folder, PROGRAM};
+use crate::common::{Folder, LAB, PROGRAM};
 
 fn start(folder: &Folder, arguments: &str) -> Child {
     let mut command = Command::new(PROGRAM);
@@ -68,6 +68,44 @@ fn ctrl_c_while_a_file_is_written_removes_the_half_of_it() {
     assert_eq!(status.code(), Some(130), "{said}");
     assert_eq!(folder.names(), ["map.csv"]);
     assert_eq!(folder.text("map.csv"), "old");
+}
+
+/// Thousands of lights and probes: the listing of the probes takes much longer than the map, and asks nobody.
+fn busy(folder: &Folder) {
+    let light = "[[light]]\nposition = [5, 5, -10]\nintensity = 1\n";
+    let probe = "[[probe]]\nat = [0, 0, 4]\n";
+    folder.write("busy.toml", LAB.to_owned() + &light.repeat(2000) + &probe.repeat(20_000));
+}
+
+#[test]
+fn ctrl_c_ends_a_phase_that_asks_nobody() {
+    let folder = Folder::new();
+    busy(&folder);
+    let child = start(&folder, "render busy.toml --size 8x6 -o map.csv --quiet");
+    std::thread::sleep(Duration::from_secs(3));
+    interrupt(&child);
+    let (status, said) = end_of(child);
+    assert_eq!(status.code(), Some(130), "{said}");
+    // On a busy computer it may still have been reading.
+    let ended = ["interrupted; nothing was left half-written\n", "interrupted; nothing was written\n"];
+    assert!(ended.contains(&said.as_str()), "{said}");
+    assert!(folder.names().iter().all(|name| !name.contains(".part")), "{:?}", folder.names());
+}
+
+#[test]
+fn the_second_ctrl_c_ends_at_once() {
+    let folder = Folder::new();
+    busy(&folder);
+    let mut child = start(&folder, "render busy.toml --size 8x6 -o map.csv --quiet");
+    std::thread::sleep(Duration::from_secs(3));
+    interrupt(&child);
+    std::thread::sleep(Duration::from_millis(50));
+    if child.try_wait().unwrap().is_none() {
+        interrupt(&child);
+    }
+    let (status, said) = end_of(child);
+    assert_eq!(status.code(), Some(130), "{said}");
+    assert!(said.starts_with("interrupted; nothing was "), "{said}");
 }
 
 #[test]

@@ -21,6 +21,7 @@ mod schema;
 mod section;
 mod starters;
 mod surface;
+mod terminal;
 mod usage;
 mod zarr;
 mod zarr_failures;

@@ -2,6 +2,20 @@
 
 use crate::common::{COURSE, Folder, LAB, ROOM};
 
+/// The system grants 2 GiB to this one run: the map is refused with a sentence, not by the end of the program.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_map_that_the_system_has_no_memory_for_is_refused_with_a_sentence() {
+    let folder = Folder::with("lab.toml", LAB);
+    let render = "render lab.toml --size 16384x8192 --threads 1";
+    let script = format!("ulimit -v 2097152; exec '{}' {render} -o map.npz", crate::common::PROGRAM);
+    let output = std::process::Command::new("sh").args(["-c", &script]).current_dir(folder.path("")).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("MiB of memory, which the system does not grant"), "{said}");
+    assert_eq!(folder.names(), ["lab.toml"]);
+}
+
 /// A generator of numbers that are the same on every run (xorshift64).
 struct Numbers(u64);
 

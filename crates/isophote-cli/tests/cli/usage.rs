@@ -85,6 +85,8 @@ fn what_cannot_be_a_picture_is_refused_before_anything_is_computed() {
 fn options_that_would_do_nothing_are_refused() {
     refused("probe --snap --pixel 400,300", &["--at"]);
     refused("probe --shape ball --at 0,0,4", &["--angles"]);
+    // However the place is written.
+    refused("render -o map.png --figure ./map.png", &["./map.png would be written twice"]);
     refused("section --row 1 -o row.csv -o row.csv", &["row.csv would be written twice"]);
 }
 

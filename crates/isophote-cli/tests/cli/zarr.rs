@@ -82,6 +82,7 @@ fn what_makes_no_sense_together_is_refused_before_anything_is_written() {
     folder.run("render -o none/map.zarr").failed(1, &["‘none/map.zarr’ is in a folder ‘none’ that does not exist"]);
     let little = folder.run("render -o map.zarr --memory 16M");
     little.failed(2, &["--memory: a limit of 16 MiB of memory is too small: one shard of this map needs"]);
+    assert!(!folder.path("map.zarr").exists(), "nothing is left that would stop the next command");
     let noted = folder.ok("render --size 40x30 -o other.zarr --gamma 2 --bits 16");
     assert!(noted.stderr.starts_with("--gamma has no effect: it is not for .zarr stores\n--bits"), "{}", noted.stderr);
 }

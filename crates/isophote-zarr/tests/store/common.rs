@@ -45,13 +45,14 @@ impl Default for Job {
 
 impl Job {
     pub fn run(&self, path: &Path, scene: &PreparedScene) -> Result<Outcome, StoreError> {
+        let workers = Workers { threads: NonZeroUsize::new(self.threads).unwrap(), memory: self.memory, used: 0 };
         let request = Request {
             quantities: self.quantities.clone(),
             opening: self.opening,
             part: self.part,
             shard_side: NonZeroU32::new(self.side),
+            workers: Some(workers),
         };
-        let workers = Workers { threads: NonZeroUsize::new(self.threads).unwrap(), memory: self.memory };
         let store = Store::prepare(path, scene, &ReferenceRenderer, &request)?;
         store.render(scene, &ReferenceRenderer, workers, self.part, None)
     }

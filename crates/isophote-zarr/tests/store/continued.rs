@@ -39,8 +39,9 @@ fn an_interrupted_computation_is_continued_to_the_same_bytes() {
         opening: Opening::Continue,
         part: None,
         shard_side: 16.try_into().ok(),
+        workers: None,
     };
-    let workers = Workers { threads: 2.try_into().unwrap(), memory: None };
+    let workers = Workers { threads: 2.try_into().unwrap(), memory: None, used: 0 };
     for patience in [0, 500, 1500, 2500] {
         let folder = Folder::new();
         let store = Store::prepare(&folder.store(), &scene, &ReferenceRenderer, &request).unwrap();

@@ -132,6 +132,8 @@ fn a_description_that_makes_no_sense_is_an_error_and_no_panic() {
         ("\"inner_side\": 4", "\"inner_side\": 5"),
         ("\"data_type\": \"float64\"", "\"data_type\": \"float65\""),
         ("\"isophote\": 1", "\"isophote\": 99"),
+        // A million million shards.
+        ("\"width\": 20", "\"width\": 4000000000"),
         ("\"isophote\": 1", "\"isophot\": 1"),
         ("\"zarr_format\": 3,", "\"zarr_format\": 3,,"),
     ];

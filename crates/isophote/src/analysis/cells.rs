@@ -38,7 +38,7 @@ pub(super) fn map(
     cell: impl Fn(Pixel) -> Option<Cell> + Sync + Send,
 ) -> Result<Map, RenderError> {
     let Layout { size, window, renderer, shape } = layout;
-    let sheet = Sheet { full: size, region: Region::all(size), window, renderer };
+    let sheet = Sheet { full: size, region: Region::all(size), window, whole: window, renderer };
     let mut layers = band::empty_layers(scene, &sheet, quantities, Precision::Double, Vec::new())?;
     let asked_for = band::asked_for(&layers[0], scene);
     let fill = |mut band: Band<'_>| {

@@ -95,7 +95,8 @@ impl MapBuilder {
         self.check_values(seen)?;
         let mask = Mask::of_shapes(self.region.size, seen);
         let Self { full, region, window, provenance, channels, .. } = self;
-        Ok(Map { full, region, window, provenance, mask, channels })
+        let whole = whole(full, region, window);
+        Ok(Map { full, region, window, whole, provenance, mask, channels })
     }
 
     fn check_region(&self) -> Result<(), MapError> {
@@ -134,6 +135,21 @@ impl MapBuilder {
             None => Ok(()),
         }
     }
+}
+
+/// The window of the whole image, from that of a part.
+fn whole(full: Resolution, region: Region, window: Window) -> Window {
+    let Region { corner, size } = region;
+    let beyond = |[first, last]: [f64; 2], before: u32, length: u32, whole: u32| {
+        if length == whole {
+            return [first, last];
+        }
+        let step = (last - first) / f64::from(length);
+        [first - step * f64::from(before), last + step * f64::from(whole - before - length)]
+    };
+    let [bottom, top] = window.y;
+    let [top, bottom] = beyond([top, bottom], corner.row, size.height, full.height);
+    Window { x: beyond(window.x, corner.column, size.width, full.width), y: [bottom, top], ..window }
 }
 
 fn shape_channel(channels: &[Channel]) -> Option<&[i32]> {

@@ -276,6 +276,8 @@ pub struct Map {
     pub region: Region,
     /// The region's outer edges on the screen.
     pub window: Window,
+    /// Those of the whole image.
+    pub(crate) whole: Window,
     /// The provenance of the map.
     pub provenance: Provenance,
     pub(crate) mask: Mask,
@@ -318,6 +320,19 @@ impl Map {
     #[must_use]
     pub fn mask(&self) -> &Mask {
         &self.mask
+    }
+
+    /// The centre of a pixel of the full image, in the window's unit. It is reckoned from the edges of the whole image, so that
+    /// it is the same in a map of any part.
+    #[must_use]
+    pub fn center(&self, pixel: Pixel) -> [f64; 2] {
+        /// Weighted from both ends, so that a window symmetric about 0 gives coordinates that are symmetric to the last bit.
+        fn between(edges: [f64; 2], index: u32, count: u32) -> f64 {
+            let (before, after) = (f64::from(index) + 0.5, f64::from(count - index) - 0.5);
+            (edges[0] * after + edges[1] * before) / f64::from(count)
+        }
+        let [bottom, top] = self.whole.y;
+        [between(self.whole.x, pixel.column, self.full.width), between([top, bottom], pixel.row, self.full.height)]
     }
 
     /// The pixel of the full image with this index in the map's values.

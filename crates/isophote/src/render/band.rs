@@ -18,6 +18,8 @@ pub struct Sheet {
     pub region: Region,
     /// The outer edges of that part.
     pub window: Window,
+    /// The same of the whole image.
+    pub whole: Window,
     /// The renderer and its settings.
     pub renderer: String,
 }
@@ -33,7 +35,8 @@ impl Sheet {
         let full = description.camera.resolution;
         let region = settings.region.unwrap_or(Region::all(full));
         check(region, full)?;
-        Ok(Self { full, region, window: description.camera.window(region, description.length), renderer })
+        let window = |region| description.camera.window(region, description.length);
+        Ok(Self { full, region, window: window(region), whole: window(Region::all(full)), renderer })
     }
 }
 
@@ -46,6 +49,12 @@ pub fn empty_layers(
     precision: Precision,
     mut memory: Vec<Values>,
 ) -> Result<Vec<Map>, RenderError> {
+    let layers = 0..scene.layers().len();
+    let bytes = layers.map(|layer| {
+        let quantities = layers::quantities_of_layer(scene, quantities, layer);
+        quantities.iter().map(|quantity| bytes_per_pixel(quantity, precision)).collect::<Vec<_>>()
+    });
+    refuse_too_little_memory(sheet.region.size, bytes.flatten(), &memory)?;
     let layer = |layer| {
         let quantities = layers::quantities_of_layer(scene, quantities, layer);
         empty_map(scene, sheet, &quantities, precision, &mut memory)
@@ -60,7 +69,7 @@ fn empty_map(
     precision: Precision,
     memory: &mut Vec<Values>,
 ) -> Result<Map, RenderError> {
-    let Sheet { full, region, window, .. } = *sheet;
+    let Sheet { full, region, window, whole, .. } = *sheet;
     let mut channels: Vec<Channel> = Vec::new();
     for quantity in quantities {
         if channels.iter().all(|channel| channel.quantity != *quantity) {
@@ -68,7 +77,42 @@ fn empty_map(
         }
     }
     let mask = Mask::new(region.size, Vec::new());
-    Ok(Map { full, region, window, provenance: provenance(scene, sheet.renderer.clone()), mask, channels })
+    Ok(Map { full, region, window, whole, provenance: provenance(scene, sheet.renderer.clone()), mask, channels })
+}
+
+/// Checks that the system grants the memory of a large map, which would otherwise end the program when it does not.
+fn refuse_too_little_memory(
+    size: Resolution,
+    bytes_per_pixel: impl Iterator<Item = usize>,
+    reused: &[Values],
+) -> Result<(), RenderError> {
+    /// Smaller maps are not worth asking for.
+    const LARGE: usize = 64 << 20;
+    let sizes: Vec<usize> = bytes_per_pixel.map(|bytes| bytes.saturating_mul(size.pixels())).collect();
+    let all = sizes.iter().fold(0_usize, |all, size| all.saturating_add(*size));
+    if all < LARGE || !reused.is_empty() {
+        return Ok(());
+    }
+    // Reserved channel by channel, as they will be, and given back untouched.
+    let mut granted = Vec::with_capacity(sizes.len());
+    for size in sizes {
+        let mut memory = Vec::<u8>::new();
+        if memory.try_reserve_exact(size).is_err() {
+            return Err(RenderError::Memory { mebibytes: all >> 20 });
+        }
+        granted.push(memory);
+    }
+    Ok(())
+}
+
+/// The memory of a channel.
+fn bytes_per_pixel(quantity: &Quantity, precision: Precision) -> usize {
+    match quantity {
+        Quantity::Position | Quantity::Normal => 24,
+        Quantity::Shape => 4,
+        _ if precision == Precision::Single && !is_always_double(quantity) => 4,
+        _ => 8,
+    }
 }
 
 /// Checks that a region lies in the image and fits into memory.

@@ -89,6 +89,14 @@ pub enum RenderError {
         /// The requested size.
         size: Resolution,
     },
+    /// The system does not grant the memory that the map needs.
+    #[error(
+        "the map needs {mebibytes} MiB of memory, which the system does not grant; fewer channels or a smaller region need less"
+    )]
+    Memory {
+        /// The memory of all channels.
+        mebibytes: usize,
+    },
     /// A channel for a light that the scene does not have.
     #[error("the scene has no light named \"{name}\"")]
     NoSuchLight {

@@ -86,6 +86,12 @@ impl Document {
     /// Parses as much of the text as its syntax allows.
     #[must_use]
     pub fn parse(text: &str, syntax: Syntax) -> Self {
+        if let Some(span) = too_deep(text, syntax) {
+            let message = format!("brackets are nested more than {DEEPEST} deep; a scene needs 4");
+            let problem = Problem::at_span(ProblemKind::Syntax, Some(span), message);
+            let root = Node { value: Value::Table(Vec::new()), span: 0..0 };
+            return Self { root, syntax_problems: vec![problem] };
+        }
         match syntax {
             Syntax::Toml => parse_toml(text),
             Syntax::Json => parse_json(text),
@@ -180,10 +186,59 @@ impl fmt::Display for Path {
     }
 }
 
+/// The deepest nesting of brackets.
+const DEEPEST: usize = 32;
+
+/// The first bracket that is nested too deep. Texts and comments are skipped; in a text that is broken in other ways, some
+/// bracket may be taken for one of another depth.
+fn too_deep(text: &str, syntax: Syntax) -> Option<Range<usize>> {
+    let bytes = text.as_bytes();
+    let (mut depth, mut at) = (0_usize, 0);
+    while at < bytes.len() {
+        match bytes[at] {
+            b'[' | b'{' => {
+                depth += 1;
+                if depth > DEEPEST {
+                    return Some(at..at + 1);
+                }
+            }
+            b']' | b'}' => depth = depth.saturating_sub(1),
+            b'#' if syntax == Syntax::Toml => at += memchr::memchr(b'\n', &bytes[at..]).unwrap_or(bytes.len() - at) - 1,
+            quote @ (b'"' | b'\'') if quote == b'"' || syntax == Syntax::Toml => at = end_of_text(bytes, at, syntax),
+            _ => {}
+        }
+        at += 1;
+    }
+    None
+}
+
+/// The place of the last quote of a text that begins here, or of the end of its line if it does not end.
+fn end_of_text(bytes: &[u8], start: usize, syntax: Syntax) -> usize {
+    let quote = bytes[start];
+    let long = [quote; 3];
+    let is_long = syntax == Syntax::Toml && bytes[start..].starts_with(&long);
+    let mut at = if is_long { start + 3 } else { start + 1 };
+    while at < bytes.len() {
+        match bytes[at] {
+            b'\\' if quote == b'"' => at += 1,
+            b'\n' if !is_long => return at,
+            byte if byte == quote && !is_long => return at,
+            byte if byte == quote && bytes[at..].starts_with(&long) => return at + 2,
+            _ => {}
+        }
+        at += 1;
+    }
+    bytes.len()
+}
+
+/// More violations of the syntax than this are not looked at: one of them has caused the others.
+const MOST_SYNTAX_PROBLEMS: usize = 100;
+
 fn parse_toml(text: &str) -> Document {
     let (root, errors) = DeTable::parse_recoverable(text);
     let syntax_problems = errors
         .iter()
+        .take(MOST_SYNTAX_PROBLEMS)
         .map(|error| {
             let message = format!("not valid TOML: {}", error.message());
             let mut problem = Problem::at_span(ProblemKind::Syntax, error.span(), message);

@@ -5,6 +5,7 @@ use std::ops::Range;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 use super::document::{Document, Path};
+use crate::text::escaped;
 
 /// Why a scene could not be used.
 #[derive(Debug, Clone, thiserror::Error)]
@@ -36,6 +37,8 @@ pub struct Problem {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Target {
     Nothing,
+    /// All that is not listed: how many.
+    Rest(usize),
     Span(Range<usize>),
     Value(Path),
     /// The table that lacks a key.
@@ -82,11 +85,26 @@ impl SceneError {
         Self { name: name.into(), problems: vec![problem] }
     }
 
+    /// How many problems there are. If there are very many, only the first ones are listed, and the last entry says how many
+    /// more there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        count(&self.problems)
+    }
+
     /// The problems in readable form: message, file, line, the line's text with a caret, and what is allowed. `color` adds
     /// terminal colours.
     #[must_use]
     pub fn report(&self, color: bool) -> String {
         report(&self.name, &self.problems, color)
+    }
+}
+
+/// How many problems there are, with those that are not listed.
+fn count(problems: &[Problem]) -> usize {
+    match problems.last().map(|last| &last.target) {
+        Some(Target::Rest(more)) => problems.len() - 1 + more,
+        _ => problems.len(),
     }
 }
 
@@ -96,10 +114,11 @@ const SHOWN: usize = 30;
 /// Formats problems; see [`SceneError::report`].
 #[must_use]
 pub fn report(name: &str, problems: &[Problem], color: bool) -> String {
+    let name = &escaped(name);
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
     let mut drawn: Vec<String> = problems.iter().take(SHOWN).map(|problem| problem.draw(name, &renderer)).collect();
     if problems.len() > SHOWN {
-        drawn.push(format!("… and {} more", problems.len() - SHOWN));
+        drawn.push(format!("… and {} more", count(problems) - SHOWN));
     }
     drawn.join("\n\n")
 }
@@ -108,8 +127,9 @@ impl Problem {
     pub(super) fn new(kind: ProblemKind, target: Target, message: String) -> Self {
         let path = match &target {
             Target::Value(path) | Target::Table(path) => path.to_string(),
-            Target::Nothing | Target::Span(_) => String::new(),
+            Target::Nothing | Target::Rest(_) | Target::Span(_) => String::new(),
         };
+        let [path, message] = [path, message].map(|text| escaped(&text).into_owned());
         Self { kind, path, message, help: None, place: None, target }
     }
 
@@ -118,14 +138,14 @@ impl Problem {
     }
 
     pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(escaped(&help.into()).into_owned());
         self
     }
 
     /// Finds the problem's place in the source text.
     pub(super) fn locate(&mut self, text: &Lines<'_>, document: &Document) {
         let span = match &self.target {
-            Target::Nothing => None,
+            Target::Nothing | Target::Rest(_) => None,
             Target::Span(span) => Some(span.clone()),
             Target::Value(path) | Target::Table(path) => document.span_of(path),
         };
@@ -140,10 +160,14 @@ impl Problem {
             return self
                 .add_help(title.elements(Vec::<Snippet<'_, annotate_snippets::Annotation<'_>>>::new()), renderer);
         };
-        let snippet = Snippet::source(place.text.as_str())
+        let Range { start, end } = place.highlight;
+        let [before, marked, after] = [&place.text[..start], &place.text[start..end], &place.text[end..]].map(escaped);
+        let marked_place = before.len()..before.len() + marked.len();
+        let text = [before, marked, after].concat();
+        let snippet = Snippet::source(text.as_str())
             .path(name)
             .line_start(place.line)
-            .annotation(AnnotationKind::Primary.span(place.highlight.clone()));
+            .annotation(AnnotationKind::Primary.span(marked_place));
         self.add_help(level.primary_title(self.message.as_str()).element(snippet), renderer)
     }
 

@@ -8,6 +8,10 @@ use crate::light::Spot;
 pub const FILE_BYTES: u64 = 64 << 20;
 /// Pixels in a row, and rows. A map in memory has its own limits, [`crate::map::Resolution::fits_memory`].
 pub const SIDE: u32 = 1_000_000;
+/// A name, in bytes of UTF-8.
+pub const NAME_BYTES: usize = 1000;
+/// The title, in bytes of UTF-8.
+pub const TITLE_BYTES: usize = 10_000;
 /// Lights in a scene.
 pub const LIGHTS: usize = 100_000;
 /// Shapes in a scene, of all kinds together.

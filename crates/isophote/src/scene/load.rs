@@ -1,7 +1,7 @@
 //! From text, or from its parts, to a scene.
 
 use super::document::Document;
-use super::error::Lines;
+use super::error::{Lines, Target};
 use super::problems::Problems;
 use super::{FileResolver, Problem, ProblemKind, Scene, SceneError, SceneSource, Syntax, validate};
 use crate::import::{NoFiles, Origin, Resolver};
@@ -55,7 +55,10 @@ impl Scene {
                     problems.retain(|problem| problem.kind != ProblemKind::MissingKey);
                 }
                 let mut problems: Vec<Problem> = problems.into_iter().map(locate).collect();
-                problems.sort_by_key(|problem| problem.place.as_ref().map_or(0, |place| place.line));
+                problems.sort_by_key(|problem| match &problem.place {
+                    _ if matches!(problem.target, Target::Rest(_)) => usize::MAX,
+                    place => place.as_ref().map_or(0, |place| place.line),
+                });
                 Err(SceneError { name: name.into(), problems })
             }
         }

@@ -8,7 +8,9 @@ use super::error::{Problem, ProblemKind, Target};
 /// Problems in the order found, at most one for each place.
 #[derive(Default)]
 pub struct Problems {
-    pub(super) list: Vec<Problem>,
+    list: Vec<Problem>,
+    /// How many more were found than are listed.
+    left_out: usize,
     pub(super) reported: HashSet<Path>,
 }
 
@@ -17,8 +19,12 @@ impl Problems {
     pub fn push(&mut self, kind: ProblemKind, path: &Path, message: impl Into<String>, help: impl Into<String>) {
         if !self.reported.contains(path) {
             self.reported.insert(path.clone());
+            if self.is_full() {
+                self.left_out += 1;
+                return;
+            }
             let problem = Problem::new(kind, Target::Value(path.clone()), message.into());
-            self.list.push(problem.with_help(help));
+            self.add(problem.with_help(help));
         }
     }
 
@@ -30,17 +36,37 @@ impl Problems {
             let message = format!("the key `{key}` is missing{place}");
             let mut problem = Problem::new(ProblemKind::MissingKey, target, message).with_help(help);
             problem.path = table.key(key).to_string();
+            self.add(problem);
+        }
+    }
+
+    /// Adds a problem, if there are not too many already.
+    pub(super) fn add(&mut self, problem: Problem) {
+        if self.is_full() {
+            self.left_out += 1;
+        } else {
             self.list.push(problem);
         }
     }
 
-    /// Adds problems that were found before the scene was read.
-    pub fn extend(&mut self, problems: impl IntoIterator<Item = Problem>) {
-        self.list.extend(problems);
+    fn is_full(&self) -> bool {
+        self.list.len() >= MOST
     }
 
-    /// All problems, in the order in which they were found.
-    pub fn into_list(self) -> Vec<Problem> {
+    /// Adds problems that were found before the scene was read.
+    pub fn extend(&mut self, problems: impl IntoIterator<Item = Problem>) {
+        for problem in problems {
+            self.add(problem);
+        }
+    }
+
+    /// All problems, in the order in which they were found; if there are very many, the first ones and how many there are.
+    pub fn into_list(mut self) -> Vec<Problem> {
+        let kind = self.list.last().map(|last| last.kind);
+        if let Some(kind) = kind.filter(|_| self.left_out > 0) {
+            let message = format!("{} more were found and are not listed", self.left_out);
+            self.list.push(Problem::new(kind, Target::Rest(self.left_out), message));
+        }
         self.list
     }
 
@@ -54,6 +80,9 @@ impl Problems {
         self.list.is_empty()
     }
 }
+
+/// The most problems that are listed. Each is looked up in the text, which takes as long as the text is.
+const MOST: usize = 1000;
 
 /// The known word that is closest to the written one, if any is close enough.
 pub(super) fn closest<'w>(written: &str, known: &[&'w str]) -> Option<&'w str> {

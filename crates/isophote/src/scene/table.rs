@@ -294,7 +294,7 @@ impl<'t> Table<'t> {
                 let help = format!("allowed: {}{}", self.known.join(", "), suggestion(meant));
                 let mut problem = Problem::at_span(ProblemKind::UnknownKey, Some(entry.key_span.clone()), message);
                 problem.path = path.to_string();
-                self.problems.list.push(problem.with_help(help));
+                self.problems.add(problem.with_help(help));
             }
         }
     }

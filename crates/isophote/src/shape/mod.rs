@@ -1,5 +1,6 @@
 //! Shapes: what a ray can hit.
 
+mod box_tree;
 mod cone;
 mod cuboid;
 mod cylinder;
@@ -19,6 +20,7 @@ mod spheres;
 
 use std::sync::Arc;
 
+pub use box_tree::BoxTree;
 pub use cone::Cone;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
@@ -197,6 +199,12 @@ impl Geometry {
             Self::Cone(cone) => Some(cone.bounds()),
             Self::Mesh(mesh) => Some(mesh.part_bounds(part)),
         }
+    }
+
+    /// The bounding box of all parts; `None` if it is unbounded.
+    #[must_use]
+    pub fn bounds_of_all(&self) -> Option<Bounds> {
+        (0..self.parts()).map(|part| self.bounds(part)).reduce(|first, second| Some(first?.union(second?))).flatten()
     }
 
     /// Whether a point is inside a part that is closed and convex.

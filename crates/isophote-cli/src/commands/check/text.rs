@@ -7,7 +7,7 @@ use isophote::light::{Emission, Light, LightKind};
 use isophote::reflectance::Reflectance;
 use isophote::scene::{Lighting, Scene};
 use isophote::shape::Measure;
-use isophote::text::significant;
+use isophote::text::{escaped_line, significant};
 use isophote::units::Keyword;
 use isophote::vector::Vector;
 
@@ -22,7 +22,7 @@ pub(super) fn of(scene: &Scene) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let mut row = |name: &str, value: String| {
-        let _ = writeln!(text, "  {name:<12}{value}");
+        let _ = writeln!(text, "  {name:<12}{}", escaped_line(&value));
     };
     row("title", scene.title().to_owned());
     row("length", format!("{} in the file; metres below", scene.length().name()));

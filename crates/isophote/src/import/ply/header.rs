@@ -51,6 +51,10 @@ pub(in crate::import) enum Kind {
     F64,
 }
 
+/// Far more than any file needs. Each is compared with every other one, and walked through for every row.
+const MOST_ELEMENTS: usize = 100;
+const MOST_PROPERTIES: usize = 1000;
+
 impl Header {
     /// The header and the rest of the file.
     pub fn split(bytes: &[u8]) -> Result<(Self, &[u8]), Fault> {
@@ -72,6 +76,9 @@ impl Header {
                     if elements.iter().any(|other| other.name == element.name) {
                         return Err(at(twice("an element", &element.name)));
                     }
+                    if elements.len() == MOST_ELEMENTS {
+                        return Err(at(too_many("elements in the header", MOST_ELEMENTS)));
+                    }
                     elements.push(element);
                 }
                 [b"property", parts @ ..] => {
@@ -79,6 +86,9 @@ impl Header {
                     let property = Property::new(parts).map_err(at)?;
                     if element.property(&[&property.name]).is_some() {
                         return Err(at(twice("a property", &property.name)));
+                    }
+                    if element.properties.len() == MOST_PROPERTIES {
+                        return Err(at(too_many("properties of one element", MOST_PROPERTIES)));
                     }
                     element.properties.push(property);
                 }
@@ -204,6 +214,10 @@ fn unexpected(line: &[u8]) -> FileProblem {
 fn twice(what: &str, name: &str) -> FileProblem {
     let what = format!("{what} that is there twice");
     FileProblem::Unexpected { what, found: name.into(), allowed: "each name once".into() }
+}
+
+fn too_many(what: &'static str, most: usize) -> FileProblem {
+    FileProblem::TooMany { what, most: most as u64 }
 }
 
 fn no_format() -> FileProblem {

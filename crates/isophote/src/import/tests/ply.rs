@@ -190,3 +190,16 @@ fn mistakes_of_rows_are_named_with_their_line() {
     assert_eq!(with("\n0 1\n", "\n"), none);
     assert_eq!(with("\n0 1\n", "\n\n\n\n"), "line 26: element edge has 0; the header announces 1 rows");
 }
+
+/// Each name is compared with all others: without a bound, a long header would take for ever.
+#[test]
+fn a_header_has_a_bounded_number_of_elements_and_properties() {
+    let header = |lines: Vec<String>| format!("ply\nformat ascii 1.0\n{}\nend_header\n", lines.join("\n"));
+    let elements = (0..101).map(|number| format!("element e{number} 0")).collect();
+    let fault = mesh_fault(Ply, header(elements));
+    assert_eq!(fault, "line 103: there are more than 100 elements in the header");
+    let properties = (0..1001).map(|number| format!("property float p{number}"));
+    let lines = ["element vertex 0".to_owned()].into_iter().chain(properties).collect();
+    let fault = mesh_fault(Ply, header(lines));
+    assert_eq!(fault, "line 1004: there are more than 1000 properties of one element");
+}

@@ -178,7 +178,7 @@ fn cropped(map: Map, region: Region, scene: &PreparedScene) -> Map {
     });
     let mask = Mask::of_shapes(region.size, &part(&map.mask.shapes(), rows(), width));
     let window = scene.scene().camera().window(region, scene.scene().length());
-    Map { full: map.full, region, window, provenance: map.provenance, mask, channels: channels.collect() }
+    Map { region, window, mask, channels: channels.collect(), ..map }
 }
 
 /// `width` values from each start.

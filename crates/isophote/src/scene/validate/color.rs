@@ -1,5 +1,7 @@
 //! Validates coefficients and strengths that may be three numbers.
 
+use std::collections::HashMap;
+
 use super::Validator;
 use crate::color::{ColorSpace, Component, Rgb};
 use crate::import::NoFiles;
@@ -60,7 +62,8 @@ impl Validator<'_> {
             collapse: ComponentSelector::Component(component),
             // Materials and lights name none.
             files: NotedFiles::new(&NoFiles),
-            materials: Vec::new(),
+            materials: HashMap::new(),
+            suggested: 0,
             problems: Problems::default(),
             warnings: Problems::default(),
         };

@@ -249,7 +249,7 @@ impl Validator<'_> {
         };
         let mut materials = Vec::with_capacity(names.len());
         for name in names {
-            let index = name.as_ref().and_then(|name| self.materials.iter().position(|material| material == name));
+            let index = name.as_ref().and_then(|name| self.materials.get(name).copied());
             if index.is_none() {
                 let message = match &name {
                     Some(name) => {

@@ -1,5 +1,6 @@
 //! Validates materials.
 
+use super::names::{is_usable, usable};
 use super::{Checked, Validator};
 use crate::reflectance::{Convention, Reflectance};
 use crate::scene::Material;
@@ -17,6 +18,10 @@ impl Validator<'_> {
 
     fn material(&mut self, name: &str, material: &MaterialSource) -> Option<Material> {
         let path = Path::root().key("material").key(name);
+        if !is_usable(name) {
+            self.wrong(&path, format!("the name \"{}\" is not usable", short(name)), &usable());
+            return None;
+        }
         if material.diffuse.is_none() {
             self.problems.missing(&path, "diffuse", "write the diffuse coefficient k_d");
         }
@@ -81,12 +86,15 @@ impl Validator<'_> {
             }
             return Ok(None);
         };
-        let index = known.iter().position(|material| *material == name);
+        let index = self.materials.get(name).copied();
         if index.is_none() {
             let message = format!("there is no material \"{}\"", short(name));
+            // Each name would be compared with every other one.
+            self.suggested += 1;
+            let meant = if self.suggested * known.len() <= COMPARED { closest(name, known) } else { None };
             let help = match known {
                 [] => format!("the scene has no materials; write a table [material.{}]", short(name)),
-                _ => format!("allowed: {}{}", known.join(", "), suggestion(closest(name, known))),
+                _ => format!("allowed: {}{}", some(known), suggestion(meant)),
             };
             self.wrong(&path.key("material"), message, &help);
             return Err(Reported);
@@ -99,5 +107,15 @@ impl Validator<'_> {
 pub(super) struct Reported;
 
 fn listed(known: &[&str]) -> String {
-    if known.is_empty() { ", and a table [material.NAME] for it".into() } else { format!(": {}", known.join(", ")) }
+    if known.is_empty() { ", and a table [material.NAME] for it".into() } else { format!(": {}", some(known)) }
+}
+
+/// The most comparisons of a misspelt name with the names of the materials.
+const COMPARED: usize = 1_000_000;
+
+/// The first of the names.
+fn some(known: &[&str]) -> String {
+    const SHOWN: usize = 20;
+    let more = if known.len() > SHOWN { ", …" } else { "" };
+    format!("{}{more}", known[..known.len().min(SHOWN)].join(", "))
 }

@@ -14,7 +14,7 @@ mod probes;
 mod projection;
 mod shapes;
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use self::color::ComponentSelector;
 use super::document::Path;
@@ -44,7 +44,8 @@ pub(super) fn validate(
         shadows: source.shadows.unwrap_or(false),
         collapse: ComponentSelector::Luminance(source.color_space.unwrap_or_default()),
         files: NotedFiles::new(files),
-        materials: source.material.keys().cloned().collect(),
+        materials: source.material.keys().cloned().zip(0..).collect(),
+        suggested: 0,
         problems,
         warnings: Problems::default(),
     };
@@ -59,8 +60,9 @@ pub(super) fn validate(
     let areas = validator.areas(&source, camera.as_ref(), &shapes);
     let grids = validator.grids(&source);
     validator.eye_against_shapes(camera.as_ref(), &shapes);
-    validator.lights_against_shapes(camera.as_ref(), &lights, &shapes);
-    validator.probes_against_shapes(&probes, &shapes);
+    let tree = Validator::tree_of(&shapes);
+    validator.lights_against_shapes(camera.as_ref(), &lights, &shapes, &tree);
+    validator.probes_against_shapes(&probes, &shapes, &tree);
     validator.words_of_advice(&source, camera.as_ref(), &shapes);
     let color = validator.color(&source);
     let Validator { length, convention, shadows, files, problems, warnings, .. } = validator;
@@ -100,8 +102,10 @@ struct Validator<'f> {
     collapse: ComponentSelector,
     /// The files that the scene names.
     files: NotedFiles<'f>,
-    /// The names of the materials, in order.
-    materials: Vec<String>,
+    /// The index of each material by its name.
+    materials: HashMap<String, usize>,
+    /// How many suggestions for misspelt materials were looked for.
+    suggested: usize,
     /// What need not be read again.
     kept: files::GeometryCache,
     problems: Problems,
@@ -115,6 +119,10 @@ impl Validator<'_> {
             None => self.problems.missing(&root, "version", "write `version = 1` on top"),
             Some(1) => {}
             Some(version) => self.wrong(&root.key("version"), format!("`version` is {version}"), "allowed: 1"),
+        }
+        if let Some(title) = source.title.as_ref().filter(|title| title.len() > limits::TITLE_BYTES) {
+            let help = format!("allowed: up to {}", limits::TITLE_BYTES);
+            self.wrong(&root.key("title"), format!("`title` has {} bytes", title.len()), &help);
         }
         if source.length.is_none() {
             let help = "write `length = \"m\"`, \"cm\" or \"mm\": the unit of every length in the scene";

@@ -4,7 +4,20 @@ use std::collections::HashMap;
 
 use super::Validator;
 use crate::scene::document::Path;
+use crate::scene::limits;
 use crate::scene::problems::short;
+use crate::text::is_control;
+
+/// Whether a name can be shown as it is, on one line.
+pub(super) fn is_usable(name: &str) -> bool {
+    !name.is_empty() && name.len() <= limits::NAME_BYTES && !name.chars().any(is_control)
+}
+
+/// What names may be.
+pub(super) fn usable() -> String {
+    let most = limits::NAME_BYTES;
+    format!("allowed: any line of text of up to {most} bytes, without control and bidirectional characters")
+}
 
 /// Names of one kind of item, which must differ.
 pub(super) struct Names {
@@ -21,8 +34,8 @@ impl Names {
     pub(super) fn check(&mut self, validator: &mut Validator<'_>, thing: &Path, name: Option<&str>) -> Option<String> {
         let name = name.map_or_else(|| thing.to_string(), str::to_owned);
         let path = thing.key("name");
-        if name.is_empty() || name.chars().any(char::is_control) {
-            validator.wrong(&path, format!("the name \"{}\" is not usable", short(&name)), "allowed: any line of text");
+        if !is_usable(&name) {
+            validator.wrong(&path, format!("the name \"{}\" is not usable", short(&name)), &usable());
             return None;
         }
         if let Some(first) = self.seen.insert(name.clone(), thing.clone()) {

@@ -71,9 +71,9 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], &[u8]), FileProblem> {
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
 
-/// The maximum number of vertices and corners, including all repetitions: a node needs only a few bytes of the file to
-/// repeat a whole mesh.
-const MOST_CORNERS: u64 = 300_000_000;
+/// The maximum number of vertices and corners, including all repetitions, in a file that has fewer bytes of them: a node needs
+/// only a few bytes of the file to repeat a whole mesh.
+const MOST_CORNERS: u64 = 10_000_000;
 
 fn check_corners(document: &Document, nodes: &[(usize, Transform)], bytes: u64) -> Result<(), Fault> {
     // Each takes at least a byte. Wrong accessors and indices out of range are found when they are read.
@@ -84,12 +84,13 @@ fn check_corners(document: &Document, nodes: &[(usize, Transform)], bytes: u64) 
     let corners = |primitive: &Primitive| count(primitive.attributes.position) + count(primitive.indices);
     let of_meshes: Vec<u64> =
         document.meshes.iter().map(|mesh| mesh.primitives.iter().map(corners).fold(0, u64::saturating_add)).collect();
+    let most = bytes.max(MOST_CORNERS);
     let mut all = 0_u64;
     for (index, _) in nodes {
         let mesh = document.nodes[*index].mesh.and_then(|mesh| of_meshes.get(mesh));
         all = all.saturating_add(mesh.copied().unwrap_or(0));
-        if all > MOST_CORNERS {
-            let problem = FileProblem::TooMany { what: "corners, with all repetitions", most: MOST_CORNERS };
+        if all > most {
+            let problem = FileProblem::TooMany { what: "corners, with all repetitions", most };
             return Err(problem.at(FilePosition::Json(format!("nodes[{index}]"))));
         }
     }
