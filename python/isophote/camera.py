@@ -32,11 +32,11 @@ class Window(Part):
 class Camera(Part):
     """The observer (2.1), (2.3).
 
-    Looks along ``forward``, at the point ``target``, or in the direction of the angles ``tilt`` (from −z: 0 is straight down)
-    and ``azimuth`` (from +x towards +y), in degrees. ``up`` is the top of the image: +y, unless the view is along it. ``projection`` is ``"perspective"`` (with a ``screen`` or a
-    ``field_of_view`` in degrees), ``"orthographic"`` (with a ``window``, 2.7), ``"fisheye-equidistant"`` (2.8) or
-    ``"fisheye-equal-area"`` (2.9; both with a ``field_of_view``), or ``"panorama"`` (with ``longitude`` and
-    ``latitude``, 2.10). ``resolution`` is the number of columns and of rows.
+    Looks along ``forward``, at the point ``target``, or in the direction of the angles ``tilt`` (from −z: 0 is straight
+    down) and ``azimuth`` (from +x towards +y), in degrees. ``up`` is the top of the image: +y, unless the view is along it.
+    ``projection`` is ``"perspective"`` (with a ``screen`` or a ``field_of_view`` in degrees), ``"orthographic"`` (with a
+    ``window``, 2.7), ``"fisheye-equidistant"`` (2.8) or ``"fisheye-equal-area"`` (2.9; both with a ``field_of_view``), or
+    ``"panorama"`` (with ``longitude`` and ``latitude``, 2.10). ``resolution`` is the number of columns and of rows.
     """
 
     eye: Vector
