@@ -15,7 +15,7 @@ from ._isophote import __version__
 
 if TYPE_CHECKING:
     from . import errors, scenes
-    from .analysis import GridMap, SurfaceMap, SurfaceTotals, grid, surface
+    from .analysis import AreaExtreme, AreaReading, GridMap, SurfaceMap, SurfaceTotals, areas, grid, surface
     from .camera import Camera, Intrinsics, Pose, Sampling, Screen, Window
     from .errors import (
         ArgumentError,
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from .materials import Convention, Material
     from .probing import Probes, Section, Values, probe, section
     from .rendering import render
-    from .scene import Grid, Probe, Scene
+    from .scene import Area, Grid, Probe, Scene
     from .shapes import (
         Box,
         Cone,
@@ -55,6 +55,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Ambient",
+    "Area",
+    "AreaExtreme",
+    "AreaReading",
     "ArgumentError",
     "Axis",
     "Box",
@@ -105,6 +108,7 @@ __all__ = [
     "Values",
     "Window",
     "__version__",
+    "areas",
     "brightness",
     "errors",
     "grid",
@@ -120,7 +124,7 @@ __all__ = [
 
 # Modules are loaded on first use: importing NumPy alone takes longer than most commands run.
 _NAMES = {
-    "analysis": ("GridMap", "SurfaceMap", "SurfaceTotals", "grid", "surface"),
+    "analysis": ("AreaExtreme", "AreaReading", "GridMap", "SurfaceMap", "SurfaceTotals", "areas", "grid", "surface"),
     "camera": ("Camera", "Intrinsics", "Pose", "Sampling", "Screen", "Window"),
     "errors": (
         "ArgumentError",
@@ -140,7 +144,7 @@ _NAMES = {
     "materials": ("Convention", "Material"),
     "probing": ("Probes", "Section", "Values", "probe", "section"),
     "rendering": ("render",),
-    "scene": ("Grid", "Probe", "Scene"),
+    "scene": ("Area", "Grid", "Probe", "Scene"),
     "shapes": (
         "Box",
         "Cone",

@@ -13,7 +13,9 @@ __all__ = [
     "Map",
     "Scene",
     "__version__",
+    "areas",
     "brightness",
+    "center_on_screen",
     "command",
     "conventions",
     "explain",
@@ -102,6 +104,11 @@ def explain(
     screen: Sequence[float] | None,
     snaps: bool,
 ) -> str: ...
+
+_Extreme = tuple[float, Sequence[float], Sequence[float] | None, bool]
+
+def areas(scene: Scene) -> list[tuple[str, tuple[_Extreme, _Extreme, float, float, float] | None]]: ...
+def center_on_screen(scene: Scene, shape: str) -> list[float] | None: ...
 def grid(scene: Scene, name: str, channels: Sequence[str]) -> Map: ...
 def nice_levels(least: float, greatest: float, about: int) -> list[float]: ...
 def panic_on_purpose(message: str) -> None: ...

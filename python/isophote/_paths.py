@@ -110,6 +110,7 @@ _PARTS = ("camera", "sampling", "ambient")
 _TABLES: Mapping[str, tuple[str, type[Part]]] = {
     "light": ("lights", Light),
     "probe": ("probes", Part),
+    "area": ("areas", Part),
     "grid": ("grids", Part),
     "shape": ("shapes", Shape),
     **{kind.KEY: ("shapes", kind) for kind in KINDS},

@@ -1,4 +1,4 @@
-"""Maps without a camera: over a shape's own surface, or over a grid of points."""
+"""Maps without a camera, over a shape's own surface or over a grid of points; and areas of interest."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .map import Map
 from .rendering import Channels, channel_names, counted
 from .scene import Scene, SceneOrPath, scene_of
 
-__all__ = ["GridMap", "SurfaceMap", "SurfaceTotals", "grid", "surface"]
+__all__ = ["AreaExtreme", "AreaReading", "GridMap", "SurfaceMap", "SurfaceTotals", "areas", "grid", "surface"]
 
 
 @dataclass(frozen=True)
@@ -55,6 +55,43 @@ class GridMap(Map):
     def uniformity(self) -> float:
         """The minimum irradiance divided by the mean."""
         return self.min("irradiance") / self.mean("irradiance")
+
+
+@dataclass(frozen=True)
+class AreaExtreme:
+    """The largest or smallest brightness in an area: its ``value``, the ``point`` in the scene's unit, its place on the
+    ``screen`` for an area there, and whether it is ``seen`` by the eye."""
+
+    value: float
+    point: tuple[float, float, float]
+    screen: tuple[float, float] | None
+    seen: bool
+
+
+@dataclass(frozen=True)
+class AreaReading:
+    """The brightness over an area: its extremes ``max`` and ``min``, its ``mean`` with an estimate of its error, and the
+    fraction ``visible``: of an area on a surface, what the eye sees; of one on the screen, what shows a surface."""
+
+    max: AreaExtreme
+    min: AreaExtreme
+    mean: float
+    mean_error: float
+    visible: float
+
+
+def areas(scene: SceneOrPath) -> dict[str, AreaReading | None]:
+    """The extremes and the mean of the brightness over each area of the scene, by its name, in double precision and
+    whatever the resolution; ``None`` for an area that shows no surface."""
+    return {name: None if numbers is None else _reading(*numbers) for name, numbers in _isophote.areas(scene_of(scene).core)}
+
+
+def _reading(largest: Any, smallest: Any, mean: float, mean_error: float, visible: float) -> AreaReading:
+    def extreme(value: float, point: Any, screen: Any, seen: bool) -> AreaExtreme:
+        x, y, z = point
+        return AreaExtreme(value, (x, y, z), None if screen is None else (screen[0], screen[1]), seen)
+
+    return AreaReading(extreme(*largest), extreme(*smallest), mean, mean_error, visible)
 
 
 def surface(

@@ -32,7 +32,7 @@ def brightness(
     quantities: Quantities = "radiometric",
     where: ArrayLike | None = None,
 ) -> NDArray[np.float64]:
-    """The brightness by a convention, (3.1) to (3.12), at points with given unit normals, summed over the lights, without shadows.
+    """The brightness (3.1) to (3.12) at points with given unit normals, summed over the lights, without shadows.
 
     ``normals`` and ``positions``: arrays of any shape (…, 3), in metres; the result has the shape (…). ``eye``: one point
     (3,), or one per position. Light positions are in metres too. Normals must have length 1 to within 1e-6.

@@ -130,18 +130,24 @@ class Values(Mapping[str, NDArray[Any]]):
                 columns.update({f"{name}.{label}": array[:, number] for number, label in enumerate(labels)})
         return pandas.DataFrame(columns, index=list(self._names) or None)
 
+    def _seen(self, indices: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """Whether the eye sees these points."""
+        seen: NDArray[np.bool_] = self._rows("seen")[indices]
+        return seen
+
     def _table(self) -> list[str]:
         about = self._scene.core.describe()
         length = self._scene.length
         lines = []
         indices = np.flatnonzero(self._rows("shape") >= 0)
-        for index in indices[:_SHOWN]:
+        for index, seen in zip(indices[:_SHOWN], self._seen(indices[:_SHOWN])):
             x, y, z = self._rows("position")[index]
             brightness, irradiance = self._rows("brightness")[index], self._rows("irradiance")[index]
             where = f"({x:.6g}, {y:.6g}, {z:.6g}) {length}"
             values = f"B = {brightness:.15g} {about['brightness_unit']}, E = {irradiance:.15g} {about['irradiance_unit']}"
             name = self._names[index] if index < len(self._names) else f"[{index}]"
-            lines.append(f"  {name}: {where}: {values}")
+            unseen = "" if seen else ", not seen from the eye"
+            lines.append(f"  {name}: {where}: {values}{unseen}")
         if len(indices) > _SHOWN:
             lines.append(f"  … {len(indices) - _SHOWN} more points")
         if len(indices) < self.count:
@@ -191,6 +197,15 @@ class Probes(Values):
 
     def __len__(self) -> int:
         return len(self._arrays) + len(self._later)
+
+    def _seen(self, indices: NDArray[np.intp]) -> NDArray[np.bool_]:
+        points = self._places.points
+        if "seen" not in self._later or points is None:
+            return super()._seen(indices)
+        # Only of these points, not of all.
+        some = _Places(points[indices], None, self._places.elsewhere, False)
+        seen: NDArray[np.bool_] = some.arrays(self._scene, None)["seen"]
+        return seen
 
     def _complete(self) -> None:
         """Computes the arrays that were left out."""
@@ -421,16 +436,31 @@ def section(
     row: int | None = None,
     column: int | None = None,
     between: ArrayLike | None = None,
+    x: float | None = None,
+    y: float | None = None,
+    through: str | None = None,
+    vertical: bool = False,
     samples: int | None = None,
 ) -> Section:
     """The values along a line on the screen, each traced and summed in double precision: at the pixel centres of a
-    ``row`` or ``column``, or at ``samples`` points (501) ``between`` two points (x, y) on the screen."""
+    ``row`` or ``column``, or at ``samples`` points (501): ``between`` two points (x, y) on the screen; from edge to edge of
+    the image, upright at ``x`` or level at ``y``; or ``through`` the centre of the shape of that name, level or
+    ``vertical``.
+
+    If the image has an even number of rows, none runs through its middle: the nearest are half a pixel beside it."""
     scene = scene_of(scene)
-    if sum(place is not None for place in (row, column, between)) != 1:
-        raise ArgumentError("say where: one of row, column and between")
+    if sum(place is not None for place in (row, column, between, x, y, through)) != 1:
+        raise ArgumentError("say where: one of row, column, between, x, y and through")
+    if vertical and through is None:
+        raise ArgumentError("vertical goes with through")
     ends = None
     if between is not None:
         ends = _ends(between)
+    elif through is not None:
+        place = _center(scene, through)
+        ends = _across(scene, place[0], None) if vertical else _across(scene, None, place[1])
+    elif x is not None or y is not None:
+        ends = _across(scene, x, y)
     elif samples is not None:
         raise ArgumentError("samples has no effect on a row or a column, which has a point at each pixel centre")
     for name, value in (("row", row), ("column", column)):
@@ -438,6 +468,29 @@ def section(
             counted(value, name)
     arrays = _isophote.section(scene.core, row, column, ends, positive(501 if samples is None else samples, "samples"))
     return Section(scene, arrays, ())
+
+
+def _center(scene: Scene, name: str) -> Sequence[float]:
+    """Where the centre of a shape appears on the screen."""
+    about = scene.core.describe()
+    if name not in about["shapes"]:
+        there_are = f"there are: {', '.join(about['shapes'][:20])}" if about["shapes"] else "the scene has none"
+        raise ArgumentError(f"there is no shape {name!r}; {there_are}")
+    place = _isophote.center_on_screen(scene.core, name)
+    if place is None:
+        raise ArgumentError(f"the eye does not see the centre of {name!r}, which is behind it")
+    if not all(least <= coordinate <= greatest for coordinate, (least, greatest) in zip(place, about["extent"])):
+        raise ArgumentError(f"the centre of {name!r} appears outside the image, at {tuple(place)} {about['screen_unit']}")
+    return place
+
+
+def _across(scene: Scene, x: float | None, y: float | None) -> list[list[float]]:
+    """The ends of a line from edge to edge of the image, at this x or y."""
+    (left, right), (low, high) = scene.core.describe()["extent"]
+    if x is None:
+        assert y is not None
+        return _ends([(left, y), (right, y)])
+    return _ends([(x, low), (x, high)])
 
 
 def _ends(between: ArrayLike) -> list[list[float]]:

@@ -15,7 +15,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from . import _isophote
-from ._convert import Flag, FrozenDict, Invalid, Number, Size, Vector, Word, word
+from ._convert import Flag, FrozenDict, Invalid, Number, Pair, Size, Vector, Word, word
 from ._part import Part
 from ._paths import locate
 from ._types import ColorSpace, ConventionName, Handedness, LengthUnit, Quantities, Side
@@ -26,7 +26,7 @@ from .lights import Ambient, AnyLight, Light, light_from_dict
 from .materials import Material
 from .shapes import KINDS, AnyShape, Mesh, Shape, Spheres
 
-__all__ = ["Grid", "Probe", "Scene"]
+__all__ = ["Area", "Grid", "Probe", "Scene"]
 
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
@@ -41,6 +41,21 @@ class Probe(Part):
     at: Vector
     name: Word | None = None
     published: Number | None = None
+
+
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
+class Area(Part):
+    """A circle (``radius``) or a rectangle (``size``: width and height) whose largest, smallest and mean brightness are wanted:
+    on the plane, rectangle or disk named ``on``, about the point ``center``, with the height of a rectangle along ``up``; or,
+    without ``on``, on the screen about the place ``at`` (x, y). See :func:`areas`."""
+
+    on: Word | None = None
+    center: Vector | None = None
+    at: Pair | None = None
+    radius: Number | None = None
+    size: Pair | None = None
+    up: Vector | None = None
+    name: Word | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
@@ -136,6 +151,7 @@ class Scene(Part):
     lights: Annotated[Sequence[AnyLight], _several(Light)] = ()
     ambient: Ambient | None = None
     probes: Annotated[Sequence[Probe], _several(Probe)] = ()
+    areas: Annotated[Sequence[Area], _several(Area)] = ()
     grids: Annotated[Sequence[Grid], _several(Grid)] = ()
     directory: Annotated[str | os.PathLike[str], _directory] = ""
 
@@ -235,6 +251,7 @@ class Scene(Part):
             written[kind.KEY] = [shape.to_dict() for shape in self.shapes if type(shape) is kind]
         written["light"] = [light.to_dict() for light in self.lights]
         written["probe"] = [probe.to_dict() for probe in self.probes]
+        written["area"] = [area.to_dict() for area in self.areas]
         written["grid"] = [grid.to_dict() for grid in self.grids]
         return {key: value for key, value in written.items() if value not in ([], {})}
 
@@ -304,7 +321,11 @@ class Scene(Part):
         lines.extend(_more(len(self.lights), "lights"))
         if self.ambient is not None:
             lines.append(f"  ambient: {_text(self.ambient.radiance)} {about['radiance_unit']}")
-        counts = [f"{len(items)} {name}" for items, name in ((self.probes, "probes"), (self.grids, "grids")) if items]
+        counts = [
+            f"{len(items)} {name}"
+            for items, name in ((self.probes, "probes"), (self.areas, "areas"), (self.grids, "grids"))
+            if items
+        ]
         if counts:
             lines.append(f"  {', '.join(counts)}")
         return "\n".join(lines) + ">"
@@ -333,7 +354,7 @@ def scene_of(given: SceneOrPath) -> Scene:
     return scene_of(read(path).scene)
 
 
-_LISTS = ("materials", "shapes", "lights", "probes", "grids")
+_LISTS = ("materials", "shapes", "lights", "probes", "areas", "grids")
 _SHOWN = 12
 # fmt: off
 _LENGTHS = frozenset({
@@ -341,7 +362,7 @@ _LENGTHS = frozenset({
     "width",
 })
 # fmt: on
-_ANGLES = ("inner_angle", "outer_angle")
+_ANGLES = ("azimuth", "inner_angle", "outer_angle", "tilt")
 
 
 def _unpickle(text: str, directory: str) -> Scene:
@@ -380,6 +401,7 @@ def _fields(written: dict[str, Any]) -> dict[str, Any]:
     fields["shapes"] = [kind.from_dict(one) for kind in KINDS for one in written.get(kind.KEY, [])]
     fields["lights"] = [light_from_dict(one) for one in written.get("light", [])]
     fields["probes"] = [Probe.from_dict(one) for one in written.get("probe", [])]
+    fields["areas"] = [Area.from_dict(one) for one in written.get("area", [])]
     fields["grids"] = [Grid.from_dict(one) for one in written.get("grid", [])]
     return fields
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from . import _isophote
 from .scene import Scene
 
-__all__ = ["course", "lab", "photometric", "two_lights"]
+__all__ = ["course", "course_plane", "course_sphere", "lab", "photometric", "two_lights"]
 
 
 def lab() -> Scene:
@@ -16,6 +16,16 @@ def lab() -> Scene:
 def course() -> Scene:
     """A scene in millimetres with Lambertian lights."""
     return _starter("course")
+
+
+def course_sphere() -> Scene:
+    """The course's sphere, below a screen in the plane z = 0."""
+    return _starter("course-sphere")
+
+
+def course_plane() -> Scene:
+    """The course's plane under a Lambertian lamp, with a circle of interest."""
+    return _starter("course-plane")
 
 
 def two_lights() -> Scene:

@@ -1,8 +1,11 @@
-//! Sections, surface maps and grids.
+//! Sections, surface maps, grids and areas.
 
+use isophote::analysis::area::{AreaExtreme, AreaReading};
+use isophote::analysis::probe::SeenFromEye;
 use isophote::analysis::section::SectionLine;
 use isophote::analysis::surface::{SurfaceProjection, SurfaceRequest};
 use isophote::map::{Quantity, Resolution};
+use isophote::scene::Area;
 use isophote::shape::{Primitive, Side};
 use isophote::vector::Vector;
 use pyo3::prelude::*;
@@ -50,6 +53,43 @@ pub fn section<'py>(
     }
     values.into_dict(py, &columns)?;
     Ok(columns)
+}
+
+/// An extreme of an area: its value, its point, its place on the screen for an area there, and whether the eye sees it.
+type Extreme = (f64, [f64; 3], Option<[f64; 2]>, bool);
+
+/// Maximum, minimum, mean, estimated error of the mean, and the visible fraction of an area.
+type AreaNumbers = (Extreme, Extreme, f64, f64, f64);
+
+/// The areas of a scene by name; without numbers where no surface is seen.
+#[pyfunction]
+pub fn areas(py: Python<'_>, scene: &Scene) -> PyResult<Vec<(String, Option<AreaNumbers>)>> {
+    let content = scene.content();
+    let unit = (scene.core().length(), scene.core().screen_unit());
+    job::run(py, &Progress::none(), move |_| {
+        let extreme = |extreme: &AreaExtreme| -> Extreme {
+            let point = extreme.point.to_array().map(|metres| unit.0.from_metres(metres));
+            let screen = extreme.screen.map(|place| place.map(|coordinate| unit.1.from_internal(coordinate)));
+            (extreme.value, point, screen, extreme.seen == SeenFromEye::Seen)
+        };
+        let numbers = |area: &Area| {
+            let reading = content.prepared().area(area)?;
+            let AreaReading { max, min, mean, mean_error, visible } = reading;
+            Some((extreme(&max), extreme(&min), mean, mean_error, visible))
+        };
+        content.scene().areas().iter().map(|area| (area.name.clone(), numbers(area))).collect()
+    })
+}
+
+/// Where the centre of a shape appears on the screen; `None` where the camera cannot see it.
+#[pyfunction]
+pub fn center_on_screen(py: Python<'_>, scene: &Scene, shape: &str) -> PyResult<Option<[f64; 2]>> {
+    let core = scene.core();
+    let Some(shape) = core.shapes().iter().find(|known| known.name == shape) else {
+        return Err(error::value(py, format!("there is no shape {shape:?}")));
+    };
+    let place = scene.content().prepared().frame().project(shape.geometry.center());
+    Ok(place.map(|place| place.map(|coordinate| core.screen_unit().from_internal(coordinate))))
 }
 
 /// The map over the surface of a shape, with its area and totals: for each scalar channel the integral, the minimum,

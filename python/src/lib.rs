@@ -20,7 +20,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _isophote {
     #[pymodule_export]
-    use crate::analysis::{grid, section, surface};
+    use crate::analysis::{areas, center_on_screen, grid, section, surface};
     #[pymodule_export]
     use crate::command::command;
     #[pymodule_export]

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
+use isophote::camera::Extent;
 use isophote::map::Resolution;
 use isophote::prepare::PreparedScene;
 use isophote::scene::library::Starter;
@@ -201,10 +202,14 @@ impl Scene {
         let lights = scene.lights().iter().map(|light| light.name.as_str());
         description.set_item("lights", lights.collect::<Vec<_>>())?;
         description.set_item("grids", scene.grids().iter().map(|grid| grid.name.as_str()).collect::<Vec<_>>())?;
+        description.set_item("areas", scene.areas().iter().map(|area| area.name.as_str()).collect::<Vec<_>>())?;
         let probes: Vec<_> = scene.probes().iter().map(|probe| probe.name.as_str()).collect();
         description.set_item("probes", probes)?;
         description.set_item("is_sampled", scene.sampling().is_multisampled())?;
         let resolution = scene.camera().resolution;
+        let Extent { x, y } = scene.camera().projection.extent(resolution);
+        let [x, y] = [x, y].map(|edges| edges.map(|edge| scene.screen_unit().from_internal(edge)));
+        description.set_item("extent", (x, y))?;
         description.set_item("resolution", (resolution.width, resolution.height))?;
         Ok(description)
     }

@@ -1,4 +1,4 @@
-"""The formulas (2.1), (2.2) and (3.1) to (3.6), (3.11) and (3.12) once more, in NumPy, from the documentation and not from the program."""
+"""The formulas (2.1), (2.2), (3.1) to (3.6), (3.11) and (3.12) once more, in NumPy, from the documentation."""
 
 from __future__ import annotations
 

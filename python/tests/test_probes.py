@@ -267,3 +267,33 @@ def test_values_are_a_table_of_pandas(lab):
     assert len(section) == 800 and {"screen.x", "normal.z", "brightness"} <= set(section.columns)
     many = iso.probe(lab, at=on_the_sphere(2000)).to_dataframe()
     assert len(many) == 2000 and "position.z" in many
+
+
+def test_an_area_has_the_extremes_and_the_mean_of_the_closed_form():
+    """(5.9): the lamp stands 1 m over the centre of a circle of 300 mm."""
+    scene = iso.scenes.course_plane().set({"light.lamp.position": (0, 0, 1000)})
+    assert scene == iso.Scene.from_toml(scene.to_toml()) and scene.areas[0].radius == 300
+    found = iso.areas(scene)["circle"]
+    assert found.max.value == pytest.approx(1000, rel=1e-14) and found.max.point == (0, 0, 0)
+    assert found.min.value == pytest.approx(1000 / 1.09**2, rel=1e-13)
+    assert found.mean == pytest.approx(1000 / 1.09, rel=1e-12)
+    assert found.visible == 1 and found.max.seen and found.max.screen is None
+    on_screen = iso.areas(scene.replace(areas=[iso.Area(name="all", at=(0, 0), size=(1000, 800))]))["all"]
+    assert on_screen.max.screen == (0, 0) and on_screen.min.value < found.min.value
+
+
+def test_sections_run_through_shapes_and_places(lab):
+    level, upright = (iso.section(lab, through="ball", vertical=vertical, samples=5) for vertical in (False, True))
+    assert level["screen"].tolist() == [[-4, 0], [-2, 0], [0, 0], [2, 0], [4, 0]]
+    assert upright["screen"].tolist() == [[0, -3], [0, -1.5], [0, 0], [0, 1.5], [0, 3]]
+    assert level["brightness"][2] == upright["brightness"][2] == pytest.approx(0.316677297547093, rel=1e-14)
+    assert iso.section(lab, y=0.5, samples=2)["screen"].tolist() == [[-4, 0.5], [4, 0.5]]
+    assert iso.section(lab, x=0.5, samples=2)["screen"].tolist() == [[0.5, -3], [0.5, 3]]
+    for wrong in ({"through": "moon"}, {"x": 0, "y": 0}, {"row": 0, "vertical": True}):
+        with pytest.raises(iso.ArgumentError):
+            iso.section(lab, **wrong)
+
+
+def test_points_that_the_eye_does_not_see_are_flagged(lab):
+    told = repr(iso.probe(lab, at=[(0, 0, 4), (1, 0, 5)])).splitlines()
+    assert "not seen" not in told[1] and told[2].rstrip(">").endswith(", not seen from the eye")

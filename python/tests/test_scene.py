@@ -48,6 +48,7 @@ def test_a_scene_of_parts_is_the_scene_of_the_file(lab):
         camera=iso.Camera(
             eye=[0, 0, 0],
             forward=np.array([0, 0, 1]),
+            up=[0, 1, 0],
             screen=iso.Screen(distance=5, x=(-4, 4), y=(-3, 3)),
         ),
         materials={"clay": iso.Material(diffuse=0.7, specular=0.3, shininess=20)},
@@ -95,7 +96,7 @@ def test_every_mistake_is_reported_at_once():
     assert [problem.path for problem in problems] == ["material.clay.diffuse", "sphere[0].radius", "sphere[0].material"]
     assert problems[0].message == "`materials['clay'].diffuse` is 2"
     assert problems[1].message == "`shapes[0].radius` (Sphere) is -1"
-    assert problems[0].help == "allowed: 0 to 1"
+    assert problems[0].help.startswith("allowed: 0 to 1:")
     assert problems[0].line is None
     assert "did you mean `clay`?" in str(caught.value)
     assert pickle.loads(pickle.dumps(caught.value)).problems == problems

@@ -26,6 +26,7 @@ CLASSES = {
     "light": LIGHTS,
     "ambient": [iso.Ambient],
     "probe": [iso.Probe],
+    "area": [iso.Area],
     "grid": [iso.Grid],
     **{kind.KEY: [kind] for kind in shapes.KINDS},
     "box/rotation": [iso.Rotation],
@@ -36,6 +37,7 @@ SEVERAL = {
     "shapes": [kind.KEY for kind in shapes.KINDS],
     "lights": ["light"],
     "probes": ["probe"],
+    "areas": ["area"],
     "grids": ["grid"],
     "directory": [],
 }
@@ -97,6 +99,8 @@ def written():
     for camera in tomllib.loads((FILES / "cameras.toml").read_text(encoding="utf-8"))["camera"]:
         yield {**world, "camera": camera}
     yield {**world, "camera": camera, "ambient": {**world["ambient"], "radiance": 1}}
+    # Coefficients that are no albedos may be larger.
+    yield {**world, "camera": camera, "convention": "course"}
 
 
 def limits(rule, value, place=(), way=()):
