@@ -360,3 +360,15 @@ def test_that_pixels_are_not_square_is_said_once(lab):
     scene.with_resolution((800, 400)).set({"camera.screen.x": (-3, 3)}).replace(
         camera=lab.camera.replace(resolution=(10, 90))
     )
+
+
+def test_numpys_scalars_and_paths_are_arguments_too(lab, tmp_path):
+    of = iso.render(lab, size=(np.int64(80), np.int32(60)), threads=np.int64(1), precision=np.str_("double"))
+    of.save(tmp_path / "map.png", gamma=np.float32(2.2), bits=np.int64(16), range=np.array([0, 1], np.float16))
+    assert of.isophotes(np.int64(3)) and of.plot(isophotes=np.int64(3)) is not None
+    assert iso.section(lab, between=((-1, 0), (1, 0)), samples=np.int16(5)).count == 5
+    assert iso.surface(lab, shape=np.int64(0), size=(np.int64(8), 4)).shape == (4, 8)
+    assert iso.Mesh(file=tmp_path / "mesh.obj").file == str(tmp_path / "mesh.obj")
+    assert iso.Sphere(center=np.zeros(3, np.float16), radius=np.float32(0.5)).radius == 0.5
+    with pytest.raises(iso.SceneError, match="path of a file"):
+        iso.Mesh(file=5)
