@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from . import _isophote
 from ._convert import Invalid, Size, whole
@@ -77,6 +81,7 @@ def render(
     region: tuple[int, int, int, int] | None = None,
     precision: Precision = "double",
     threads: int | None = None,
+    out: Mapping[str, NDArray[Any]] | None = None,
     progress: Progress = None,
 ) -> Map:
     """The map of a scene, or of a file that has one.
@@ -89,6 +94,9 @@ def render(
     ``region``: first column, first row, columns, rows: render only this part of the image.
     ``precision``: ``"double"``, or ``"single"`` at about twice the speed; docs/python/errors.md gives the error bounds.
     ``threads``: by default one per processor. The number never changes the result, not even by a bit.
+    ``out``: arrays by channel, such as ``{"brightness": images[7]}``: the values are written there too, which saves a loop
+    that collects images a copy of each. They must have the shape and the type of the map's own, and be contiguous; ``"mask"``
+    is one of booleans. Without ``channels``, these are the channels.
     ``progress``: a function of two numbers, the pixels done and the total; or ``True`` for a progress bar.
 
     The interpreter's lock is released while rendering, and Ctrl-C stops it.
@@ -96,6 +104,10 @@ def render(
     scene = scene_of(scene)
     if size is not None:
         scene = scene.with_resolution(size)
+    if out is not None and not isinstance(out, Mapping):
+        raise ArgumentError(f"out is {out!r}; allowed: a dictionary from channels to arrays")
+    if channels is None and out is not None:
+        channels = [name for name in out if name != "mask"] or None
     names = channel_names(scene, channels)
     bounds = None
     if region is not None:
@@ -108,4 +120,25 @@ def render(
         raise ArgumentError(f"precision is {precision!r}; allowed: double, single")
     with reporter(progress, "pixels") as report:
         core = _isophote.render(scene.core, names, precision, bounds, threads_of(threads), report)
+    if out is not None:
+        _fill(out, core)
     return Map(core, scene)
+
+
+def _fill(out: Mapping[str, NDArray[Any]], core: _isophote.Map) -> None:
+    """Writes the channels of a map into arrays; none of them is touched if one does not fit."""
+    held = {name for name, _ in core.units()}
+    for name, array in out.items():
+        if name != "mask" and name not in held:
+            raise ArgumentError(f"out has {name!r}, which is not rendered; allowed: {', '.join(sorted(held))}, mask")
+        own = core.shapes() if name == "mask" else core.channel(name)
+        kind = np.dtype(bool) if name == "mask" else own.dtype
+        if not isinstance(array, np.ndarray) or array.shape != own.shape or array.dtype != kind:
+            given = f"{array.dtype} {array.shape}" if isinstance(array, np.ndarray) else repr(array)
+            raise ArgumentError(f"out[{name!r}] is {given}; allowed: an array of {kind} {own.shape}")
+        if not (array.flags.c_contiguous and array.flags.writeable):
+            raise ArgumentError(f"out[{name!r}] is read-only or has gaps; allowed: a contiguous array that can be written")
+    for name, array in out.items():
+        # Only pixels that see a surface are copied.
+        array[...] = 0
+        core.copy_into(None if name == "mask" else name, array)

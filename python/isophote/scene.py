@@ -16,7 +16,7 @@ import numpy as np
 
 from . import _isophote
 from ._convert import Flag, FrozenDict, Invalid, Number, Pair, Size, Vector, Word, word
-from ._part import Part
+from ._part import Part, converters
 from ._paths import locate
 from ._types import ColorSpace, ConventionName, Handedness, LengthUnit, Quantities, Side
 from ._words import Named
@@ -276,11 +276,39 @@ class Scene(Part):
         part: ``light.lamp``, ``material.clay``, ``sphere.ball``.
         """
         written = self.to_dict()
-        for path, value in values.items():
-            locate(self, path).put(written, value)
+        pointers = [(locate(self, path), value) for path, value in values.items()]
+        for pointer, value in pointers:
+            pointer.put(written, value)
         text, directory = json.dumps(written), str(self.directory)
         core = self.named.checked(lambda: _isophote.Scene.from_json(text, directory, self.core))
-        return self.of_core(core, self.directory, earlier=self)
+        scene = object.__new__(type(self))
+        for field in dataclasses.fields(self):
+            object.__setattr__(scene, field.name, getattr(self, field.name))
+        # The parts that stay are the same objects: there may be a hundred thousand of them.
+        for keys in dict.fromkeys(pointer.keys[:2] for pointer, _ in pointers):
+            scene._read_again(keys, written)
+        object.__setattr__(scene, "_core", core)
+        scene._warn(self, in_python=True)
+        return scene
+
+    def _read_again(self, keys: tuple[str | int, ...], written: dict[str, Any]) -> None:
+        """Takes the part with these keys from the tables of a valid scene, while this one is being made."""
+        table = str(keys[0])
+        if table == "material":
+            materials = {**self.materials, str(keys[1]): Material.from_dict(written[table][keys[1]])}
+            object.__setattr__(self, "materials", FrozenDict(materials))
+            return
+        if table in _TABLES_OF:
+            name, kind = _TABLES_OF[table]
+            items = list(getattr(self, name))
+            of_kind = [index for index, item in enumerate(items) if isinstance(item, kind)]
+            place, one = of_kind[int(keys[1])], written[table][keys[1]]
+            items[place] = light_from_dict(one) if name == "lights" else type(items[place]).from_dict(one)
+            object.__setattr__(self, name, tuple(items))
+            return
+        value = written.get(table)
+        default = next(field.default for field in dataclasses.fields(self) if field.name == table)
+        object.__setattr__(self, table, default if value is None else converters(type(self))[table](value))
 
     def unit(self, channel: str) -> str:
         """The unit of a channel of this scene's maps: ``"1"`` for pure numbers, ``""`` for indices."""
@@ -354,6 +382,13 @@ def scene_of(given: SceneOrPath) -> Scene:
     return scene_of(read(path).scene)
 
 
+_TABLES_OF: Mapping[str, tuple[str, type[Part]]] = {
+    "light": ("lights", Light),
+    "probe": ("probes", Probe),
+    "area": ("areas", Area),
+    "grid": ("grids", Grid),
+    **{kind.KEY: ("shapes", kind) for kind in KINDS},
+}
 _LISTS = ("materials", "shapes", "lights", "probes", "areas", "grids")
 _SHOWN = 12
 # fmt: off

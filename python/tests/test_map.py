@@ -359,6 +359,36 @@ def test_figures_go_into_the_current_axes_if_they_are_empty(plt, lab_map, lab):
             lab_map.plot(ax=ax)
 
 
+def test_a_loop_renders_into_its_own_arrays(lab):
+    images = np.full((3, 60, 80), 7.0)
+    masks, normals = np.ones((3, 60, 80), bool), np.full((60, 80, 3), 7.0)
+    shapes = np.full((60, 80), 7, np.int32)
+    for number in range(3):
+        scene = lab.set({"light.lamp.intensity": 10.0 * (number + 1)})
+        out = {"brightness": images[number], "mask": masks[number], "normal": normals, "shape": shapes}
+        m = iso.render(scene, size=(80, 60), out=out)
+        np.testing.assert_array_equal(images[number], m["brightness"])
+        np.testing.assert_array_equal(masks[number], m.mask)
+        np.testing.assert_array_equal(normals, m["normal"])
+        np.testing.assert_array_equal(shapes, m["shape"])
+    assert images[2].max() > images[0].max()
+    before = images.copy()
+    for wrong in (
+        5,
+        {"brightness": images},
+        {"brightness": images[0].astype(np.float32)},
+        {"brightness": np.zeros((80, 60)).T},
+        {"brightness": images[0], "mask": images[1]},
+        {"brightness": [1]},
+        {"brightness": images[0], "depth": m["normal"]},
+    ):
+        with pytest.raises(iso.ArgumentError):
+            iso.render(lab, size=(80, 60), out=wrong)
+    with pytest.raises(iso.ArgumentError, match="not rendered"):
+        iso.render(lab, size=(80, 60), channels="brightness", out={"depth": images[0]})
+    np.testing.assert_array_equal(images, before)
+
+
 def test_what_a_map_cannot_do_it_says(lab, lab_map):
     with pytest.raises(KeyError, match="this map has no channel 'coverage'"):
         lab_map["coverage"]

@@ -368,3 +368,51 @@ def test_that_pixels_are_not_square_is_said_once(lab):
     scene.with_resolution((800, 400)).set({"camera.screen.x": (-3, 3)}).replace(
         camera=lab.camera.replace(resolution=(10, 90))
     )
+
+
+def test_numpys_scalars_and_paths_are_arguments_too(lab, tmp_path):
+    of = iso.render(lab, size=(np.int64(80), np.int32(60)), threads=np.int64(1), precision=np.str_("double"))
+    of.save(tmp_path / "map.png", gamma=np.float32(2.2), bits=np.int64(16), range=np.array([0, 1], np.float16))
+    assert of.isophotes(np.int64(3)) and of.plot(isophotes=np.int64(3)) is not None
+    assert iso.section(lab, between=((-1, 0), (1, 0)), samples=np.int16(5)).count == 5
+    assert iso.surface(lab, shape=np.int64(0), size=(np.int64(8), 4)).shape == (4, 8)
+    assert iso.Mesh(file=tmp_path / "mesh.obj").file == str(tmp_path / "mesh.obj")
+    assert iso.Sphere(center=np.zeros(3, np.float16), radius=np.float32(0.5)).radius == 0.5
+    with pytest.raises(iso.SceneError, match="path of a file"):
+        iso.Mesh(file=5)
+
+
+@pytest.mark.filterwarnings("ignore::isophote.SceneWarning")
+def test_setting_a_value_reads_that_part_again_and_keeps_the_others(lab):
+    tube = iso.Cylinder(name="tube", start=(7, 7, 7), end=(7, 7, 8), radius=0.1, material="clay")
+    grid = iso.Grid(name="floor", center=(0, -1, 5), u=(2, 0, 0), v=(0, 0, 2), points=(5, 5))
+    scene = lab.replace(shapes=[*lab.shapes, tube], grids=[grid], sampling=iso.Sampling(samples=4), shadows=True)
+    for path, value in (
+        ("light.lamp.intensity", 7),
+        ("light.lamp.casts_shadows", False),
+        ("light.lamp", iso.ParallelLight(direction=(0, 0, 1), irradiance=3)),
+        ("material.clay.shininess", 7),
+        ("sphere.ball.center", (0, 0, 5)),
+        ("cylinder.tube.end", (7, 7, 9)),
+        ("shape.tube", tube.replace(radius=0.2)),
+        ("grid.floor.points", (3, 3)),
+        ("probe.P1.published", None),
+        ("camera.screen.distance", 4),
+        ("camera.resolution", (8, 6)),
+        ("sampling", None),
+        ("sampling.samples", 9),
+        ("ambient", iso.Ambient(radiance=1)),
+        ("shadows", None),
+        ("title", "x"),
+        ("convention", iso.Convention.RADIANCE),
+    ):
+        changed = scene.set({path: value})
+        again = iso.Scene.from_json(changed.core.to_json())
+        assert changed == again, path
+        for field in dataclasses.fields(changed):
+            assert getattr(changed, field.name) == getattr(again, field.name) or field.name in ("materials", "directory"), (
+                path
+            )
+        assert dict(changed.materials) == dict(again.materials)
+        kept = [one is other for one, other in zip(changed.shapes + changed.lights, scene.shapes + scene.lights)]
+        assert sum(kept) >= len(kept) - 1
