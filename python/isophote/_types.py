@@ -10,7 +10,9 @@ LengthUnit = Literal["m", "cm", "mm"]
 Handedness = Literal["right", "left"]
 Quantities = Literal["radiometric", "photometric"]
 ColorSpace = Literal["rec709", "rec2020", "display-p3", "aces-cg"]
-ConventionName = Literal["irradiance", "lambert", "lab", "course", "course-pi", "radiance"] | Convention
+ConventionName = (
+    Literal["irradiance", "lambert", "lab", "course", "course-pi", "radiance", "blinn-phong", "blinn-phong-pi"] | Convention
+)
 Projection = Literal["perspective", "orthographic", "fisheye-equidistant", "fisheye-equal-area", "panorama"]
 Filter = Literal["box", "triangle", "gaussian", "mitchell"]
 Side = Literal["front", "back"]

@@ -59,8 +59,13 @@ class GridMap(Map):
 
 @dataclass(frozen=True)
 class AreaExtreme:
-    """The largest or smallest brightness in an area: its ``value``, the ``point`` in the scene's unit, its place on the
-    ``screen`` for an area there, and whether it is ``seen`` by the eye."""
+    """The largest or smallest brightness in an area.
+
+    - ``value``: in the scene's unit of brightness
+    - ``point``: where it is, in the scene's length unit
+    - ``screen``: its place on the screen, for an area there
+    - ``seen``: whether the eye sees it
+    """
 
     value: float
     point: tuple[float, float, float]
@@ -70,8 +75,12 @@ class AreaExtreme:
 
 @dataclass(frozen=True)
 class AreaReading:
-    """The brightness over an area: its extremes ``max`` and ``min``, its ``mean`` with an estimate of its error, and the
-    fraction ``visible``: of an area on a surface, what the eye sees; of one on the screen, what shows a surface."""
+    """The brightness over an area.
+
+    - ``max``, ``min``: its extremes
+    - ``mean``, ``mean_error``: its mean, and an estimate of the error of that
+    - ``visible``: the fraction of an area on a surface that the eye sees; of one on the screen, that shows a surface
+    """
 
     max: AreaExtreme
     min: AreaExtreme

@@ -45,9 +45,16 @@ class Probe(Part):
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Area(Part):
-    """A circle (``radius``) or a rectangle (``size``: width and height) whose largest, smallest and mean brightness are wanted:
-    on the plane, rectangle or disk named ``on``, about the point ``center``, with the height of a rectangle along ``up``; or,
-    without ``on``, on the screen about the place ``at`` (x, y). See :func:`areas`."""
+    """A circle or a rectangle whose largest, smallest and mean brightness are wanted; see :func:`areas`.
+
+    - ``on``: the plane, rectangle or disk that it lies on; without it, it is on the screen
+    - ``center``: its centre, a point of that shape
+    - ``at``: its centre on the screen, (x, y)
+    - ``radius``: that of a circle
+    - ``size``: instead, width and height of a rectangle
+    - ``up``: the direction of a rectangle's height, on a shape
+    - ``name``: unique among the areas
+    """
 
     on: Word | None = None
     center: Vector | None = None
