@@ -166,17 +166,37 @@ def _rotation_and_translation(camera: Camera) -> tuple[NDArray[np.float64], NDAr
     """R and t (2.12)."""
     if camera.pose is not None:
         return np.array(camera.pose.rotation), np.array(camera.pose.translation)
-    if camera.eye is None or (camera.forward is None and camera.target is None):
-        raise ArgumentError("the camera has neither a pose, nor an eye with forward or target")
+    forward, up = _aim(camera)
     eye = np.array(camera.eye)
-    forward = np.array(camera.target) - eye if camera.forward is None else np.array(camera.forward)
     forward = forward / np.linalg.norm(forward)
-    right = np.cross(forward, np.array(camera.up))
+    right = np.cross(forward, up)
     if not np.linalg.norm(right) > 0:
         raise ArgumentError("camera.up is parallel to the direction of view; allowed: any other direction")
     right = right / np.linalg.norm(right)
     rotation = np.stack([right, np.cross(forward, right), forward])
     return rotation, -rotation @ eye
+
+
+def _aim(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The direction of view and the one that appears vertical, as the core takes them from the fields."""
+    rise = None
+    if camera.eye is not None and camera.tilt is not None:
+        tilt, azimuth = np.radians(camera.tilt), np.radians(90.0 if camera.azimuth is None else camera.azimuth)
+        level = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
+        forward = np.sin(tilt) * level - [0.0, 0.0, np.cos(tilt)]
+        rise = np.cos(tilt) * level + [0.0, 0.0, np.sin(tilt)]
+    elif camera.eye is not None and camera.forward is not None:
+        forward = np.array(camera.forward)
+    elif camera.eye is not None and camera.target is not None:
+        forward = np.array(camera.target) - np.array(camera.eye)
+    else:
+        raise ArgumentError("the camera has neither a pose, nor an eye with forward, target or tilt")
+    if camera.up is not None:
+        return forward, np.array(camera.up)
+    if rise is not None:
+        return forward, rise
+    is_along_y = np.hypot(forward[0], forward[2]) < 1e-6 * np.linalg.norm(forward)
+    return forward, np.array([0.0, 0.0, np.sign(forward[1])] if is_along_y else [0.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)

@@ -203,7 +203,7 @@ class Probes(Values):
         if "seen" not in self._later or points is None:
             return super()._seen(indices)
         # Only of these points, not of all.
-        some = _Places(points[indices], None, self._places.elsewhere, False)
+        some = _Places(points[indices], None, self._places.elsewhere, False, (len(indices),))
         seen: NDArray[np.bool_] = some.arrays(self._scene, None)["seen"]
         return seen
 

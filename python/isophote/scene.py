@@ -141,6 +141,7 @@ class Scene(Part):
     - ``lights``: up to 100,000
     - ``ambient``: light from all around
     - ``probes``, ``grids``: points whose values are asked for
+    - ``areas``: circles and rectangles whose extremes and mean are
     - ``directory``: where relative file names start
     """
 

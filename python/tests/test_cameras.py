@@ -70,8 +70,18 @@ def test_it_is_the_same_as_written_out_by_hand(scene):
 
 
 @pytest.mark.parametrize("length", ["m", "mm"])
-def test_cameras_go_there_and_back(length):
-    field = iso.Camera(eye=(1, 2, 3), target=(0, 0, 0), field_of_view=60, resolution=(64, 48))
+@pytest.mark.parametrize(
+    "aim",
+    [
+        {"eye": (1, 2, 3), "target": (0, 0, 0)},
+        {"eye": (1, 2, 3), "target": (0, 0, 0), "up": (0, 0, 1)},
+        {"eye": (0, 3, 0), "forward": (0, -1, 0)},
+        {"eye": (0.1, 0.2, 3), "tilt": 0},
+        {"eye": (-1, -2, 3), "tilt": 37, "azimuth": 63.4},
+    ],
+)
+def test_cameras_go_there_and_back(length, aim):
+    field = iso.Camera(**aim, field_of_view=60, resolution=(64, 48))
     again = iso.Camera.from_opencv(*field.to_opencv(), size=(64, 48))
     parts = {
         "length": length,
