@@ -126,7 +126,7 @@ fn conforms_in_single_numbers(
                 Some(expected) if expected.is_at_jump && matches!(channel, BRIGHTNESS | SPECULAR) => {}
                 Some(expected) => {
                     let peak = exact.peaks[channel];
-                    let compared = Compared { pixel, quantity, found, peak, flank: expected.flanks[channel] };
+                    let compared = Compared { pixel, quantity, found, peak, flank: expected.flank(channel) };
                     compared.compare(expected.values[channel], expected.least_cosine, tolerance, &mut deviation)?;
                 }
             }
@@ -196,8 +196,6 @@ struct ExactPixel {
     shares: Vec<Share>,
     /// The smallest of cosθ_o, the lit lights' cosθ_i and [their own](cosine_of_emission) cosines.
     least_cosine: f64,
-    /// n tanθ_h of the highlights, weighted by their share in each value.
-    flanks: [f64; 5],
     /// The distance, in metres.
     distance: f64,
     /// The position, in metres.
@@ -205,11 +203,20 @@ struct ExactPixel {
     normal: Vector,
     /// R, in metres.
     size: f64,
-    /// The irradiance from each light.
-    by_light: Vec<f64>,
     /// Whether it is so close to a terminator where B jumps that it may be on
     /// either side.
     is_at_jump: bool,
+}
+
+impl ExactPixel {
+    /// n tanθ_h of the highlights, weighted by their share in the value of a channel.
+    fn flank(&self, channel: usize) -> f64 {
+        let value = self.values[channel];
+        if !matches!(channel, BRIGHTNESS | SPECULAR) || value == 0.0 {
+            return 0.0;
+        }
+        self.shares.iter().map(|share| share.flank * share.values[SPECULAR]).sum::<f64>() / value
+    }
 }
 
 impl Exact {
@@ -249,23 +256,18 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     let hit = scene.trace_precisely(crate::camera::ScreenPosition::PixelCenter(pixel))?;
     let cos_theta_o = hit.point.cos_theta_o.rounded();
     let mut least_cosine = cos_theta_o;
-    let mut by_light = Vec::with_capacity(scene.scene().lights().len());
     let formula = scene.formula(hit.primitive);
     let shininess = formula.sharpness().unwrap_or(0.0);
-    let mut flanks = 0.0;
     let mut is_at_jump = false;
-    let (diffuse, specular) =
-        (formula.diffuse_factor(hit.point.cos_theta_o), formula.specular_factor(hit.point.cos_theta_o));
-    let mut shares = Vec::with_capacity(by_light.capacity() + 1);
+    let mut shares = Vec::with_capacity(scene.scene().lights().len() + 1);
     let shading = scene.shade_precisely(&hit, |light, term| {
-        by_light.push(term.irradiance.rounded());
-        let (cosine, lobe) = (term.cos_theta_h.rounded(), (term.lobe_irradiance * term.lobe).rounded());
-        let flank = if lobe > 0.0 { shininess * (1.0 / (cosine * cosine) - 1.0).max(0.0).sqrt() } else { 0.0 };
-        flanks += flank * lobe;
+        let (diffuse, specular) = (term.diffuse(formula, &hit.point), term.specular(formula, &hit.point));
+        let cosine = term.cos_theta_h.rounded();
+        let has_highlight = DoubleDouble::zero().is_less(specular);
+        let flank = if has_highlight { shininess * (1.0 / (cosine * cosine) - 1.0).max(0.0).sqrt() } else { 0.0 };
         let slant = hit.point.normal.dot(term.direction).rounded();
         is_at_jump |= formula.jumps_at_terminator() && slant.abs() < AT_JUMP;
         let of_emission = cosine_of_emission(&scene.scene().lights()[light], term);
-        let (diffuse, specular) = (term.irradiance * diffuse, term.lobe_irradiance * term.lobe * specular);
         let share = Share {
             values: [diffuse + specular, term.irradiance, diffuse, specular, DoubleDouble::zero()]
                 .map(DoubleDouble::rounded),
@@ -277,7 +279,7 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
         }
         shares.push(share);
     });
-    let ambient = shading.ambient * diffuse;
+    let ambient = shading.ambient * formula.diffuse_factor(hit.point.cos_theta_o);
     shares.push(Share {
         values: [ambient, shading.ambient, ambient, DoubleDouble::zero(), shading.ambient].map(DoubleDouble::rounded),
         cosines: cos_theta_o,
@@ -285,19 +287,15 @@ fn exact_pixel(scene: &PreparedScene, pixel: Pixel) -> Option<ExactPixel> {
     });
     let values = [shading.brightness(), shading.irradiance, shading.diffuse, shading.specular, shading.ambient];
     let values = values.map(DoubleDouble::rounded);
-    let flanks = flanks * formula.specular_factor(hit.point.cos_theta_o).rounded();
-    let share = |value: f64| if value > 0.0 { flanks / value } else { 0.0 };
     Some(ExactPixel {
         shape: i32::try_from(hit.primitive.shape).unwrap_or(i32::MAX),
         values,
         shares,
-        flanks: [share(values[0]), 0.0, 0.0, share(values[3]), 0.0],
         least_cosine,
         distance: hit.distance.rounded(),
         position: rounded(hit.point.position()),
         normal: rounded(hit.point.normal),
         size: scene.scene().shapes()[hit.primitive.shape].geometry.size_near(rounded(hit.point.position())),
-        by_light,
         is_at_jump,
     })
 }
@@ -360,7 +358,9 @@ fn compare_lights(
 ) -> Result<(), NonConformance> {
     let lights = map.channels().iter().filter(|channel| matches!(channel.quantity, Quantity::Light(_)));
     let mut lights = lights.map(|channel| (&channel.quantity, Scalars::of(&channel.values)));
-    for expected in &expected.by_light {
+    let (_ambient, of_lights) = expected.shares.split_last().expect("the ambient light is the last of them");
+    for Share { values: exact, .. } in of_lights {
+        let expected = &exact[IRRADIANCE];
         let Some((quantity, Some(values))) = lights.next() else {
             return within(map.pixel(index), &Quantity::Irradiance, f64::NAN, *expected, 0.0);
         };

@@ -27,6 +27,19 @@ fn scene_file(name: &str) -> SceneSource {
     Scene::from_file(path.as_ref()).unwrap_or_else(|error| panic!("{error}")).source().clone()
 }
 
+fn scene_text(text: &str) -> PreparedScene {
+    PreparedScene::new(&Scene::from_text("scene", text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// In all renderers, this many pixels see a surface, and all are within double precision's tolerance.
+fn is_within_tolerance(scene: &PreparedScene, visible: usize) {
+    for renderer in renderers() {
+        let deviation =
+            conforms(renderer.as_ref(), scene, &DOUBLE).unwrap_or_else(|error| panic!("{}: {error}", renderer.name()));
+        assert_eq!(deviation.visible, visible, "{}", renderer.name());
+    }
+}
+
 /// The scenes of the repository.
 fn scene_names() -> Vec<String> {
     let names = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes")).expect("it is there");
@@ -327,12 +340,7 @@ fn a_rim_lit_from_behind_has_the_digits_of_both_cosines() {
         position = [3.0064274538017344, 3.3572734245463254, 3.0392920323174004]
         intensity = 0.04569130665154959
     "#;
-    let scene = Scene::from_text("rim", scene, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
-    let scene = PreparedScene::new(&scene);
-    for renderer in renderers() {
-        let deviation = conforms(renderer.as_ref(), &scene, &DOUBLE).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(deviation.visible, 162);
-    }
+    is_within_tolerance(&scene_text(scene), 162);
 }
 
 /// A map whose only lit pixel is far down the flank of a highlight: 32 bits leave it the digits that n tanθ_h leaves.
@@ -364,9 +372,8 @@ fn the_flank_of_a_highlight_alone_has_the_digits_of_a_flank() {
         position = [-4.640288470136054, 1.3426498229082426, -5.38797912461627]
         intensity = 78.46999000368378
     "#;
-    let scene = Scene::from_text("flank", scene, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
     let renderer = SimdRenderer::new(Precision::Single, None);
-    let deviation = conforms(&renderer, &PreparedScene::new(&scene), &SINGLE).unwrap_or_else(|error| panic!("{error}"));
+    let deviation = conforms(&renderer, &scene_text(scene), &SINGLE).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(deviation.visible, 566);
 }
 
@@ -400,12 +407,7 @@ fn a_lamp_of_which_only_the_terminator_is_seen_has_the_digits_of_its_cosines() {
         direction = [0.0, -1.0, 0.0]
         irradiance = 7.90674143150637
     "#;
-    let scene = Scene::from_text("rim", scene, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
-    let scene = PreparedScene::new(&scene);
-    for renderer in renderers() {
-        let deviation = conforms(renderer.as_ref(), &scene, &DOUBLE).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(deviation.visible, 198);
-    }
+    is_within_tolerance(&scene_text(scene), 198);
 }
 
 /// The same picture from a hundred, ten thousand and a million radii away, through a screen that far away.

@@ -55,11 +55,10 @@ impl PreparedScene {
             return Blocking::NONE;
         }
         // Not beyond a light that is closer than the offset is long.
-        let reach = T::from_f64(0.5) * from_point.length();
-        let offset_length = shadow_ray_offset.length();
-        let is_beyond = source.place().is_some() && reach.is_less(offset_length);
-        let shadow_ray_offset = if is_beyond { shadow_ray_offset * (reach / offset_length) } else { shadow_ray_offset };
-        let start = point.offset + shadow_ray_offset;
+        let (reach, offset) = (from_point.dot(from_point), shadow_ray_offset.dot(shadow_ray_offset));
+        let is_close = source.place().is_some() && reach.is_less(T::from_f64(4.0) * offset);
+        let part = if is_close { T::from_f64(0.5) * (reach / offset).sqrt() } else { T::from_f64(1.0) };
+        let start = point.offset + shadow_ray_offset * part;
         let to_light = source.from_place(point.anchor, start);
         let distance = to_light.length();
         let direction = to_light * (T::from_f64(1.0) / distance);
