@@ -1,5 +1,6 @@
 //! Writes a file completely or not at all.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -37,7 +38,9 @@ pub fn write_atomically<T>(
         // The umask still applies. The default for temporary files, 0600, would hide the result from everyone else.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    remove_leftovers(folder_of(&target));
+    if is_new(folder_of(&target)) {
+        remove_leftovers(folder_of(&target));
+    }
     let temporary = begin(|| builder.tempfile_in(folder_of(&target))).map_err(at_path)?;
     let _unfinished = Unfinished(temporary.path().into());
     // Tells others that it is not a leftover; file systems without locks have leftovers for ever.
@@ -58,6 +61,15 @@ const SUFFIX: &str = ".part";
 
 /// The hidden files that are being written by this process.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// The folders that this process has written to.
+static FOLDERS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Whether this is the first time that a folder is asked about. To look through it for every file would take a program that
+/// writes thousands of them longer than the files.
+fn is_new(folder: &Path) -> bool {
+    FOLDERS.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.into())
+}
 
 /// Counts as unfinished as long as it lives.
 struct Unfinished(PathBuf);
