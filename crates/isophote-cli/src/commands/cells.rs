@@ -68,8 +68,10 @@ impl<'a> CellFiles<'a> {
             file.write(map, &style, &mut notes)?;
         }
         let metadata = map.channel(&main).map(|channel| FileMetadata::of_channel(map, channel));
-        for (path, format) in &self.figures {
-            write_figure(figure.as_ref(), metadata.as_ref(), path, *format, &mut notes)?;
+        if let Some(figure) = &figure {
+            for (path, format) in &self.figures {
+                write_figure(figure, metadata.as_ref(), path, *format, &mut notes)?;
+            }
         }
         if !quiet {
             for note in &notes {

@@ -165,11 +165,11 @@ pub fn figure_format(path: &Path) -> Result<FigureFormat> {
     Ok(format)
 }
 
-/// Writes a figure, if there is one.
+/// Writes a figure.
 ///
 /// A PNG carries the metadata, if any; an SVG has no place for them that other programs would preserve.
 pub fn write_figure(
-    figure: Option<&Figure>,
+    figure: &Figure,
     metadata: Option<&FileMetadata>,
     path: &Path,
     format: FigureFormat,
@@ -177,7 +177,6 @@ pub fn write_figure(
 ) -> Result<()> {
     /// Dots per unit of the drawing: sharp on paper and on high-density screens.
     const SCALE: f64 = 2.0;
-    let Some(figure) = figure else { return Ok(()) };
     let bytes = match format {
         FigureFormat::Svg => figure.to_svg().map(String::into_bytes),
         FigureFormat::Png => figure.to_png(SCALE, metadata.map(FileMetadata::to_json).as_deref()),

@@ -161,8 +161,10 @@ impl<'a> Job<'a> {
             file.write(map, &self.style, &mut notes)?;
         }
         let metadata = map.channel(&self.pictured).map(|channel| FileMetadata::of_channel(map, channel));
-        for (path, format) in &self.figures {
-            write_figure(figure.as_ref(), metadata.as_ref(), path, *format, &mut notes)?;
+        if let Some(figure) = &figure {
+            for (path, format) in &self.figures {
+                write_figure(figure, metadata.as_ref(), path, *format, &mut notes)?;
+            }
         }
         Ok(notes)
     }

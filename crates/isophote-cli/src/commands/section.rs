@@ -47,7 +47,9 @@ pub fn run(arguments: &SectionArguments) -> Result<String> {
     for (path, output) in outputs {
         match output {
             Output::Csv => write_bytes(sections.to_csv().as_bytes(), path, &mut notes)?,
-            Output::Figure(format) => write_figure(figure.as_ref(), None, path, format, &mut notes)?,
+            Output::Figure(format) => {
+                figure.iter().try_for_each(|figure| write_figure(figure, None, path, format, &mut notes))?;
+            }
         }
     }
     told(&notes, arguments.quiet);

@@ -84,8 +84,3 @@ pub(super) fn contrast(color: Color) -> Color {
     // little more.
     if luminance(color) > 0.21 { BLACK } else { PAPER }
 }
-
-/// A colour in SVG notation.
-pub(super) fn hex([red, green, blue]: Color) -> String {
-    format!("#{red:02x}{green:02x}{blue:02x}")
-}

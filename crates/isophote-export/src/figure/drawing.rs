@@ -188,3 +188,9 @@ impl Drawing {
         Figure { size: [width.ceil(), height.ceil()], elements: self.elements }
     }
 }
+
+/// Pictures are drawn in single precision.
+#[expect(clippy::cast_possible_truncation, reason = "a place on a page")]
+pub(super) fn single(value: f64) -> f32 {
+    value as f32
+}

@@ -1,12 +1,12 @@
 //! Figures as PNG, drawn only with the embedded font.
 
 use tiny_skia::{
-    Color as Paint8, FillRule, FilterQuality, IntSize, LineJoin, Paint, Path, PathBuilder, Pattern, Pixmap, PixmapMut,
-    Rect, Shader, SpreadMode, Stroke as Pen, StrokeDash, Transform,
+    Color as PixelColor, FillRule, FilterQuality, IntSize, LineJoin, Paint, Path, PathBuilder, Pattern, Pixmap,
+    PixmapMut, Rect, Shader, SpreadMode, Stroke as Pen, StrokeDash, Transform,
 };
 
 use crate::figure::drawing::{
-    Anchor, Color, Element, Figure, Fill, Image, PAPER, Place, Rectangle, Shape, Stroke, Style, Text,
+    Anchor, Color, Element, Figure, Fill, Image, PAPER, Place, Rectangle, Shape, Stroke, Style, Text, single,
 };
 use crate::figure::error::FigureError;
 use crate::figure::text;
@@ -177,8 +177,8 @@ fn rect(&Rectangle { left, top, width, height }: &Rectangle) -> Option<Rect> {
     Rect::from_xywh(single(left), single(top), single(width), single(height))
 }
 
-fn opaque([red, green, blue]: Color) -> Paint8 {
-    Paint8::from_rgba8(red, green, blue, 255)
+fn opaque([red, green, blue]: Color) -> PixelColor {
+    PixelColor::from_rgba8(red, green, blue, 255)
 }
 
 fn paint(color: Color, opacity: f64) -> Paint<'static> {
@@ -195,12 +195,6 @@ fn pen(stroke: &Stroke) -> Pen {
         dash: StrokeDash::new(dashes, 0.0),
         ..Pen::default()
     }
-}
-
-/// Pictures are drawn in single precision.
-#[expect(clippy::cast_possible_truncation, reason = "a place on a page")]
-pub(super) fn single(value: f64) -> f32 {
-    value as f32
 }
 
 #[cfg(test)]

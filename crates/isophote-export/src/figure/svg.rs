@@ -5,9 +5,8 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use crate::figure::color_bar::hex;
 use crate::figure::drawing::{
-    Anchor, Element, Figure, Fill, Image, PAPER, Place, Rectangle, Shape, Stroke, Style, Text,
+    Anchor, Color, Element, Figure, Fill, Image, PAPER, Place, Rectangle, Shape, Stroke, Style, Text,
 };
 use crate::figure::error::FigureError;
 use crate::figure::picture_file::encode;
@@ -133,6 +132,11 @@ fn written_image(image: &Image) -> Result<String, FigureError> {
         written_place(&image.place),
         STANDARD.encode(encode(image.size, &image.rgba, None)?)
     ))
+}
+
+/// A colour in SVG notation.
+pub(super) fn hex([red, green, blue]: Color) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// At most two decimals: a hundredth of a pixel is invisible, and files stay small.

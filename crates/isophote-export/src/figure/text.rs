@@ -5,8 +5,7 @@ use std::sync::OnceLock;
 use tiny_skia::{Path, PathBuilder};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-use crate::figure::drawing::Place;
-use crate::figure::picture_file::single;
+use crate::figure::drawing::{Place, single};
 
 /// `DejaVu Sans`, subset to the characters used in figures; see `font/README.md`.
 const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");

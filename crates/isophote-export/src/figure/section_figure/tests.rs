@@ -1,6 +1,6 @@
 use super::*;
-use crate::figure::color_bar::hex;
 use crate::figure::read_back::{page, texts};
+use crate::figure::svg::hex;
 
 fn options() -> SectionOptions {
     SectionOptions {
