@@ -78,8 +78,8 @@ def locate(scene: Scene, path: str) -> Pointer:
         if name not in scene.materials:
             raise ArgumentError(f"{path!r}: the scene has no material {name!r}; there are: {', '.join(scene.materials)}")
         return _within(scene.materials[name], ("material", name), [key], path)
-    if table in _TABLES and (rest is not None or index is not None):
-        field, kind = _TABLES[table]
+    if table in TABLES and (rest is not None or index is not None):
+        field, kind = TABLES[table]
         items: Sequence[Any] = getattr(scene, field)
         number, keys = _find(scene, field, table, kind, index, rest, path)
         item = items[number]
@@ -90,7 +90,7 @@ def locate(scene: Scene, path: str) -> Pointer:
             whole = Light if isinstance(item, Light) else type(item)
             return Pointer(path, (table, number), _part_of(whole), item.name)
         return _within(item, (table, number), keys, path)
-    parts, tables = (f"{name}.…" for name in _PARTS), (f"{name}.NAME.…" for name in ("material", *_TABLES))
+    parts, tables = (f"{name}.…" for name in _PARTS), (f"{name}.NAME.…" for name in ("material", *TABLES))
     raise ArgumentError(f"{path!r} leads nowhere; allowed: {', '.join((*_WHOLE, *parts, *tables))}")
 
 
@@ -107,7 +107,7 @@ _WHOLE = (
     "camera",
 )
 _PARTS = ("camera", "sampling", "ambient")
-_TABLES: Mapping[str, tuple[str, type[Part]]] = {
+TABLES: Mapping[str, tuple[str, type[Part]]] = {
     "light": ("lights", Light),
     "probe": ("probes", Part),
     "area": ("areas", Part),
@@ -115,6 +115,8 @@ _TABLES: Mapping[str, tuple[str, type[Part]]] = {
     "shape": ("shapes", Shape),
     **{kind.KEY: ("shapes", kind) for kind in KINDS},
 }
+"""The lists of a scene file, and ``shape`` for all shapes: the field of a scene that holds their parts, and which of the parts
+there are theirs."""
 
 
 def _find(

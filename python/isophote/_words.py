@@ -8,10 +8,11 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TypeVar
 
 from ._part import Part
+from ._paths import TABLES
 from .errors import Problem, SceneError
 from .lights import Light
 from .materials import Material
-from .shapes import KINDS, Shape
+from .shapes import Shape
 
 Result = TypeVar("Result")
 
@@ -23,6 +24,7 @@ class Named:
     shapes: Sequence[Shape] = ()
     lights: Sequence[Light] = ()
     probes: Sequence[Part] = ()
+    areas: Sequence[Part] = ()
     grids: Sequence[Part] = ()
     materials: Mapping[str, Material] = dataclasses.field(default_factory=dict)
 
@@ -49,7 +51,7 @@ class Named:
 
     def _quoted(self, quoted: str) -> str:
         item = re.fullmatch(r"(\w+)\[(\d+)\](.*)", quoted, re.DOTALL)
-        if item and item[1] in _LISTS:
+        if item and item[1] in TABLES:
             return self._item(item[1], int(item[2]), item[3])
         material = re.fullmatch(r"material\.(.+?)(\.(?:diffuse|specular|shininess))?", quoted, re.DOTALL)
         if material:
@@ -62,7 +64,7 @@ class Named:
         return f"`{assigned[1]}={_value(assigned[1], assigned[2])}`"
 
     def _item(self, table: str, number: int, rest: str) -> str:
-        field, kind = _LISTS[table]
+        field, kind = TABLES[table]
         items: Sequence[Part] = getattr(self, field)
         of_kind = [index for index, item in enumerate(items) if isinstance(item, kind)]
         if number >= len(of_kind):
@@ -74,12 +76,6 @@ class Named:
         return f"`{field}[{of_kind[number]}]{keys.get(rest, rest)}` ({about})"
 
 
-_LISTS: Mapping[str, tuple[str, type[Part]]] = {
-    "light": ("lights", Light),
-    "probe": ("probes", Part),
-    "grid": ("grids", Part),
-    **{kind.KEY: ("shapes", kind) for kind in KINDS},
-}
 _EMISSIONS = {
     '"isotropic"': "PointLight",
     '"lambertian"': "LambertianLight",

@@ -17,7 +17,7 @@ import numpy as np
 from . import _isophote
 from ._convert import Flag, FrozenDict, Invalid, Number, Pair, Size, Vector, Word, word
 from ._part import Part, converters
-from ._paths import locate
+from ._paths import TABLES, locate
 from ._types import ColorSpace, ConventionName, Handedness, LengthUnit, Quantities, Side
 from ._words import Named
 from .camera import Camera, Sampling
@@ -178,7 +178,7 @@ class Scene(Part):
     @property
     def named(self) -> Named:
         """The parts that messages are about, private to the package."""
-        return Named(self.shapes, self.lights, self.probes, self.grids, self.materials)
+        return Named(self.shapes, self.lights, self.probes, self.areas, self.grids, self.materials)
 
     @property
     def core(self) -> _isophote.Scene:
@@ -306,8 +306,8 @@ class Scene(Part):
             materials = {**self.materials, str(keys[1]): Material.from_dict(written[table][keys[1]])}
             object.__setattr__(self, "materials", FrozenDict(materials))
             return
-        if table in _TABLES_OF:
-            name, kind = _TABLES_OF[table]
+        if table in TABLES:
+            name, kind = TABLES[table]
             items = list(getattr(self, name))
             of_kind = [index for index, item in enumerate(items) if isinstance(item, kind)]
             place, one = of_kind[int(keys[1])], written[table][keys[1]]
@@ -390,13 +390,6 @@ def scene_of(given: SceneOrPath) -> Scene:
     return scene_of(read(path).scene)
 
 
-_TABLES_OF: Mapping[str, tuple[str, type[Part]]] = {
-    "light": ("lights", Light),
-    "probe": ("probes", Probe),
-    "area": ("areas", Area),
-    "grid": ("grids", Grid),
-    **{kind.KEY: ("shapes", kind) for kind in KINDS},
-}
 _LISTS = ("materials", "shapes", "lights", "probes", "areas", "grids")
 _SHOWN = 12
 # fmt: off

@@ -70,6 +70,12 @@ def test_the_scene_shows_its_units(lab):
     assert "<pre>" in lab._repr_html_()
 
 
+def test_messages_about_areas_are_in_pythons_words(lab):
+    with pytest.raises(iso.SceneError) as caught:
+        lab.replace(areas=[iso.Area(name="ring", at=(0, 0), radius=-1)])
+    assert caught.value.problems[0].message == "`areas[0].radius` (Area 'ring') is -1"
+
+
 def test_nothing_in_a_scene_can_be_changed(lab):
     with pytest.raises(dataclasses.FrozenInstanceError):
         lab.title = "another"
