@@ -78,12 +78,15 @@ proptest! {
         assert_equal(&render(&source), &before, factor, 1e-15);
     }
 
+    /// Lights are put out rather than removed: the steepest edge of a scene's cones decides which rays are traced again with
+    /// more digits, and the points on the two sides of the sum have to be the same to the last bit.
     #[test]
     fn brightness_is_additive_over_the_lights(source in random::scenes(), split in 0_usize..5) {
-        let split = split.min(source.light.len());
         let (mut first, mut second) = (source.clone(), source.clone());
-        first.light.truncate(split);
-        second.light.drain(..split);
+        for index in 0..source.light.len() {
+            let put_out = if index < split { &mut second.light[index] } else { &mut first.light[index] };
+            put_out.intensity = put_out.intensity.map(|intensity| intensity.map(|_| 0.0));
+        }
         let (whole, first, second) = (render(&source), render(&first), render(&second));
         let brightness = first.brightness.iter().zip(&second.brightness).map(|(first, second)| first + second).collect();
         let sum = Rendered { brightness, ..first };
