@@ -1,0 +1,5 @@
+/** Words of app. */
+
+export const en = {};
+
+export const ru: typeof en = {};

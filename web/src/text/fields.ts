@@ -1,0 +1,5 @@
+/** Words of fields. */
+
+export const en = {};
+
+export const ru: typeof en = {};

@@ -1,0 +1,5 @@
+/** Words of views. */
+
+export const en = {};
+
+export const ru: typeof en = {};
