@@ -9,6 +9,7 @@ import type {
   Engine,
   Explanation,
   Frame,
+  Language,
   PictureStyle,
   Probed,
   Problem,
@@ -30,6 +31,8 @@ export type Explained = { probe: number } | { at: Vec3 };
 export class Session {
   readonly store: SceneStore;
   readonly engine: Engine;
+  /** The language of what the core says. */
+  language = $state<Language>('en');
 
   /** What is known of the last valid scene, and that scene; the picture stays when the scene becomes invalid. */
   info = $state.raw<SceneInfo | null>(null);
@@ -42,7 +45,12 @@ export class Session {
   probed = $state.raw<Probed[]>([]);
   areas = $state.raw<AreaReading[]>([]);
   sections = $state.raw<Section[]>([]);
+  /** Why there are no sections, or no explanation. */
+  sectionError = $state<string | null>(null);
   explanation = $state.raw<Explanation | null>(null);
+  explanationError = $state<string | null>(null);
+  /** How long the last map took, in ms. */
+  frameTime = $state(0);
 
   /** The channel that the picture shows. */
   channel = $state('brightness');
@@ -56,16 +64,25 @@ export class Session {
   selected = $state<string | null>(null);
   /** The screen point under the pointer, on the picture or along a section. */
   pointer = $state.raw<Vec2 | null>(null);
+  /** Something that the page has to say. */
+  notice = $state<string | null>(null);
+  /** What "reset" goes back to: the example, file or link that the scene came from. */
+  origin = $state.raw<SceneSource>() as SceneSource;
   /** Whether a handle is being dragged: previews may then be coarse. */
   dragging = $state(false);
 
   constructor(store: SceneStore, engine: Engine) {
     this.store = store;
+    this.origin = store.scene;
     this.engine = engine;
   }
 
   get scene(): SceneSource {
     return this.store.scene;
+  }
+
+  say(notice: string | null): void {
+    this.notice = notice;
   }
 
   /** The problems of an item: of its keys as well, so "sphere[0]" has those of "sphere[0].radius". */

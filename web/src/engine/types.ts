@@ -37,16 +37,7 @@ export interface Checked {
 }
 
 export type ShapeKind =
-  | 'sphere'
-  | 'ellipsoid'
-  | 'box'
-  | 'cylinder'
-  | 'cone'
-  | 'plane'
-  | 'rectangle'
-  | 'disk'
-  | 'mesh'
-  | 'spheres';
+  'sphere' | 'ellipsoid' | 'box' | 'cylinder' | 'cone' | 'plane' | 'rectangle' | 'disk' | 'mesh' | 'spheres';
 
 /** Facts that follow from a valid scene. */
 export interface SceneInfo {
@@ -126,6 +117,8 @@ export interface Frame {
   /** Edges in the coordinates of the axes. */
   window: { x: Vec2; y: Vec2 };
   axes: [Axis, Axis];
+  /** What the coordinates are: "screen", "longitude-latitude", … */
+  coordinates: string;
   /** 2 for a preview of half the resolution. */
   step: 1 | 2;
 }

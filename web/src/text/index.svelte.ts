@@ -21,6 +21,16 @@ class Text {
     return DICTIONARIES[this.language];
   }
 
+  /** Changes the language, and remembers it where the browser lets us. */
+  choose(language: Language): void {
+    this.language = language;
+    try {
+      localStorage.setItem('isophote.language', language);
+    } catch {
+      // Then the browser's first language is used the next time.
+    }
+  }
+
   /** A number for people: 12 significant digits at most, in the language's notation. */
   number(value: number, digits = 6): string {
     return format(value, digits, this.language);
@@ -30,7 +40,9 @@ class Text {
 /** The language chosen before, or the browser's first one that there is. */
 function preferred(): Language {
   const languages = [stored(), ...(globalThis.navigator?.languages ?? [])];
-  const known = languages.map((language) => language?.slice(0, 2)).find((language) => language === 'en' || language === 'ru');
+  const known = languages
+    .map((language) => language?.slice(0, 2))
+    .find((language) => language === 'en' || language === 'ru');
   return (known as Language | undefined) ?? 'en';
 }
 
@@ -48,7 +60,10 @@ export function format(value: number, digits: number, language: Language): strin
   const magnitude = Math.abs(value);
   const plain =
     magnitude !== 0 && (magnitude < 1e-4 || magnitude >= 10 ** Math.max(digits, 6))
-      ? value.toExponential(digits - 1).replace(/\.?0+e/, 'e').replace('e+', 'e')
+      ? value
+          .toExponential(digits - 1)
+          .replace(/\.?0+e/, 'e')
+          .replace('e+', 'e')
       : String(Number(value.toPrecision(digits)));
   const signed = plain.replace(/-/g, '−');
   return language === 'ru' ? signed.replace('.', ',') : signed;
@@ -56,7 +71,10 @@ export function format(value: number, digits: number, language: Language): strin
 
 /** The number that a person typed, with a decimal point or comma, a true minus, or spaces between thousands; null if it is none. */
 export function parseNumber(typed: string): number | null {
-  const plain = typed.replace(/[\s\u00a0\u202f]/g, '').replace(/−/g, '-').replace(',', '.');
+  const plain = typed
+    .replace(/[\s\u00a0\u202f]/g, '')
+    .replace(/−/g, '-')
+    .replace(',', '.');
   if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(plain)) return null;
   return Number(plain);
 }

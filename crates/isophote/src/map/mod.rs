@@ -310,6 +310,12 @@ impl Map {
         self.channels.iter().find(|channel| channel.quantity == *quantity)
     }
 
+    /// Takes the values of a channel out of the map, if it holds it.
+    pub fn take(&mut self, quantity: &Quantity) -> Option<Values> {
+        let index = self.channels.iter().position(|channel| channel.quantity == *quantity)?;
+        Some(self.channels.remove(index).values)
+    }
+
     /// The values of a scalar channel, if the map holds it.
     #[must_use]
     pub fn scalar(&self, quantity: &Quantity) -> Option<Scalars<'_>> {

@@ -1,0 +1,26 @@
+/** Work on the newest input only: while one is worked on, others may come and replace each other, and only the last of them is next. */
+export class Latest<T> {
+  #work: (input: T, isNewest: () => boolean) => Promise<void>;
+  #next: { input: T } | null = null;
+  #isWorking = false;
+
+  constructor(work: (input: T, isNewest: () => boolean) => Promise<void>) {
+    this.#work = work;
+  }
+
+  /** Takes an input; what waited is dropped. */
+  take(input: T): void {
+    this.#next = { input };
+    if (!this.#isWorking) void this.#run();
+  }
+
+  async #run(): Promise<void> {
+    this.#isWorking = true;
+    while (this.#next) {
+      const { input } = this.#next;
+      this.#next = null;
+      await this.#work(input, () => this.#next === null);
+    }
+    this.#isWorking = false;
+  }
+}
