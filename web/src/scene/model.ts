@@ -7,14 +7,7 @@ export type Amount = number | Vec3;
 
 export type LengthUnit = 'mm' | 'cm' | 'm';
 export type Convention =
-  | 'irradiance'
-  | 'lambert'
-  | 'lab'
-  | 'course'
-  | 'course-pi'
-  | 'radiance'
-  | 'blinn-phong'
-  | 'blinn-phong-pi';
+  'irradiance' | 'lambert' | 'lab' | 'course' | 'course-pi' | 'radiance' | 'blinn-phong' | 'blinn-phong-pi';
 
 export interface SceneSource {
   version: 1;
