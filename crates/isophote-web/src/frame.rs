@@ -70,7 +70,7 @@ struct AxisAnswer {
 
 impl Band {
     /// A channel of a map.
-    pub fn of(mut map: Map, quantity: &Quantity) -> Result<Self, Refusal> {
+    pub(crate) fn of(mut map: Map, quantity: &Quantity) -> Result<Self, Refusal> {
         let shapes = map.mask().shapes();
         let Map { full, region, window, .. } = map;
         let axes = window.coordinates.axes(window.length);
