@@ -84,7 +84,8 @@ fn probe_marks(map: &Map, prepared: &PreparedScene) -> Vec<Mark> {
     use isophote::analysis::probe::ProbePosition;
     let mark = |probe: &isophote::scene::Probe| {
         let [x, y] = on_screen(prepared, probe.at)?;
-        let inside = (map.window.x[0]..=map.window.x[1]).contains(&x) && (map.window.y[0]..=map.window.y[1]).contains(&y);
+        let inside =
+            (map.window.x[0]..=map.window.x[1]).contains(&x) && (map.window.y[0]..=map.window.y[1]).contains(&y);
         let seen = prepared.probe(&ProbePosition::Point(probe.at)).ok()?.is_seen();
         (inside && seen).then(|| Mark { name: probe.name.clone(), x, y })
     };
@@ -109,11 +110,7 @@ fn sections(
     Ok((Section::all(requests, &channels, prepared)?, channels))
 }
 
-fn section_table(
-    prepared: &PreparedScene,
-    requests: &[SectionRequest],
-    names: &[String],
-) -> Result<Vec<u8>, Refusal> {
+fn section_table(prepared: &PreparedScene, requests: &[SectionRequest], names: &[String]) -> Result<Vec<u8>, Refusal> {
     let (sections, channels) = sections(prepared, requests, names)?;
     let scene = prepared.scene();
     let mut text = format!("# {}\n# units: x, y in {}\n", footer(prepared), scene.screen_unit().name());
@@ -184,8 +181,11 @@ fn probe_table(prepared: &PreparedScene, requests: &[ProbeRequest]) -> Result<Ve
     let scene = prepared.scene();
     let length = scene.length();
     let (unit, irradiance) = (scene.convention().unit(scene.unit_system()), scene.unit_system().irradiance_unit());
-    let mut text = format!("# {}\n# units: x, y, z in {}; brightness, diffuse, specular in {unit}; irradiance in {irradiance}\n",
-        footer(prepared), length.name());
+    let mut text = format!(
+        "# {}\n# units: x, y, z in {}; brightness, diffuse, specular in {unit}; irradiance in {irradiance}\n",
+        footer(prepared),
+        length.name()
+    );
     text.push_str("name,x,y,z,brightness,irradiance,diffuse,specular,cos_theta_o,seen\n");
     for request in requests {
         text.push_str(&quoted(&request.name));

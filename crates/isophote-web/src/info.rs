@@ -147,9 +147,8 @@ fn camera_info(prepared: &PreparedScene) -> CameraInfo {
     };
     let corners = ahead.map(|ahead| {
         let ([left, right], [bottom, top]) = (extent.x, extent.y);
-        [[left, bottom], [right, bottom], [right, top], [left, top]].map(|[x, y]| {
-            in_unit(frame.eye + frame.forward * ahead + frame.right * x + frame.up * y, length)
-        })
+        [[left, bottom], [right, bottom], [right, top], [left, top]]
+            .map(|[x, y]| in_unit(frame.eye + frame.forward * ahead + frame.right * x + frame.up * y, length))
     });
     CameraInfo {
         projection: match camera.projection {
@@ -181,10 +180,10 @@ fn shapes(prepared: &PreparedScene) -> Vec<ShapeInfo> {
         path,
         material: shape.material.map(|material| scene.materials()[material].name.clone()),
         center: in_unit(shape.geometry.center(), length),
-        bounds: shape.geometry.bounds_of_all().map(|bounds| BoundsInfo {
-            low: in_unit(bounds.least, length),
-            high: in_unit(bounds.greatest, length),
-        }),
+        bounds: shape
+            .geometry
+            .bounds_of_all()
+            .map(|bounds| BoundsInfo { low: in_unit(bounds.least, length), high: in_unit(bounds.greatest, length) }),
         on_screen: on_screen(prepared, shape.geometry.center()),
     };
     scene.shapes().iter().zip(paths(scene.source())).map(of_shape).collect()

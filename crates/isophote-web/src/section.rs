@@ -69,7 +69,8 @@ impl Section {
             values.insert(quantity.name(), along);
             units.insert(quantity.name(), quantity.unit(scene.convention(), scene.unit_system(), scene.length()));
         }
-        let point = |sample: &Sample| sample.seen.as_ref().map(|(hit, _)| in_unit(hit.point.position(), scene.length()));
+        let point =
+            |sample: &Sample| sample.seen.as_ref().map(|(hit, _)| in_unit(hit.point.position(), scene.length()));
         let points = samples.iter().map(point).collect();
         Ok(Self { name: line.name, axis: line.axis, positions, screen, values, units, points })
     }
