@@ -27,7 +27,9 @@ export function unit(vector: Vec3): Vec3 | null {
 /** The direction that makes these angles, in degrees: with −z, and about z from +x towards +y. */
 export function directionOf(tilt: number, azimuth: number): Vec3 {
   const [t, a] = [(tilt * Math.PI) / 180, (azimuth * Math.PI) / 180];
-  return [Math.sin(t) * Math.cos(a), Math.sin(t) * Math.sin(a), -Math.cos(t)].map((part) => Number(part.toFixed(15)) + 0) as Vec3;
+  return [Math.sin(t) * Math.cos(a), Math.sin(t) * Math.sin(a), -Math.cos(t)].map(
+    (part) => Number(part.toFixed(15)) + 0,
+  ) as Vec3;
 }
 
 /** The angles of a direction, in degrees: its tilt from −z, and its azimuth, which one along z has none of. */
