@@ -1,6 +1,7 @@
 /** Keeps what the session shows up to date with its scene: checked, rendered, read at its probes. Whatever takes long is asked of the
  * newest scene only. */
 
+import { untrack } from 'svelte';
 import { EngineError, type ProbeRequest, type SectionRequest } from './engine/types';
 import { Latest } from './latest';
 import type { SceneSource } from './scene/model';
@@ -20,6 +21,12 @@ interface Picture {
 export function keepComputing(session: Session, onFailure: (error: unknown) => void): void {
   const { engine } = session;
   let lastFull = 0;
+  /** How many kinds of work there are at the moment. */
+  let working = $state(0);
+
+  /** Work on the newest input, which the page's state tells of. */
+  const latest = <T>(work: (input: T, isNewest: () => boolean) => Promise<void>) =>
+    new Latest(guarded(work), (isWorking) => untrack(() => (working += isWorking ? 1 : -1)));
 
   /** An invalid scene is no failure: its problems are shown already. */
   const guarded =
@@ -32,42 +39,34 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
       }
     };
 
-  const checking = new Latest(
-    guarded(async (scene: SceneSource) => {
-      const checked = await engine.check(scene);
-      session.take(scene, checked);
-    }),
-  );
+  const checking = latest(async (scene: SceneSource) => {
+    const checked = await engine.check(scene);
+    session.take(scene, checked);
+  });
 
-  const rendering = new Latest(
-    guarded(async ({ scene, channel, isophotes, coarse }: Picture, isNewest) => {
-      const started = performance.now();
-      const frame = await engine.render(scene, channel, coarse ? 2 : 1);
-      if (!frame) return;
-      if (!coarse) lastFull = performance.now() - started;
-      session.frameTime = performance.now() - started;
-      session.frame = frame;
-      if (coarse || !isNewest()) return;
-      // Shown before it is analysed.
-      const analysis = await engine.analyse(scene, frame, isophotes);
-      session.analysis = analysis;
-    }),
-  );
+  const rendering = latest(async ({ scene, channel, isophotes, coarse }: Picture, isNewest) => {
+    const started = performance.now();
+    const frame = await engine.render(scene, channel, coarse ? 2 : 1);
+    if (!frame) return;
+    if (!coarse) lastFull = performance.now() - started;
+    session.frameTime = performance.now() - started;
+    session.frame = frame;
+    if (coarse || !isNewest()) return;
+    // Shown before it is analysed.
+    const analysis = await engine.analyse(scene, frame, isophotes);
+    session.analysis = analysis;
+  });
 
-  const probing = new Latest(
-    guarded(async (scene: SceneSource) => {
-      session.probed = await engine.probe(scene, probesOf(scene));
-    }),
-  );
+  const probing = latest(async (scene: SceneSource) => {
+    session.probed = await engine.probe(scene, probesOf(scene));
+  });
 
-  const measuring = new Latest(
-    guarded(async (scene: SceneSource) => {
-      session.areas = scene.area?.length ? await engine.areas(scene) : [];
-    }),
-  );
+  const measuring = latest(async (scene: SceneSource) => {
+    session.areas = scene.area?.length ? await engine.areas(scene) : [];
+  });
 
-  const sectioning = new Latest(
-    guarded(async ({ scene, lines, channels }: { scene: SceneSource; lines: SectionRequest[]; channels: string[] }) => {
+  const sectioning = latest(
+    async ({ scene, lines, channels }: { scene: SceneSource; lines: SectionRequest[]; channels: string[] }) => {
       try {
         session.sections = lines.length > 0 ? await engine.section(scene, lines, channels) : [];
         session.sectionError = null;
@@ -76,23 +75,28 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
         session.sections = [];
         session.sectionError = error.message;
       }
-    }),
+    },
   );
 
-  const explaining = new Latest(
-    guarded(async ({ scene, request }: { scene: SceneSource; request: ProbeRequest }) => {
-      try {
-        session.explanation = await engine.explain(scene, request);
-        session.explanationError = null;
-      } catch (error) {
-        if (!(error instanceof EngineError)) throw error;
-        session.explanation = null;
-        session.explanationError = error.message;
-      }
-    }),
-  );
+  const explaining = latest(async ({ scene, request }: { scene: SceneSource; request: ProbeRequest }) => {
+    try {
+      session.explanation = await engine.explain(scene, request);
+      session.explanationError = null;
+    } catch (error) {
+      if (!(error instanceof EngineError)) throw error;
+      session.explanation = null;
+      session.explanationError = error.message;
+    }
+  });
 
-  $effect(() => checking.take(session.scene));
+  $effect(() => {
+    void session.language;
+    checking.take(session.scene);
+  });
+
+  $effect(() => {
+    document.documentElement.dataset['state'] = working === 0 ? 'ready' : 'busy';
+  });
 
   $effect(() => {
     const { good: scene, info } = session;

@@ -3,9 +3,15 @@ export class Latest<T> {
   #work: (input: T, isNewest: () => boolean) => Promise<void>;
   #next: { input: T } | null = null;
   #isWorking = false;
+  #onWorking: (isWorking: boolean) => void;
 
-  constructor(work: (input: T, isNewest: () => boolean) => Promise<void>) {
+  /** `onWorking` is told when there begins to be work, and when all is done. */
+  constructor(
+    work: (input: T, isNewest: () => boolean) => Promise<void>,
+    onWorking: (isWorking: boolean) => void = () => {},
+  ) {
     this.#work = work;
+    this.#onWorking = onWorking;
   }
 
   /** Takes an input; what waited is dropped. */
@@ -16,11 +22,13 @@ export class Latest<T> {
 
   async #run(): Promise<void> {
     this.#isWorking = true;
+    this.#onWorking(true);
     while (this.#next) {
       const { input } = this.#next;
       this.#next = null;
       await this.#work(input, () => this.#next === null);
     }
     this.#isWorking = false;
+    this.#onWorking(false);
   }
 }
