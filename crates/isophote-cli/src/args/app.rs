@@ -17,6 +17,10 @@ pub struct AppArguments {
     #[arg(long)]
     pub no_browser: bool,
 
+    /// Print the end of a link that holds the scene, for the address of the app on any server, and serve nothing
+    #[arg(long, requires = "scene", conflicts_with_all = ["port", "no_browser"])]
+    pub link: bool,
+
     /// No warnings: only results and errors
     #[arg(short, long)]
     pub quiet: bool,

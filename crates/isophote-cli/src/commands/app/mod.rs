@@ -16,8 +16,11 @@ use crate::{load, progress};
 /// The page, packed by gzip, if the app was built before this program was.
 pub const PAGE: Option<&[u8]> = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
-/// Serves the page until Ctrl-C is pressed.
+/// Serves the page until Ctrl-C is pressed, or prints the end of a link.
 pub fn run(arguments: &AppArguments) -> Result<String> {
+    if arguments.link {
+        return Ok(format!("{}\n", fragment(&load::scene(&arguments.scene, arguments.quiet)?)?));
+    }
     let Some(page) = PAGE else {
         let message = "this program was built without the app: run `make app` in its source, then build it again; \
             or open the file isophote.html of a release in a browser";
@@ -54,7 +57,8 @@ fn tell(address: &str) {
 /// The part of the address that holds a scene.
 fn fragment(scene: &Scene) -> Result<String, Usage> {
     if let Some(file) = scene.files().first() {
-        let message = format!("the app shows scenes whose shapes are in the scene itself; this one reads {}", file.name);
+        let message =
+            format!("the app shows scenes whose shapes are in the scene itself; this one reads {}", file.name);
         return Err(Usage(message));
     }
     let fragment = link::fragment(scene.source()).map_err(|error| Usage(error.to_string()))?;

@@ -40,7 +40,8 @@ fn answer(stream: TcpStream, page: &[u8]) -> io::Result<()> {
         line.clear();
     }
     let (status, body) = response(&request, page);
-    let kind = if body.is_empty() { "" } else { "Content-Type: text/html; charset=utf-8\r\nContent-Encoding: gzip\r\n" };
+    let kind =
+        if body.is_empty() { "" } else { "Content-Type: text/html; charset=utf-8\r\nContent-Encoding: gzip\r\n" };
     let allow = if status.starts_with("405") { "Allow: GET\r\n" } else { "" };
     let head = format!(
         "HTTP/1.1 {status}\r\n{kind}{allow}Content-Length: {}\r\nCache-Control: no-cache\r\n\
