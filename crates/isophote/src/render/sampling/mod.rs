@@ -13,7 +13,7 @@ use std::ops::Range;
 use self::outlined::{Nodes, Outlined};
 use self::pattern::Patterns;
 use self::refine::{Averages, Refinement, Wanted};
-use self::uncertain::{Finder, Suspects, uncertain_in_row};
+use self::uncertain::{Finder, Suspects, uncertain_in_rows};
 use super::band::{self, advance};
 use super::hits::HitBlock;
 use super::{RenderError, RenderSettings};
@@ -26,6 +26,9 @@ const FIRST_SAMPLES: u32 = 16;
 
 /// Where pixels are integrated, fewer than this are done before another thread has woken up.
 const WORTH_THREADS: usize = 20_000;
+
+/// How many rings of pixels around one decide whether it is uncertain: its neighbours, and theirs.
+const NEIGHBOURS: u32 = 2;
 
 /// The number of rows that one thread searches and refines at a time.
 const ROWS: usize = 16;
@@ -85,7 +88,7 @@ fn refined(
     let region = settings.region.unwrap_or(Region::all(full));
     let mut quantities = settings.quantities.clone();
     quantities.push(Quantity::Brightness);
-    let wide = RenderSettings { region: Some(grown(region, 1, full)), quantities, ..settings.clone() };
+    let wide = RenderSettings { region: Some(grown(region, NEIGHBOURS, full)), quantities, ..settings.clone() };
     let mut layers = (renders.parallel)(Vec::new(), scene, &wide)?;
     let tolerances: Vec<f64> = peaks(scene, renders)?.into_iter().map(|peak| tolerance * peak).collect();
     let averages: Vec<Averages> = layers.iter().map(Averages::of).collect();
@@ -100,16 +103,14 @@ fn refined(
         let (mut nodes, mut suspects) = (Nodes::new(asked_for.len()), Suspects::default());
         let mut hits = HitBlock::new(scene, &asked_for);
         let mut refined = Vec::new();
-        for row in rows {
-            for uncertain in uncertain_in_row(&finders, row, &mut suspects) {
-                let pixel = layers[0].pixel(uncertain.index);
-                if outlined.as_ref().is_some_and(|outlined| outlined.is_missed_by_all(pixel, &uncertain)) {
-                    continue;
-                }
-                advance(settings.observer, 0)?;
-                let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&mut nodes, pixel, &uncertain));
-                refined.push(mean.unwrap_or_else(|| Refinement::new(&mut hits, &wanted, pixel, &uncertain)));
+        for uncertain in uncertain_in_rows(&finders, rows, &mut suspects) {
+            let pixel = layers[0].pixel(uncertain.index);
+            if outlined.as_ref().is_some_and(|outlined| outlined.is_missed_by_all(pixel, &uncertain)) {
+                continue;
             }
+            advance(settings.observer, 0)?;
+            let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&mut nodes, pixel, &uncertain));
+            refined.push(mean.unwrap_or_else(|| Refinement::new(&mut hits, &wanted, pixel, &uncertain)));
         }
         Ok(refined)
     };
