@@ -2,6 +2,7 @@
 
 mod bands;
 mod fixed;
+mod narrow;
 mod outlined;
 mod pattern;
 mod refine;
@@ -10,6 +11,7 @@ mod uncertain;
 
 use std::ops::Range;
 
+use self::narrow::Narrow;
 use self::outlined::{Nodes, Outlined};
 use self::pattern::Patterns;
 use self::refine::{Averages, Refinement, Wanted};
@@ -62,7 +64,7 @@ pub fn render(
     band::check(region, full)?;
     let wide = RenderSettings { region: Some(grown(region, reach, full)), ..settings.clone() };
     let layers = match sampling.tolerance {
-        Some(tolerance) => refined(scene, &wide, tolerance, threads, renders)?,
+        Some(tolerance) => refined(scene, &wide, (tolerance, region), threads, renders)?,
         None => fixed::render(scene, &wide, threads, renders)?,
     };
     let finish = |map| {
@@ -75,11 +77,11 @@ pub fn render(
     Ok(layers.into_iter().map(finish).collect())
 }
 
-/// The centres of a region, with the uncertain pixels refined.
+/// The centres of a region, with the uncertain pixels refined. Those over the tolerance are counted in the part `counted`.
 fn refined(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
-    tolerance: f64,
+    (tolerance, counted): (f64, Region),
     threads: &Threads,
     renders: &Renders<'_>,
 ) -> Result<Vec<Map>, RenderError> {
@@ -99,11 +101,13 @@ fn refined(
     let outlined = Outlined::new(scene, &wanted, &asked_for, refine::has_geometry(&layers[0]));
     let finders: Vec<Finder<'_>> =
         layers.iter().zip(&tolerances).map(|(map, tolerance)| Finder::new(map, region, *tolerance)).collect();
+    let narrow = Narrow::new(scene, &layers[0], region, &finders, &tolerances);
+    let narrow = narrow.find(&asked_for, threads, settings.observer)?;
     let refine = |rows: Range<usize>| {
         let (mut nodes, mut suspects) = (Nodes::new(asked_for.len()), Suspects::default());
         let mut hits = HitBlock::new(scene, &asked_for);
         let mut refined = Vec::new();
-        for uncertain in uncertain_in_rows(&finders, rows, &mut suspects) {
+        for uncertain in uncertain_in_rows(&finders, &narrow, rows, &mut suspects) {
             let pixel = layers[0].pixel(uncertain.index);
             if outlined.as_ref().is_some_and(|outlined| outlined.is_missed_by_all(pixel, &uncertain)) {
                 continue;
@@ -125,8 +129,15 @@ fn refined(
         parts.into_iter().map(refine).collect::<Result<_, RenderError>>()?
     };
     let refined: Vec<Refinement> = refined.into_iter().flatten().collect();
+    let is_over = |refinement: &&Refinement| {
+        let pixel = layers[0].pixel(refinement.index);
+        let mut errors = refinement.error_bounds.iter().zip(&tolerances);
+        counted.contains(pixel) && errors.any(|(bound, tolerance)| bound > tolerance)
+    };
+    let over_tolerance = refined.iter().filter(is_over).count();
     for (layer, (map, averages)) in layers.iter_mut().zip(&averages).enumerate() {
         refine::apply((layer, map), averages, sampling.filter, &refined)?;
+        map.over_tolerance = Some(over_tolerance);
     }
     Ok(layers)
 }

@@ -7,6 +7,7 @@ use crate::lanes::{Element, Instructions, Lane, LaneJob};
 use crate::map::{Map, Quantity, Region, Run, Scalars};
 
 /// A pixel whose value differs from that at its centre.
+#[derive(Clone)]
 pub struct Uncertain {
     /// Index in the map.
     pub index: usize,
@@ -25,12 +26,23 @@ pub struct Suspect {
 }
 
 /// The pixels of some rows, in reading order, that are uncertain in any layer.
-pub fn uncertain_in_rows(finders: &[Finder<'_>], rows: Range<usize>, suspects: &mut Suspects) -> Vec<Uncertain> {
-    let mut all: BTreeMap<usize, Uncertain> = BTreeMap::new();
+///
+/// `narrow` are those that show something which no centre sees.
+pub fn uncertain_in_rows(
+    finders: &[Finder<'_>],
+    narrow: &[Uncertain],
+    rows: Range<usize>,
+    suspects: &mut Suspects,
+) -> Vec<Uncertain> {
+    let width = finders.first().map_or(0, |finder| finder.width);
+    let place = |row: usize| narrow.partition_point(|uncertain| uncertain.index < row * width);
+    let narrow = narrow[place(rows.start)..place(rows.end)].iter();
+    let mut all: BTreeMap<usize, Uncertain> = narrow.map(|narrow| (narrow.index, narrow.clone())).collect();
     for (layer, finder) in finders.iter().enumerate() {
         for Suspect { index, contrast, sees } in finder.in_rows(rows.clone(), suspects) {
             let new = || Uncertain { index, contrasts: vec![0.0; finders.len()], sees };
-            all.entry(index).or_insert_with(new).contrasts[layer] = contrast;
+            let known = &mut all.entry(index).or_insert_with(new).contrasts[layer];
+            *known = known.max(contrast);
         }
     }
     all.into_values().collect()
@@ -229,7 +241,21 @@ impl<'m> Finder<'m> {
         Surroundings { suspect: Suspect { index, contrast, sees: shape.is_some() }, bend, is_unlike }
     }
 
-    fn value(&self, row: usize, column: usize) -> f64 {
+    /// Whether a pixel's centre, or a neighbour's, sees a shape.
+    pub fn is_seen_nearby(&self, row: usize, column: usize, shape: usize) -> bool {
+        let around = LINES.into_iter().flatten().filter_map(|offset| self.beside(row, column, offset));
+        let mut pixels = around.chain([(row, column)]);
+        pixels.any(|(row, column)| self.shape(row, column).is_some_and(|seen| seen as usize == shape))
+    }
+
+    /// A pixel that is uncertain by so much.
+    pub fn uncertain_by(&self, row: usize, column: usize, contrasts: Vec<f64>) -> Uncertain {
+        let sees = self.shape(row, column).is_some();
+        Uncertain { index: row * self.width + column, contrasts, sees }
+    }
+
+    /// The brightness at the centre of a pixel of the map.
+    pub fn value(&self, row: usize, column: usize) -> f64 {
         self.brightness.at(row * self.width + column)
     }
 
