@@ -52,9 +52,10 @@ mod tests {
 
     #[test]
     fn the_points_are_spread_evenly_around_the_centre() {
-        for (count, make) in [2, 4, 5, 16, 100, 256].into_iter().flat_map(|count| {
-            [points, scrambled_points].map(|make: fn(u32) -> Vec<[f64; 2]>| (count, make))
-        }) {
+        for (count, make) in [2, 4, 5, 16, 100, 256]
+            .into_iter()
+            .flat_map(|count| [points, scrambled_points].map(|make: fn(u32) -> Vec<[f64; 2]>| (count, make)))
+        {
             let points = make(count);
             assert_eq!(points.len(), count as usize);
             for axis in [0, 1] {

@@ -138,7 +138,8 @@ impl Region {
     #[must_use]
     pub fn contains(self, pixel: Pixel) -> bool {
         let within = |at: u32, first: u32, count: u32| at >= first && at - first < count;
-        within(pixel.column, self.corner.column, self.size.width) && within(pixel.row, self.corner.row, self.size.height)
+        within(pixel.column, self.corner.column, self.size.width)
+            && within(pixel.row, self.corner.row, self.size.height)
     }
 
     /// The whole image.

@@ -64,9 +64,10 @@ fn of_sphere(sphere: &Sphere) -> CenterLine {
 fn of_cone(ends: [Vector; 2], radii: [f64; 2]) -> Vec<CenterLine> {
     let [first, second] = across((ends[1] - ends[0]).normalized());
     let middle = (ends[0] + ends[1]) * 0.5;
-    let rims = ends.into_iter().zip(radii).flat_map(|(end, radius)| {
-        ring(end + (middle - end) * INSET, first * radius, second * radius, 0.0)
-    });
+    let rims = ends
+        .into_iter()
+        .zip(radii)
+        .flat_map(|(end, radius)| ring(end + (middle - end) * INSET, first * radius, second * radius, 0.0));
     rims.chain([CenterLine { ends, radii }]).collect()
 }
 

@@ -77,7 +77,8 @@ impl<'n> Narrow<'n> {
         let parts: Vec<Range<usize>> =
             (0..count).step_by(PRIMITIVES).map(|first| first..(first + PRIMITIVES).min(count)).collect();
         let find = |numbers: Range<usize>| {
-            let mut search = Search { narrow: self, hits: HitBlock::new(self.scene, asked_for), found: BTreeMap::new() };
+            let mut search =
+                Search { narrow: self, hits: HitBlock::new(self.scene, asked_for), found: BTreeMap::new() };
             for number in numbers {
                 band::advance(observer, 0)?;
                 search.look_for(u32::try_from(number).unwrap_or(u32::MAX));

@@ -66,10 +66,10 @@ pub struct Suspects {
 
 /// Finds the uncertain pixels of a region: those where the brightness curves by more than the tolerance along one of the
 /// four lines through the pixel and two of its neighbours, or differs by more than that from a neighbour that sees something
-/// else. A slope alone needs no refinement: its mean is the value at the centre. Where something ends, however, a straight line
-/// may be a coincidence: across a limb, or beside a pixel that is uncertain already if the two differ by more than twice the
-/// tolerance. The last rule does not go on from pixel to pixel: a value depends on the two rings around it, whatever part of the
-/// image is rendered.
+/// else; and their neighbours. A slope alone needs no refinement: its mean is the value at the centre. Where something ends,
+/// however, a straight line may be a coincidence, and the tip of a thin shadow may reach into a pixel beside all centres. Only
+/// the neighbours of a pixel that is uncertain by itself are added, not theirs in turn: a value depends on the two rings of
+/// pixels around it, whatever part of the image is rendered.
 pub struct Finder<'m> {
     brightness: Scalars<'m>,
     runs: &'m [Run],
@@ -130,8 +130,7 @@ impl<'m> Finder<'m> {
             for column in suspects.columns.iter().filter(|column| self.columns.contains(column)) {
                 let index = row * self.width + column;
                 if known.binary_search_by_key(&index, |suspect| suspect.index).is_err() {
-                    let suspect = self.look_around(row, *column).suspect;
-                    all.extend((suspect.contrast > 2.0 * self.tolerance).then_some(suspect));
+                    all.push(self.look_around(row, *column).suspect);
                 }
             }
         }
