@@ -1,4 +1,4 @@
-//! Shapes that appear narrower than a pixel: the centres of pixels may all pass them by.
+//! Shapes that appear narrower than a pixel, and their shadows: the centres of pixels may all pass them by.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -6,10 +6,10 @@ use std::ops::Range;
 use super::uncertain::{Finder, Uncertain};
 use crate::camera::{Projection, ScreenPosition};
 use crate::map::{Map, Pixel, Region};
-use crate::prepare::PreparedScene;
+use crate::prepare::{Hit, PreparedScene};
 use crate::render::hits::HitBlock;
 use crate::render::{Observer, RenderError, band};
-use crate::shape::CenterLine;
+use crate::shape::{CenterLine, Geometry};
 use crate::threads::Threads;
 use crate::vector::Vector;
 
@@ -24,6 +24,14 @@ pub struct Narrow<'n> {
     corner: Pixel,
     /// Whether a line in space is a line on the screen.
     is_straight: bool,
+}
+
+/// What is looked for along a line: a shape, or its shadow.
+#[derive(Clone, Copy)]
+struct Sought {
+    shape: usize,
+    /// The emitter that casts the shadow.
+    emitter: Option<usize>,
 }
 
 /// A part of a center line.
@@ -44,6 +52,15 @@ const STEP: f64 = 0.5;
 
 /// A line that is not straight on the screen is nearly so after this many halvings.
 const NEARLY_STRAIGHT: u32 = 3;
+
+/// The line of a shadow breaks off where it changes from one surface to another: there it is halved no more than this.
+const DEEPEST_SHADOW: u32 = 14;
+
+/// A ray meets a shadow if it ends this close to it, as a fraction of the distance from what casts it.
+const NEAR: f64 = 1e-3;
+
+/// With more pairs of primitives and emitters than this, narrow shadows are not looked for.
+const MOST_SHADOWS: usize = 1000;
 
 /// A line that has been halved as often is shorter than anything that can be seen, or begins behind the eye.
 const DEEPEST: u32 = 40;
@@ -102,6 +119,33 @@ impl<'n> Narrow<'n> {
     fn place_of(&self, point: Vector) -> Option<[f64; 2]> {
         let frame = self.scene.frame();
         frame.project(point).map(|screen| frame.column_and_row(screen))
+    }
+
+    /// Where the shadow of a point falls, and how much larger it is than what casts it.
+    fn shadow_of(&self, point: Vector, shape: usize, emitter: usize) -> Option<(Vector, f64)> {
+        let source = &self.scene.emitters().all()[emitter];
+        let to_light = source.from_place(point, Vector::default());
+        let distance = to_light.length();
+        let shadow = self.scene.first_beyond(shape, point, to_light * (-1.0 / distance))?;
+        let growth = source.place().map_or(1.0, |_| 1.0 + (shadow - point).length() / distance);
+        Some((shadow, growth))
+    }
+
+    /// Where what is sought appears at a point of a line.
+    fn place_at(&self, point: Vector, sought: Sought) -> Option<[f64; 2]> {
+        match sought.emitter {
+            None => self.place_of(point),
+            Some(emitter) => self.place_of(self.shadow_of(point, sought.shape, emitter)?.0),
+        }
+    }
+
+    /// The emitters whose shadows are looked for.
+    fn emitters_behind(&self, shape: usize) -> Range<usize> {
+        let (scene, count) = (self.scene, self.scene.emitters().all().len());
+        let is_mesh = matches!(scene.geometry(shape), Geometry::Mesh(_));
+        let casts = scene.scene().shadows() && scene.scene().shapes()[shape].casts_shadow && !is_mesh;
+        let is_affordable = scene.primitive_count() as usize * count <= MOST_SHADOWS;
+        if casts && is_affordable { 0..count } else { 0..0 }
     }
 
     /// The half width of something at a point, in pixels.
@@ -167,37 +211,46 @@ impl Search<'_, '_> {
         let scene = self.narrow.scene;
         let primitive = scene.primitive(number);
         for line in scene.geometry(primitive.shape).center_lines(primitive.part) {
-            let seen = line.ends.map(|end| self.narrow.place_of(end));
-            self.follow(Part { line, seen, depth: 0 }, primitive.shape);
+            let shadows = self.narrow.emitters_behind(primitive.shape).map(Some);
+            for emitter in [None].into_iter().chain(shadows) {
+                let sought = Sought { shape: primitive.shape, emitter };
+                let seen = line.ends.map(|end| self.narrow.place_at(end, sought));
+                self.follow(Part { line, seen, depth: 0 }, sought);
+            }
         }
     }
 
     /// Halves a line until its parts are no longer than a step. Where it is halved does not depend on the region.
-    fn follow(&mut self, part: Part, shape: usize) {
+    fn follow(&mut self, part: Part, sought: Sought) {
         let Part { line: CenterLine { ends, radii }, seen, depth } = part;
-        let is_straight = self.narrow.is_straight || depth >= NEARLY_STRAIGHT;
+        let is_shadow = sought.emitter.is_some();
+        let is_straight = self.narrow.is_straight && !is_shadow || depth >= NEARLY_STRAIGHT;
         match seen {
             [Some(one), Some(other)] => {
                 if is_straight && self.narrow.is_outside([one, other]) {
                     return;
                 }
                 if (one[0] - other[0]).abs().max((one[1] - other[1]).abs()) <= STEP {
-                    self.look_at((ends[0] + ends[1]) * 0.5, 0.5 * (radii[0] + radii[1]), shape);
+                    let (middle, radius) = ((ends[0] + ends[1]) * 0.5, 0.5 * (radii[0] + radii[1]));
+                    match sought.emitter {
+                        None => self.look_at(middle, radius, sought.shape),
+                        Some(emitter) => self.look_at_shadow(middle, radius, sought.shape, emitter),
+                    }
                     return;
                 }
             }
             [None, None] if is_straight => return,
             _ => {}
         }
-        if depth == DEEPEST {
+        if depth == if is_shadow { DEEPEST_SHADOW } else { DEEPEST } {
             return;
         }
         let (middle, radius) = ((ends[0] + ends[1]) * 0.5, 0.5 * (radii[0] + radii[1]));
-        let (between, depth) = (self.narrow.place_of(middle), depth + 1);
+        let (between, depth) = (self.narrow.place_at(middle, sought), depth + 1);
         let first = CenterLine { ends: [ends[0], middle], radii: [radii[0], radius] };
         let last = CenterLine { ends: [middle, ends[1]], radii: [radius, radii[1]] };
-        self.follow(Part { line: first, seen: [seen[0], between], depth }, shape);
-        self.follow(Part { line: last, seen: [between, seen[1]], depth }, shape);
+        self.follow(Part { line: first, seen: [seen[0], between], depth }, sought);
+        self.follow(Part { line: last, seen: [between, seen[1]], depth }, sought);
     }
 
     /// Marks the pixels around a point of a shape, if the shape is narrow and visible there.
@@ -210,22 +263,52 @@ impl Search<'_, '_> {
             return;
         }
         let first = &narrow.finders[0];
-        let is_missed = |(row, column): &(usize, usize)| !first.is_seen_nearby(*row, *column, shape);
+        // Beside the silhouette of a narrow shape a centre may see it, but in another light than most of it.
+        let is_missed = |(row, column): &(usize, usize)| radius > 0.0 || !first.is_seen_nearby(*row, *column, shape);
         let mut missed = narrow.reached(place, half_width + 0.5 * STEP).filter(is_missed).peekable();
         if missed.peek().is_none() {
             return;
         }
         let position = ScreenPosition::Point { x: screen[0], y: screen[1] };
         let Some(hit) = self.hits.trace(position).filter(|hit| hit.primitive.shape == shape) else { return };
+        self.mark(&hit, position, missed);
+    }
+
+    /// Marks the pixels around the shadow of a point, if the shadow is narrow and visible.
+    fn look_at_shadow(&mut self, point: Vector, radius: f64, shape: usize, emitter: usize) {
+        let narrow = self.narrow;
+        let Some((shadow, growth)) = narrow.shadow_of(point, shape, emitter) else { return };
+        let Some(screen) = narrow.scene.frame().project(shadow) else { return };
+        let place = narrow.scene.frame().column_and_row(screen);
+        let half_width = if radius > 0.0 { narrow.half_width(shadow, growth * radius) } else { 0.0 };
+        if half_width >= WIDE {
+            return;
+        }
+        // The edges of a wide shadow are uncertain anyway.
+        let first = &narrow.finders[0];
+        let is_missed = |(row, column): &(usize, usize)| radius > 0.0 || !first.is_uncertain(*row, *column);
+        let mut missed = narrow.reached(place, half_width + 0.5 * STEP).filter(is_missed).peekable();
+        if missed.peek().is_none() {
+            return;
+        }
+        let position = ScreenPosition::Point { x: screen[0], y: screen[1] };
+        let is_it = |hit: &Hit| (hit.point.position() - shadow).length() <= NEAR * (shadow - point).length();
+        let Some(hit) = self.hits.trace(position).filter(is_it) else { return };
+        self.mark(&hit, position, missed);
+    }
+
+    /// Marks pixels, as rows and columns of the map, whose centres are not as bright as what a ray has hit.
+    fn mark(&mut self, hit: &Hit, position: ScreenPosition, missed: impl Iterator<Item = (usize, usize)>) {
+        let narrow = self.narrow;
         self.hits.clear();
-        self.hits.push(0, &hit, Some(position));
+        self.hits.push(0, hit, Some(position));
         for (row, column) in missed {
             let contrast = |(layer, finder): (usize, &Finder<'_>)| {
                 (self.hits.shaded(layer).brightness[0] - finder.value(row, column)).abs()
             };
             let contrasts: Vec<f64> = narrow.finders.iter().enumerate().map(contrast).collect();
             if contrasts.iter().zip(narrow.tolerances).any(|(contrast, tolerance)| contrast > tolerance) {
-                merge(&mut self.found, first.uncertain_by(row, column, contrasts));
+                merge(&mut self.found, narrow.finders[0].uncertain_by(row, column, contrasts));
             }
         }
     }

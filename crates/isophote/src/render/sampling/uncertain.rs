@@ -247,6 +247,11 @@ impl<'m> Finder<'m> {
         pixels.any(|(row, column)| self.shape(row, column).is_some_and(|seen| seen as usize == shape))
     }
 
+    /// Whether a pixel is uncertain by what its neighbours see.
+    pub fn is_uncertain(&self, row: usize, column: usize) -> bool {
+        self.uncertain(row, column).is_some()
+    }
+
     /// A pixel that is uncertain by so much.
     pub fn uncertain_by(&self, row: usize, column: usize, contrasts: Vec<f64>) -> Uncertain {
         let sees = self.shape(row, column).is_some();
