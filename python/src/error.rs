@@ -73,7 +73,8 @@ pub fn of_render(py: Python<'_>, error: &RenderError) -> PyErr {
         RenderError::Region { .. }
         | RenderError::TooLarge { .. }
         | RenderError::NoSuchLight { .. }
-        | RenderError::NoColor => value(py, error),
+        | RenderError::NoColor
+        | RenderError::NoTolerance => value(py, error),
         RenderError::Memory { .. }
         | RenderError::Overflow { .. }
         | RenderError::Interrupted

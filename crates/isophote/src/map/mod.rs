@@ -122,6 +122,9 @@ pub enum Quantity {
     Coverage,
     /// The standard error of [`Ambient`](Self::Ambient), where its obstruction is sampled.
     AmbientError,
+    /// A bound on the error of the mean brightness over the pixel's area (2.6); 0 where the value at the centre is the mean.
+    /// Only in scenes with a tolerance.
+    SamplingError,
     /// The distance of P along the direction of view: that of the plane through P parallel to the screen.
     ZDepth,
     /// The cosine of the angle between the normal and the direction to the eye.
@@ -154,7 +157,7 @@ impl Quantity {
     ];
 
     /// The quantities that describe how the others were sampled.
-    pub const OF_SAMPLING: [Self; 3] = [Self::Samples, Self::Coverage, Self::AmbientError];
+    pub const OF_SAMPLING: [Self; 4] = [Self::Samples, Self::Coverage, Self::SamplingError, Self::AmbientError];
 
     /// The quantities that follow from the point and its normal, in terms of the camera.
     pub const OF_CAMERA: [Self; 3] = [Self::ZDepth, Self::CosThetaO, Self::CameraNormal];
@@ -169,9 +172,12 @@ impl Quantity {
     #[must_use]
     pub fn unit(&self, convention: Convention, units: UnitSystem, length: LengthUnit) -> &'static str {
         match self {
-            Self::Brightness | Self::Color | Self::Diffuse | Self::Specular | Self::LightBrightness(_) => {
-                convention.unit(units)
-            }
+            Self::Brightness
+            | Self::Color
+            | Self::Diffuse
+            | Self::Specular
+            | Self::SamplingError
+            | Self::LightBrightness(_) => convention.unit(units),
             Self::Irradiance | Self::Ambient | Self::AmbientError | Self::Light(_) => units.irradiance_unit(),
             Self::Depth | Self::ZDepth | Self::Position => length.name(),
             Self::Normal | Self::CameraNormal | Self::CosThetaO | Self::Samples | Self::Coverage => "1",
@@ -223,6 +229,7 @@ impl Quantity {
             Self::Shape => "shape".into(),
             Self::Samples => "samples".into(),
             Self::Coverage => "coverage".into(),
+            Self::SamplingError => "sampling-error".into(),
             Self::AmbientError => "ambient-error".into(),
             Self::ZDepth => "z-depth".into(),
             Self::CosThetaO => "cos_theta_o".into(),
@@ -280,6 +287,10 @@ pub struct Map {
     pub(crate) whole: Window,
     /// The provenance of the map.
     pub provenance: Provenance,
+    /// In a scene with a tolerance, the number of pixels in which the allowed number of rays was not enough for it: their
+    /// [error bound](Quantity::SamplingError) exceeds the tolerance. `None` without a tolerance, and in maps that were not
+    /// rendered just now.
+    pub over_tolerance: Option<usize>,
     pub(crate) mask: Mask,
     pub(crate) channels: Vec<Channel>,
 }

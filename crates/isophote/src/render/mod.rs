@@ -106,6 +106,9 @@ pub enum RenderError {
     /// The channel `color` of a scene without colours.
     #[error("{}", NO_COLOR)]
     NoColor,
+    /// The channel `sampling-error` of a scene without a tolerance.
+    #[error("{}", NO_TOLERANCE)]
+    NoTolerance,
     /// Single precision cannot hold a value.
     #[error("column {}, row {}: {value:e} is more than single precision holds (3.4e38); double does", pixel.column, pixel.row)]
     Overflow {
@@ -126,7 +129,19 @@ pub enum RenderError {
 pub(crate) const NO_COLOR: &str =
     "there is no channel `color`: no coefficient and no strength of the scene is written as [R, G, B]";
 
+/// Why there is no channel `sampling-error`.
+pub(crate) const NO_TOLERANCE: &str =
+    "there is no channel `sampling-error`: the scene has no tolerance; allowed with `sampling.tolerance`";
+
 impl Region {
+    /// Whether a pixel of the image lies in it.
+    #[must_use]
+    pub fn contains(self, pixel: Pixel) -> bool {
+        let within = |at: u32, first: u32, count: u32| at >= first && at - first < count;
+        within(pixel.column, self.corner.column, self.size.width)
+            && within(pixel.row, self.corner.row, self.size.height)
+    }
+
     /// The whole image.
     #[must_use]
     pub fn all(full: Resolution) -> Self {
