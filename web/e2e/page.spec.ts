@@ -108,7 +108,8 @@ test('reports hold the numbers of the scene', async ({ page }) => {
   };
   const html = await (await report('Report to print (HTML)')).createReadStream();
   const text = Buffer.concat(await html.toArray()).toString();
-  for (const part of ['A. Student', '0.316677298', '0.388475848', 'lab (3.3)', 'data:image/png;base64,']) expect(text).toContain(part);
+  for (const part of ['A. Student', '0.316677298', '0.388475848', 'lab (3.3)', 'data:image/png;base64,'])
+    expect(text).toContain(part);
   const docx = await (await report('Report (DOCX)')).createReadStream();
   const parts = unzipSync(new Uint8Array(Buffer.concat(await docx.toArray())));
   const body = new TextDecoder().decode(parts['word/document.xml']);

@@ -21,6 +21,7 @@ interface Picture {
 export function keepComputing(session: Session, onFailure: (error: unknown) => void): void {
   const { engine } = session;
   let lastFull = 0;
+  let changedAt = 0;
   /** How many kinds of work there are at the moment. */
   let working = $state(0);
 
@@ -51,6 +52,8 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
     if (!coarse) lastFull = performance.now() - started;
     session.frameTime = performance.now() - started;
     session.frame = frame;
+    // For `make bench-app`, and for whoever looks into the browser's own tools.
+    performance.measure('isophote: from change to map', { start: changedAt, end: performance.now() });
     if (coarse || !isNewest()) return;
     // Shown before it is analysed.
     const analysis = await engine.analyse(scene, frame, isophotes);
@@ -91,6 +94,7 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
 
   $effect(() => {
     void session.language;
+    changedAt = performance.now();
     checking.take(session.scene);
   });
 
