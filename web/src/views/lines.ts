@@ -9,7 +9,10 @@ export type Between = Extract<SectionRequest, { kind: 'between' }>;
 type Map = Pick<Frame, 'window' | 'width' | 'height' | 'step'>;
 
 /** The coordinate that a line along an axis keeps; null for other lines. */
-export function placeOf(line: SectionRequest, { window, width, height, step }: Map): { axis: 'x' | 'y'; at: number } | null {
+export function placeOf(
+  line: SectionRequest,
+  { window, width, height, step }: Map,
+): { axis: 'x' | 'y'; at: number } | null {
   const [columns, rows] = [width * step, height * step];
   const between = ([from, to]: Vec2, share: number) => from + (to - from) * share;
   switch (line.kind) {
@@ -82,5 +85,5 @@ export function sectionName(section: Section, line: SectionRequest | undefined, 
 
 /** The line that each section is of: a line through a centre has two. */
 export function ownersOf(lines: readonly SectionRequest[]): SectionRequest[] {
-  return lines.flatMap((line) => (line.kind === 'through' ? [line, line] : [line]));
+  return lines.flatMap<SectionRequest>((line) => (line.kind === 'through' ? [line, line] : [line]));
 }

@@ -1,7 +1,7 @@
 /** What a click on the picture does. */
 
 import type { Vec2 } from '../engine/types';
-import { append, namesBeside, uniqueName } from '../scene/edit';
+import { append, namesBeside } from '../scene/edit';
 import type { Session } from '../session.svelte';
 import { text } from '../text/index.svelte';
 
@@ -27,5 +27,8 @@ export async function pick(session: Session, mode: ClickMode, screen: Vec2): Pro
 
 /** "P1", or the first such name that is free. */
 export function newProbeName(session: Session): string {
-  return uniqueName(namesBeside(session.scene, 'probe'), text.words.views.picture.newProbe(1)).replace(' ', '');
+  const taken = namesBeside(session.scene, 'probe');
+  let number = 1;
+  while (taken.includes(text.words.views.picture.newProbe(number))) number += 1;
+  return text.words.views.picture.newProbe(number);
 }

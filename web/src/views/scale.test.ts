@@ -22,7 +22,11 @@ describe('Projection', () => {
 
   it('goes there and back in any view', () => {
     const projection = new Projection(WINDOW, BOX, within({ zoom: 7, middle: [0.3, 0.8] }));
-    for (const point of [[-1.5, -1.2], [0, 0], [3.9, 2.1]] as Vec2[]) {
+    for (const point of [
+      [-1.5, -1.2],
+      [0, 0],
+      [3.9, 2.1],
+    ] as Vec2[]) {
       const [x, y] = projection.fromBox(projection.toBox(point));
       expect(x).toBeCloseTo(point[0], 12);
       expect(y).toBeCloseTo(point[1], 12);

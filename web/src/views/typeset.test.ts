@@ -57,7 +57,9 @@ describe('typeset', () => {
 
   it('loses no text', () => {
     const line = 'specular = E k_s (N·H)^n = 0.36 × 0.3 × 0.57 = 0.0627 W/m²';
-    const text = typeset(line).parts.map((part) => part.text).join('');
+    const text = typeset(line)
+      .parts.map((part) => part.text)
+      .join('');
     expect(text).toBe('specular = E ks (N·H)n = 0.36 × 0.3 × 0.57 = 0.0627 W/m2');
   });
 });
