@@ -77,9 +77,7 @@ export function paint(
       continue;
     }
     const linear = (logarithmic ? Math.log(value / black) : value - black) / span;
-    const scaled = linear >= 1 ? 255 : linear * 255;
-    const whole = scaled | 0;
-    out[index] = colors[scaled - whole >= 0.5 ? whole + 1 : whole]!;
+    out[index] = colors[linear >= 1 ? 255 : Math.round(linear * 255)]!;
   }
 }
 
