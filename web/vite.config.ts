@@ -1,17 +1,14 @@
-import { readFileSync } from 'node:fs';
 import { svelte } from '@sveltejs/vite-plugin-svelte';
 import { defineConfig } from 'vite';
 import { viteSingleFile } from 'vite-plugin-singlefile';
-import { offline } from './offline';
-
-const version = /^version = "(.*)"$/m.exec(readFileSync('../Cargo.toml', 'utf8'))?.[1];
+import { offline } from './offline.ts';
 
 /** Two builds: a folder of static files, and, with `--mode one-file`, the same page as a single file. */
 export default defineConfig(({ mode }) => {
   const isOneFile = mode === 'one-file';
   return {
     base: './',
-    define: { ISOPHOTE_VERSION: JSON.stringify(version), IS_ONE_FILE: JSON.stringify(isOneFile) },
+    define: { IS_ONE_FILE: JSON.stringify(isOneFile) },
     plugins: [svelte(), ...(isOneFile ? [viteSingleFile({ removeViteModuleLoader: true })] : [offline()])],
     build: {
       target: 'es2022',
@@ -21,6 +18,7 @@ export default defineConfig(({ mode }) => {
       chunkSizeWarningLimit: 1000,
       reportCompressedSize: false,
     },
-    worker: { format: 'es' },
+    // Module workers do not start on a page that was opened from a disk.
+    worker: { format: 'iife' },
   };
 });

@@ -54,7 +54,7 @@ test('the command opens the page with a scene', async ({ page }) => {
   await open(page, `./${command('app', file, '--link').trim()}`);
   const told = join(folder(), 'scene.toml');
   writeFileSync(told, await saved(page, 'Scene (TOML)'));
-  expect(command('probe', told, '--json', '--quiet')).toBe(command('probe', file, '--json', '--quiet'));
+  expect(command('check', told, '--json', '--quiet')).toBe(command('check', file, '--json', '--quiet'));
 });
 
 test('files are opened, and bad ones are refused in words', async ({ page }) => {

@@ -2,7 +2,7 @@ import './app.css';
 import { mount } from 'svelte';
 import App from './App.svelte';
 import Failed from './Failed.svelte';
-import { compileCore } from './engine/module';
+import { loadCore } from './engine/module';
 import { startEngine } from './engine';
 import { firstScene } from './opening';
 import { SceneKeeper } from './scene/storage';
@@ -12,7 +12,7 @@ const target = document.getElementById('app')!;
 
 try {
   if (typeof WebAssembly !== 'object') throw new Error('WebAssembly');
-  const engine = await startEngine(await compileCore(), ISOPHOTE_VERSION, text.language);
+  const engine = await startEngine(await loadCore(), text.language);
   const keeper = new SceneKeeper((fault) => fault && page.say(text.words.app.notKept[fault]));
   const opened = await firstScene(engine, location.hash, keeper.last());
   const page = mount(App, { target, props: { engine, opened, keeper } });

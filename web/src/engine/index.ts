@@ -1,7 +1,7 @@
 /** The engine: the core in workers. The first worker answers questions, all of them render bands of rows. */
 
 import type { SceneSource } from '../scene/model';
-import type { BandAnswer } from './messages';
+import type { BandAnswer, CoreModule } from './messages';
 import { CoreClient } from './pool';
 import type {
   Analysis,
@@ -27,7 +27,7 @@ const BANDS_PER_WORKER = 2;
 const LEAST_ROWS = 32;
 
 class WorkerEngine implements Engine {
-  readonly version: string;
+  version = '';
   readonly #answering: CoreClient;
   readonly #rendering: CoreClient[];
   #language: Language;
@@ -35,11 +35,15 @@ class WorkerEngine implements Engine {
   #latest = 0;
   #texts = new WeakMap<SceneSource, string>();
 
-  constructor(module: WebAssembly.Module, workers: number, language: Language, version: string) {
-    this.version = version;
+  constructor(module: CoreModule, workers: number, language: Language) {
     this.#language = language;
     this.#answering = new CoreClient(module, language);
     this.#rendering = Array.from({ length: workers }, () => new CoreClient(module, language));
+  }
+
+  /** Waits for the first core. */
+  async start(): Promise<void> {
+    this.version = await this.#answering.started;
   }
 
   get language(): Language {
@@ -166,10 +170,11 @@ export function joined(bands: (BandAnswer | null)[], step: 1 | 2): Frame | null 
 
 /** Starts the engine with a module, on as many workers as the machine has processors to spare. */
 export async function startEngine(
-  module: WebAssembly.Module,
-  version: string,
+  module: CoreModule,
   language: Language,
   workers = Math.min(8, Math.max(1, (navigator.hardwareConcurrency || 2) - 1)),
 ): Promise<Engine> {
-  return new WorkerEngine(module, workers, language, version);
+  const engine = new WorkerEngine(module, workers, language);
+  await engine.start();
+  return engine;
 }

@@ -2,6 +2,9 @@
 
 import type { Colormap, ExportRequest, Frame, Language, ProbeRequest, SectionRequest, SurfaceRequest } from './types';
 
+/** The core, compiled once for all workers; or its bytes, where workers have to compile it themselves. */
+export type CoreModule = WebAssembly.Module | ArrayBuffer;
+
 /** A question about a scene: the worker loads that first, if it holds another one. */
 interface OfScene {
   /** As JSON. */
@@ -9,7 +12,7 @@ interface OfScene {
 }
 
 export type Question =
-  | { kind: 'start'; module: WebAssembly.Module }
+  | { kind: 'start'; module: CoreModule }
   | { kind: 'language'; language: Language }
   | { kind: 'read'; text: string; syntax: 'toml' | 'json' }
   | { kind: 'starter'; name: string }

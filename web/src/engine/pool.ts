@@ -1,6 +1,6 @@
 /** Workers with a core each, and the questions that wait for them. */
 
-import type { Answer, Question } from './messages';
+import type { Answer, CoreModule, Question } from './messages';
 import { EngineError, type Language, type Problem } from './types';
 import CoreWorker from './worker?worker&inline';
 
@@ -14,15 +14,27 @@ interface Waiting {
 /** A worker, which is asked one question at a time. */
 export class CoreClient {
   #worker: Worker;
-  #module: WebAssembly.Module;
+  #module: CoreModule;
   #language: Language;
   #queue: Waiting[] = [];
   #current: (Waiting & { id: number }) | null = null;
   #next = 0;
+  /** Why there is no core any more: it did not start. */
+  #failure: string | null = null;
+  /** The version of the core, once it has started. */
+  readonly started: Promise<string>;
+  #tellStarted!: (version: string) => void;
+  #tellFailed!: (error: Error) => void;
 
-  constructor(module: WebAssembly.Module, language: Language) {
+  constructor(module: CoreModule, language: Language) {
     this.#module = module;
     this.#language = language;
+    this.started = new Promise((resolve, reject) => {
+      this.#tellStarted = resolve;
+      this.#tellFailed = reject;
+    });
+    // Whoever needs to know asks; all others learn it by their questions.
+    this.started.catch(() => {});
     this.#worker = this.#start();
   }
 
@@ -37,6 +49,10 @@ export class CoreClient {
 
   ask<T>(question: Question, transfer: Transferable[] = []): Promise<T> {
     return new Promise<T>((resolve, reject) => {
+      if (this.#failure !== null) {
+        reject(new EngineError(this.#failure));
+        return;
+      }
       this.#queue.push({ question, transfer, resolve: resolve as (value: unknown) => void, reject });
       this.#send();
     });
@@ -52,15 +68,24 @@ export class CoreClient {
   #start(): Worker {
     const worker = new CoreWorker();
     worker.onmessage = ({ data }: MessageEvent<Answer>) => this.#take(data);
+    worker.onmessageerror = () => this.#fail('the worker did not understand');
     worker.onerror = (event) => {
       event.preventDefault();
       this.#fail(event.message || 'the worker stopped');
     };
     // Answered like any question, but before all others.
-    this.#queue.unshift(
-      { question: { kind: 'start', module: this.#module }, transfer: [], resolve: () => {}, reject: () => {} },
-      { question: { kind: 'language', language: this.#language }, transfer: [], resolve: () => {}, reject: () => {} },
-    );
+    const start: Waiting = {
+      question: { kind: 'start', module: this.#module },
+      transfer: [],
+      resolve: (version) => this.#tellStarted(version as string),
+      reject: this.#tellFailed,
+    };
+    this.#queue.unshift(start, {
+      question: { kind: 'language', language: this.#language },
+      transfer: [],
+      resolve: () => {},
+      reject: () => {},
+    });
     // The first message is sent once the field #worker is set.
     queueMicrotask(() => this.#send());
     return worker;
@@ -99,7 +124,14 @@ export class CoreClient {
     this.#current = null;
     this.#worker.terminate();
     current?.reject(new EngineError(reason));
-    this.#worker = this.#start();
+    if (current?.question.kind !== 'start') {
+      this.#worker = this.#start();
+      return;
+    }
+    // Another one would not start either.
+    this.#failure = reason;
+    for (const waiting of this.#queue) waiting.reject(new EngineError(reason));
+    this.#queue = [];
   }
 }
 

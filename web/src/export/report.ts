@@ -70,7 +70,7 @@ export async function makeReport({ engine, scene, info, author, sections, isopho
   paragraph(w.taskText);
 
   heading(w.parameters);
-  blocks.push({ kind: 'table', head: [w.parameter, w.value], rows: parameters(scene, info, w, number) });
+  blocks.push({ kind: 'table', head: [w.parameter, w.value], rows: parameters(scene, info, w, (value) => number(value)) });
 
   heading(w.formulas);
   paragraph(fill(w.formulaText, { label: info.convention.label }));
@@ -152,7 +152,8 @@ function parameters(
   w: Words['app']['reportWords'],
   number: (value: number) => string,
 ): string[][] {
-  const vector = (value: Vec3) => `(${value.map(number).join('; ')})`;
+  const numbers = (values: number[], separator: string) => values.map((value) => number(value)).join(separator);
+  const vector = (value: Vec3) => `(${numbers(value, '; ')})`;
   const { window, screenUnit, length } = info;
   const amount = (value: unknown) =>
     Array.isArray(value) ? `(${value.map((each) => number(each as number)).join('; ')})` : number(value as number);
@@ -161,10 +162,7 @@ function parameters(
     [w.length, length],
     [w.camera, `O = ${vector(info.camera.eye)} ${length}`],
     [w.direction, vector(info.camera.forward)],
-    [
-      w.screen,
-      `x: ${window.x.map(number).join(' … ')} ${screenUnit}; y: ${window.y.map(number).join(' … ')} ${screenUnit}`,
-    ],
+    [w.screen, `x: ${numbers(window.x, ' … ')} ${screenUnit}; y: ${numbers(window.y, ' … ')} ${screenUnit}`],
     [w.resolution, info.resolution.join(' × ')],
   ];
   for (const shape of info.shapes) {
