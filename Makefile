@@ -62,9 +62,13 @@ web/node_modules/.package-lock.json: web/package-lock.json
 	cd web && npm ci --silent --no-fund --no-audit
 	@touch $@
 
-# The tests of the page open a browser.
-test-app: app ## Test the app: its logic, and the page in a browser (needs Chromium)
-	cd web && npm run --silent check && npm run --silent test && npm run --silent e2e
+CHROMIUM := $(or $(ISOPHOTE_CHROMIUM),/usr/bin/chromium)
+
+test-app: app ## Check and test the app, with Chromium in a browser too
+	cd web && npm run --silent check && npm run --silent test
+	$(TESTED_BUILD)
+	@if [ -x "$(CHROMIUM)" ]; then cd web && ISOPHOTE="$(CURDIR)/$(TESTED)" npm run --silent e2e; \
+	else echo "no Chromium at $(CHROMIUM): the tests of the page in a browser are skipped"; fi
 
 bench-app: app ## Time the app in a browser: first visit, change to picture, kernel beside the native one
 	cd web && npx playwright test --config bench.config.ts
