@@ -50,5 +50,5 @@ export function folder(): string {
 /** What the command prints. */
 export function command(...options: string[]): string {
   if (!ISOPHOTE) throw new Error('build the command first: cargo build');
-  return execFileSync(ISOPHOTE, options, { encoding: 'utf8', maxBuffer: 1 << 28 });
+  return execFileSync(ISOPHOTE, options, { encoding: 'utf8', maxBuffer: 1 << 28, stdio: ['ignore', 'pipe', 'pipe'] });
 }
