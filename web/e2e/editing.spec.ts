@@ -17,7 +17,7 @@ test('a lamp is dragged on a plan, moved by keys, and put back by undo', async (
   await page.getByRole('combobox', { name: 'Examples' }).selectOption('course-sphere');
   await picture(page);
   const before = (await scene(page)).light[1]!.position;
-  const lamp = page.getByRole('slider', { name: /aside/ }).first();
+  const lamp = page.getByRole('slider', { name: 'light aside' }).first();
   const box = (await lamp.locator('circle').first().boundingBox())!;
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   await page.mouse.move(x, y);
