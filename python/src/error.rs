@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use isophote::render::RenderError;
-use isophote::scene::{Problem, ProblemKind, SceneError};
+use isophote::scene::{Problem, SceneError};
 use isophote_export::{ExportError, ReadError};
 use isophote_zarr::StoreError;
 use pyo3::call::PyCallArgs;
@@ -101,19 +101,7 @@ pub fn problems<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Vec<Boun
     let problem = |problem: &Problem| {
         let place = problem.place.as_ref().map(|place| (place.line, place.column, place.text.as_str()));
         let Problem { kind, path, message, help, .. } = problem;
-        class.call1((kind_name(*kind), path.as_str(), message.as_str(), help.as_deref(), place))
+        class.call1((kind.name(), path.as_str(), message.as_str(), help.as_deref(), place))
     };
     problems.iter().map(problem).collect()
-}
-
-fn kind_name(kind: ProblemKind) -> &'static str {
-    match kind {
-        ProblemKind::Unreadable => "unreadable",
-        ProblemKind::Syntax => "syntax",
-        ProblemKind::UnknownKey => "unknown-key",
-        ProblemKind::MissingKey => "missing-key",
-        ProblemKind::WrongType => "wrong-type",
-        ProblemKind::Value => "value",
-        ProblemKind::Warning => "warning",
-    }
 }

@@ -74,11 +74,10 @@ impl Core {
             "json" => Syntax::Json,
             other => return Err(Refusal(format!("no scene is written in {other}; allowed: toml, json")).into()),
         };
-        let problems = match Scene::from_text("", text, syntax) {
-            Ok(scene) => ProblemAnswer::all(scene.warnings()),
-            Err(error) => ProblemAnswer::all(&error.problems),
+        let (source, problems) = match Scene::from_text("", text, syntax) {
+            Ok(scene) => (scene.source().clone(), ProblemAnswer::all(scene.warnings())),
+            Err(error) => (SceneSource::readable_part(text, syntax), ProblemAnswer::all(&error.problems)),
         };
-        let source = SceneSource::readable_part(text, syntax);
         let scene = (source != SceneSource::default()).then_some(source);
         Ok(json(&ReadScene { scene, problems })?)
     }

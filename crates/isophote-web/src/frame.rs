@@ -12,7 +12,7 @@ use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::problem::{Refusal, json};
-use crate::request::{FrameHead, Levels, in_unit};
+use crate::request::{Edges, FrameHead, Levels, in_unit};
 
 /// Some rows of a map, or the whole of one.
 #[wasm_bindgen]
@@ -50,15 +50,9 @@ struct BandHead {
     height: u32,
     /// The size of the whole image.
     full: [u32; 2],
-    window: WindowAnswer,
+    window: Edges,
     coordinates: isophote::map::Coordinates,
     axes: [AxisAnswer; 2],
-}
-
-#[derive(Serialize)]
-struct WindowAnswer {
-    x: [f64; 2],
-    y: [f64; 2],
 }
 
 #[derive(Serialize)]
@@ -81,7 +75,7 @@ impl Band {
             width: region.size.width,
             height: region.size.height,
             full: [full.width, full.height],
-            window: WindowAnswer { x: window.x, y: window.y },
+            window: Edges { x: window.x, y: window.y },
             coordinates: window.coordinates,
             axes: axes.map(|axis| AxisAnswer { name: axis.name, title: axis.title, unit: axis.unit }),
         })?;

@@ -9,7 +9,7 @@ use isophote::units::Keyword;
 use isophote::vector::Vector;
 use serde::Serialize;
 
-use crate::request::in_unit;
+use crate::request::{Edges, in_unit};
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -20,7 +20,7 @@ pub struct SceneInfo {
     convention: ConventionInfo,
     units: Units,
     resolution: [u32; 2],
-    window: WindowInfo,
+    window: Edges,
     camera: CameraInfo,
     shapes: Vec<ShapeInfo>,
     lights: Vec<LightInfo>,
@@ -48,12 +48,6 @@ struct Units {
     intensity: &'static str,
     power: &'static str,
     radiance: &'static str,
-}
-
-#[derive(Serialize)]
-struct WindowInfo {
-    x: [f64; 2],
-    y: [f64; 2],
 }
 
 #[derive(Serialize)]
@@ -119,7 +113,7 @@ impl SceneInfo {
                 radiance: units.radiance_unit(),
             },
             resolution: [camera.resolution.width, camera.resolution.height],
-            window: WindowInfo { x: window.x, y: window.y },
+            window: Edges { x: window.x, y: window.y },
             camera: camera_info(prepared),
             shapes: shapes(prepared),
             lights: lights(prepared),

@@ -1,6 +1,6 @@
 //! Problems of scenes as data, and errors as texts.
 
-use isophote::scene::{Problem, ProblemKind};
+use isophote::scene::Problem;
 use serde::Serialize;
 
 /// A problem as the page takes it.
@@ -22,15 +22,7 @@ impl ProblemAnswer {
 
     fn new(problem: &Problem) -> Self {
         Self {
-            kind: match problem.kind {
-                ProblemKind::Unreadable => "unreadable",
-                ProblemKind::Syntax => "syntax",
-                ProblemKind::UnknownKey => "unknown-key",
-                ProblemKind::MissingKey => "missing-key",
-                ProblemKind::WrongType => "wrong-type",
-                ProblemKind::Value => "value",
-                ProblemKind::Warning => "warning",
-            },
+            kind: problem.kind.name(),
             path: problem.path.clone(),
             message: problem.message.clone(),
             help: problem.help.clone(),

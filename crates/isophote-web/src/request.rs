@@ -7,7 +7,7 @@ use isophote::units::{Keyword, LengthUnit};
 use isophote::vector::Vector;
 use isophote_export::colormap::Colormap;
 use isophote_export::png::Normalization;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::problem::Refusal;
 
@@ -109,13 +109,14 @@ pub struct FrameHead {
     pub unit: String,
     pub width: u32,
     pub height: u32,
-    pub window: WindowHead,
+    pub window: Edges,
     /// What the coordinates are, as `Frame` has it.
     pub coordinates: isophote::map::Coordinates,
 }
 
-#[derive(Deserialize)]
-pub struct WindowHead {
+/// Edges of a map, or of the picture.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+pub struct Edges {
     pub x: [f64; 2],
     pub y: [f64; 2],
 }

@@ -41,7 +41,7 @@ impl Geometry {
                 outline(rectangle.center(), &[right + up, up - right, -right - up, right - up]).collect()
             }
             Self::Disk(disk) => {
-                let [first, second] = across(disk.normal());
+                let [first, second] = disk.normal().perpendiculars();
                 ring(disk.center(), first * disk.size(), second * disk.size(), 0.0).collect()
             }
             Self::Cuboid(cuboid) => edges(cuboid.center(), cuboid.half_axes()),
@@ -62,7 +62,7 @@ fn of_sphere(sphere: &Sphere) -> CenterLine {
 
 /// The axis, and the rims of both ends.
 fn of_cone(ends: [Vector; 2], radii: [f64; 2]) -> Vec<CenterLine> {
-    let [first, second] = across((ends[1] - ends[0]).normalized());
+    let [first, second] = (ends[1] - ends[0]).normalized().perpendiculars();
     let middle = (ends[0] + ends[1]) * 0.5;
     let rims = ends
         .into_iter()
@@ -101,11 +101,4 @@ fn outline(middle: Vector, corners: &[Vector]) -> impl Iterator<Item = CenterLin
 /// An edge, just inside it.
 fn edge(middle: Vector, ends: [Vector; 2]) -> CenterLine {
     CenterLine { ends: ends.map(|end| middle + end * (1.0 - INSET)), radii: [0.0; 2] }
-}
-
-/// Two unit vectors at right angles to a unit vector and to each other.
-fn across(direction: Vector) -> [Vector; 2] {
-    let beside = if direction.x.abs() < 0.8 { Vector::new(1.0, 0.0, 0.0) } else { Vector::new(0.0, 1.0, 0.0) };
-    let first = direction.cross(beside).normalized();
-    [first, direction.cross(first)]
 }

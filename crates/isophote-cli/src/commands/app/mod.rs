@@ -14,7 +14,7 @@ use crate::failure::{self, Usage};
 use crate::{load, progress};
 
 /// The page, packed by gzip, if the app was built before this program was.
-pub const PAGE: Option<&[u8]> = include!(concat!(env!("OUT_DIR"), "/page.rs"));
+pub static PAGE: Option<&[u8]> = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
 /// Serves the page until Ctrl-C is pressed, or prints the end of a link.
 pub fn run(arguments: &AppArguments) -> Result<String> {

@@ -131,12 +131,17 @@ impl<'n> Narrow<'n> {
         Some((shadow, growth))
     }
 
-    /// Where what is sought appears at a point of a line.
-    fn place_at(&self, point: Vector, sought: Sought) -> Option<[f64; 2]> {
+    /// Where what is sought is seen for a point of a line, and how much larger it is than there.
+    fn seen_at(&self, point: Vector, sought: Sought) -> Option<(Vector, f64)> {
         match sought.emitter {
-            None => self.place_of(point),
-            Some(emitter) => self.place_of(self.shadow_of(point, sought.shape, emitter)?.0),
+            None => Some((point, 1.0)),
+            Some(emitter) => self.shadow_of(point, sought.shape, emitter),
         }
+    }
+
+    /// Where what is sought appears for a point of a line.
+    fn place_at(&self, point: Vector, sought: Sought) -> Option<[f64; 2]> {
+        self.place_of(self.seen_at(point, sought)?.0)
     }
 
     /// The emitters whose shadows are looked for.
@@ -225,17 +230,14 @@ impl Search<'_, '_> {
         let Part { line: CenterLine { ends, radii }, seen, depth } = part;
         let is_shadow = sought.emitter.is_some();
         let is_straight = self.narrow.is_straight && !is_shadow || depth >= NEARLY_STRAIGHT;
+        let (middle, radius) = ((ends[0] + ends[1]) * 0.5, 0.5 * (radii[0] + radii[1]));
         match seen {
             [Some(one), Some(other)] => {
                 if is_straight && self.narrow.is_outside([one, other]) {
                     return;
                 }
                 if (one[0] - other[0]).abs().max((one[1] - other[1]).abs()) <= STEP {
-                    let (middle, radius) = ((ends[0] + ends[1]) * 0.5, 0.5 * (radii[0] + radii[1]));
-                    match sought.emitter {
-                        None => self.look_at(middle, radius, sought.shape),
-                        Some(emitter) => self.look_at_shadow(middle, radius, sought.shape, emitter),
-                    }
+                    self.look_at(middle, radius, sought);
                     return;
                 }
             }
@@ -245,7 +247,6 @@ impl Search<'_, '_> {
         if depth == if is_shadow { DEEPEST_SHADOW } else { DEEPEST } {
             return;
         }
-        let (middle, radius) = ((ends[0] + ends[1]) * 0.5, 0.5 * (radii[0] + radii[1]));
         let (between, depth) = (self.narrow.place_at(middle, sought), depth + 1);
         let first = CenterLine { ends: [ends[0], middle], radii: [radii[0], radius] };
         let last = CenterLine { ends: [middle, ends[1]], radii: [radius, radii[1]] };
@@ -253,46 +254,35 @@ impl Search<'_, '_> {
         self.follow(Part { line: last, seen: [between, seen[1]], depth }, sought);
     }
 
-    /// Marks the pixels around a point of a shape, if the shape is narrow and visible there.
-    fn look_at(&mut self, point: Vector, radius: f64, shape: usize) {
+    /// Marks the pixels around what is sought for a point of a line, if it is narrow and visible there.
+    fn look_at(&mut self, point: Vector, radius: f64, sought: Sought) {
         let narrow = self.narrow;
-        let Some(screen) = narrow.scene.frame().project(point) else { return };
+        let Some((seen, growth)) = narrow.seen_at(point, sought) else { return };
+        let Some(screen) = narrow.scene.frame().project(seen) else { return };
         let place = narrow.scene.frame().column_and_row(screen);
-        let half_width = if radius > 0.0 { narrow.half_width(point, radius) } else { 0.0 };
+        let half_width = if radius > 0.0 { narrow.half_width(seen, growth * radius) } else { 0.0 };
         if half_width >= WIDE {
             return;
         }
         let first = &narrow.finders[0];
         // Beside the silhouette of a narrow shape a centre may see it, but in another light than most of it.
-        let is_missed = |(row, column): &(usize, usize)| radius > 0.0 || !first.is_seen_nearby(*row, *column, shape);
+        let is_missed = |(row, column): &(usize, usize)| {
+            radius > 0.0
+                || match sought.emitter {
+                    None => !first.is_seen_nearby(*row, *column, sought.shape),
+                    // The edges of a wide shadow are uncertain anyway.
+                    Some(_) => !first.is_uncertain(*row, *column),
+                }
+        };
         let mut missed = narrow.reached(place, half_width + 0.5 * STEP).filter(is_missed).peekable();
         if missed.peek().is_none() {
             return;
         }
         let position = ScreenPosition::Point { x: screen[0], y: screen[1] };
-        let Some(hit) = self.hits.trace(position).filter(|hit| hit.primitive.shape == shape) else { return };
-        self.mark(&hit, position, missed);
-    }
-
-    /// Marks the pixels around the shadow of a point, if the shadow is narrow and visible.
-    fn look_at_shadow(&mut self, point: Vector, radius: f64, shape: usize, emitter: usize) {
-        let narrow = self.narrow;
-        let Some((shadow, growth)) = narrow.shadow_of(point, shape, emitter) else { return };
-        let Some(screen) = narrow.scene.frame().project(shadow) else { return };
-        let place = narrow.scene.frame().column_and_row(screen);
-        let half_width = if radius > 0.0 { narrow.half_width(shadow, growth * radius) } else { 0.0 };
-        if half_width >= WIDE {
-            return;
-        }
-        // The edges of a wide shadow are uncertain anyway.
-        let first = &narrow.finders[0];
-        let is_missed = |(row, column): &(usize, usize)| radius > 0.0 || !first.is_uncertain(*row, *column);
-        let mut missed = narrow.reached(place, half_width + 0.5 * STEP).filter(is_missed).peekable();
-        if missed.peek().is_none() {
-            return;
-        }
-        let position = ScreenPosition::Point { x: screen[0], y: screen[1] };
-        let is_it = |hit: &Hit| (hit.point.position() - shadow).length() <= NEAR * (shadow - point).length();
+        let is_it = |hit: &Hit| match sought.emitter {
+            None => hit.primitive.shape == sought.shape,
+            Some(_) => (hit.point.position() - seen).length() <= NEAR * (seen - point).length(),
+        };
         let Some(hit) = self.hits.trace(position).filter(is_it) else { return };
         self.mark(&hit, position, missed);
     }
