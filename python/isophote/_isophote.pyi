@@ -13,6 +13,7 @@ __all__ = [
     "Map",
     "Scene",
     "__version__",
+    "app_page",
     "areas",
     "brightness",
     "center_on_screen",
