@@ -50,7 +50,6 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
     const frame = await engine.render(scene, channel, coarse ? 2 : 1);
     if (!frame) return;
     if (!coarse) lastFull = performance.now() - started;
-    session.frameTime = performance.now() - started;
     session.frame = frame;
     // For `make bench-app`, and for whoever looks into the browser's own tools.
     performance.measure('isophote: from change to map', { start: changedAt, end: performance.now() });
@@ -70,26 +69,14 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
 
   const sectioning = latest(
     async ({ scene, lines, channels }: { scene: SceneSource; lines: SectionRequest[]; channels: string[] }) => {
-      try {
-        session.sections = lines.length > 0 ? await engine.section(scene, lines, channels) : [];
-        session.sectionError = null;
-      } catch (error) {
-        if (!(error instanceof EngineError)) throw error;
-        session.sections = [];
-        session.sectionError = error.message;
-      }
+      const { answer, refusal } = await orRefusal(lines.length > 0 ? engine.section(scene, lines, channels) : []);
+      [session.sections, session.sectionError] = [answer ?? [], refusal];
     },
   );
 
   const explaining = latest(async ({ scene, request }: { scene: SceneSource; request: ProbeRequest }) => {
-    try {
-      session.explanation = await engine.explain(scene, request);
-      session.explanationError = null;
-    } catch (error) {
-      if (!(error instanceof EngineError)) throw error;
-      session.explanation = null;
-      session.explanationError = error.message;
-    }
+    const { answer, refusal } = await orRefusal(engine.explain(scene, request));
+    [session.explanation, session.explanationError] = [answer, refusal];
   });
 
   $effect(() => {
@@ -133,6 +120,16 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
       if (request) explaining.take({ scene, request });
     }
   });
+}
+
+/** An answer, or why the core gives none. */
+async function orRefusal<T>(asked: Promise<T> | T): Promise<{ answer: T | null; refusal: string | null }> {
+  try {
+    return { answer: await asked, refusal: null };
+  } catch (error) {
+    if (!(error instanceof EngineError)) throw error;
+    return { answer: null, refusal: error.message };
+  }
 }
 
 /** The probes of a scene as questions. */

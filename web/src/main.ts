@@ -6,7 +6,7 @@ import { loadCore } from './engine/module';
 import { startEngine } from './engine';
 import { firstScene } from './opening';
 import { SceneKeeper } from './scene/storage';
-import { text } from './text/index.svelte';
+import { reasonOf, text } from './text/index.svelte';
 
 const target = document.getElementById('app')!;
 
@@ -18,7 +18,7 @@ try {
   const page = mount(App, { target, props: { engine, opened, keeper } });
 } catch (error) {
   console.warn(error);
-  mount(Failed, { target, props: { reason: error instanceof Error ? error.message : String(error) } });
+  mount(Failed, { target, props: { reason: reasonOf(error) } });
 }
 
 if (!IS_ONE_FILE && 'serviceWorker' in navigator && import.meta.env.PROD && window.isSecureContext) {

@@ -3,9 +3,8 @@
 import type { Engine, Problem } from './engine/types';
 import type { SceneSource } from './scene/model';
 import type { Session } from './session.svelte';
-import { fill } from './export/report';
 import { isLink, jsonOfLink, linkOf, LinkError } from './scene/url';
-import { text } from './text/index.svelte';
+import { fill, text } from './text/index.svelte';
 
 /** The limit of the core for scene files, in bytes. */
 const LARGEST_FILE = 64 << 20;

@@ -49,8 +49,6 @@ export class Session {
   sectionError = $state<string | null>(null);
   explanation = $state.raw<Explanation | null>(null);
   explanationError = $state<string | null>(null);
-  /** How long the last map took, in ms. */
-  frameTime = $state(0);
 
   /** The channel that the picture shows. */
   channel = $state('brightness');

@@ -1,7 +1,7 @@
 /** The engine: the core in workers. The first worker answers questions, all of them render bands of rows. */
 
 import type { SceneSource } from '../scene/model';
-import type { BandAnswer, CoreModule } from './messages';
+import type { BandAnswer, CoreModule, Question } from './messages';
 import { CoreClient } from './pool';
 import type {
   Analysis,
@@ -109,14 +109,17 @@ class WorkerEngine implements Engine {
     return this.#answering.ask({ kind: 'areas', scene: this.#text(scene) });
   }
 
-  async surface(scene: SceneSource, request: SurfaceRequest, channel: string): Promise<Frame> {
-    const band: BandAnswer = await this.#answering.ask({ kind: 'surface', scene: this.#text(scene), request, channel });
-    return { ...band.head, values: band.values, shapes: band.shapes, step: 1 };
+  map(scene: SceneSource, channel: string): Promise<Frame> {
+    const count = scene.camera.resolution?.[1] ?? 0;
+    return this.#whole({ kind: 'render', scene: this.#text(scene), channel, first: 0, count, step: 1 });
   }
 
-  async grid(scene: SceneSource, grid: string, channel: string): Promise<Frame> {
-    const band: BandAnswer = await this.#answering.ask({ kind: 'grid', scene: this.#text(scene), grid, channel });
-    return { ...band.head, values: band.values, shapes: band.shapes, step: 1 };
+  surface(scene: SceneSource, request: SurfaceRequest, channel: string): Promise<Frame> {
+    return this.#whole({ kind: 'surface', scene: this.#text(scene), request, channel });
+  }
+
+  grid(scene: SceneSource, grid: string, channel: string): Promise<Frame> {
+    return this.#whole({ kind: 'grid', scene: this.#text(scene), grid, channel });
   }
 
   colormap(name: Colormap): Promise<Uint8Array> {
@@ -125,6 +128,12 @@ class WorkerEngine implements Engine {
 
   export(scene: SceneSource, request: ExportRequest): Promise<Uint8Array> {
     return this.#answering.ask({ kind: 'export', scene: this.#text(scene), request });
+  }
+
+  /** A map that is one band. */
+  async #whole(question: Question): Promise<Frame> {
+    const { head, values, shapes } = await this.#answering.ask<BandAnswer>(question);
+    return { ...head, values, shapes, step: 1 };
   }
 
   /** A scene as JSON, made once. */

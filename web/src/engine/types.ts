@@ -306,7 +306,9 @@ export interface Engine {
   check(scene: SceneSource): Promise<Checked>;
   /** A map; null where a later call of `render` made it pointless. `step` 2 renders every second pixel. */
   render(scene: SceneSource, channel: string, step?: 1 | 2): Promise<Frame | null>;
-  /** Statistics and isophotes of a frame that `render`, `surface` or `grid` gave; about so many levels, or given ones. */
+  /** A whole map that nothing makes pointless, and that makes no other one so: it takes longer. */
+  map(scene: SceneSource, channel: string): Promise<Frame>;
+  /** Statistics and isophotes of a frame that `render`, `map`, `surface` or `grid` gave; about so many levels, or given ones. */
   analyse(scene: SceneSource, frame: Frame, isophotes: number | number[]): Promise<Analysis>;
   probe(scene: SceneSource, requests: ProbeRequest[]): Promise<Probed[]>;
   explain(scene: SceneSource, request: ProbeRequest): Promise<Explanation>;

@@ -4,7 +4,7 @@
 import type { Engine, ExportRequest, SceneInfo, SectionRequest, Vec3 } from '../engine/types';
 import type { SceneSource } from '../scene/model';
 import { probesOf } from '../computing.svelte';
-import { format, type Words } from '../text/index.svelte';
+import { fill, format, type Words } from '../text/index.svelte';
 
 export interface Author {
   title: string;
@@ -51,8 +51,7 @@ export async function makeReport({ engine, scene, info, author, sections, isopho
   const style = { colormap: 'gray', range: null, normalization: 'max', isophotes } as const;
   const unit = info.units.brightness;
 
-  const frame = await engine.render(scene, 'brightness');
-  const statistics = frame && (await engine.analyse(scene, frame, 0)).statistics;
+  const { statistics } = await engine.analyse(scene, await engine.map(scene, 'brightness'), 0);
   const probed = await engine.probe(scene, probesOf(scene));
   const areas = scene.area?.length ? await engine.areas(scene) : [];
 
@@ -80,7 +79,7 @@ export async function makeReport({ engine, scene, info, author, sections, isopho
 
   heading(w.picture);
   await image({ kind: 'figure-png', channel: 'brightness', style, marks: true }, info.title);
-  if (statistics?.max && statistics.min) {
+  if (statistics.max && statistics.min) {
     const range = { min: number(statistics.min.value), max: number(statistics.max.value), unit };
     paragraph(fill(w.pictureText, range));
     heading(w.extremes);
@@ -200,11 +199,6 @@ function described(shape: Record<string, unknown>, number: (value: number) => st
     if (Array.isArray(value)) parts.push(`${key} = (${value.map((each) => number(each as number)).join('; ')})`);
   }
   return parts.join(', ');
-}
-
-/** A text with values in its {places}. */
-export function fill(text: string, values: Record<string, string>): string {
-  return text.replace(/\{(\w+)\}/g, (place, name: string) => values[name] ?? place);
 }
 
 /** Width and height, from a PNG's header. */

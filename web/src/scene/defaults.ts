@@ -70,42 +70,43 @@ export function addProbe(draft: SceneSource, info: SceneInfo | null, name: strin
   return append(draft, 'probe', probe);
 }
 
-/** Adds a circle of interest: on a flat shape if there is one, else about the middle of the screen. */
+/** Adds a circle of interest: in the middle of a flat shape if there is one, else of the screen. */
 export function addArea(draft: SceneSource, info: SceneInfo | null, name: string): string {
   const flat = info?.shapes.find(({ kind }) => kind === 'plane' || kind === 'rectangle' || kind === 'disk');
-  const area: AreaSource = { name: uniqueName(namesBeside(draft, 'area'), name) };
-  if (flat) {
-    area.on = flat.name;
-    area.center = flat.center;
-    area.radius = tidySize(flat.bounds ? smallestSide(flat.bounds) / 4 : extentOf(draft, info).radius / 4);
-  } else {
-    const window: { x: Vec2; y: Vec2 } = info?.window ?? { x: [-1, 1], y: [-1, 1] };
-    const seen = info?.shapes.find(({ onScreen }) => onScreen)?.onScreen;
-    area.at = seen ?? [(window.x[0] + window.x[1]) / 2, (window.y[0] + window.y[1]) / 2];
-    area.radius = tidySize(Math.min(window.x[1] - window.x[0], window.y[1] - window.y[0]) / 20);
-  }
+  const { x, y }: { x: Vec2; y: Vec2 } = info?.window ?? { x: [-1, 1], y: [-1, 1] };
+  const radius = rounded(Math.min(Math.abs(x[1] - x[0]), Math.abs(y[1] - y[0])) / 8, 1);
+  const place = flat ? { on: flat.name, center: flat.center } : { at: [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2] as Vec2 };
+  const area: AreaSource = { name: uniqueName(namesBeside(draft, 'area'), name), ...place, radius };
   return append(draft, 'area', area);
 }
 
-function smallestSide({ low, high }: { low: Vec3; high: Vec3 }): number {
-  return Math.min(...subtract(high, low).filter((side) => side > 0));
-}
+/** Edges whose u × v points along the positive axis that a grid is across: that side is lit. */
+const EDGES: readonly [Vec3, Vec3][] = [
+  [
+    [0, 1, 0],
+    [0, 0, 1],
+  ],
+  [
+    [0, 0, 1],
+    [1, 0, 0],
+  ],
+  [
+    [1, 0, 0],
+    [0, 1, 0],
+  ],
+];
 
-/** Adds a level grid of points under the shapes, or through the middle of a scene without any. */
-export function addGrid(draft: SceneSource, info: SceneInfo | null, name: string): string {
-  const extent = extentOf(draft, info);
-  const side = tidySize(3 * extent.radius);
-  const up = info?.camera.up ?? [0, 1, 0];
-  const normal = mainAxis(up);
-  const u: Vec3 = normal[0] === 0 ? [side, 0, 0] : [0, side, 0];
-  const v = cross(normal, scale(u, 1 / side)).map((part) => part * side + 0) as Vec3;
-  const grid: GridSource = {
-    name: uniqueName(namesBeside(draft, 'grid'), name),
-    center: below(extent, up, extent.radius),
-    u,
-    v,
-    points: [30, 30],
-  };
+/** Points along each edge of a new grid. */
+const POINTS = 200;
+
+/** Adds a grid across an axis (0 for x), below the shapes along it, and four times as wide as they are. */
+export function addGrid(draft: SceneSource, info: SceneInfo | null, name: string, axis = 1): string {
+  const { center, radius } = extentOf(draft, info);
+  const side = rounded(4 * radius, 2);
+  const [u, v] = EDGES[axis]!.map((direction) => scale(direction, side)) as [Vec3, Vec3];
+  const middle = center.map((part, index) => rounded(index === axis ? part - radius : part, 4)) as Vec3;
+  const names = namesBeside(draft, 'grid');
+  const grid: GridSource = { name: uniqueName(names, name), center: middle, u, v, points: [POINTS, POINTS] };
   return append(draft, 'grid', grid);
 }
 
@@ -142,10 +143,6 @@ function mainAxis(direction: Vec3, but?: Vec3): Vec3 {
 function roundedAxis(draft: SceneSource, info: SceneInfo | null, center: Vec3): Vec3 {
   const eye = info?.camera.eye ?? draft.camera.eye ?? [0, 0, 1];
   return mainAxis(unit(subtract(eye, center)) ?? [0, 0, 1]);
-}
-
-function cross([ax, ay, az]: Vec3, [bx, by, bz]: Vec3): Vec3 {
-  return [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
 }
 
 /** A size with two significant digits. */

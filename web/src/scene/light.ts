@@ -2,7 +2,7 @@
 
 import type { Vec3 } from '../engine/types';
 import type { Amount, LightSource } from './model';
-import { anglesOf, directionOf, length, scale, subtract, unit } from './vector';
+import { anglesOf, directionOf, scale, subtract, unit } from './vector';
 
 export type Emission = NonNullable<LightSource['emission']>;
 export const EMISSIONS: readonly Emission[] = ['isotropic', 'lambertian', 'spot', 'parallel'];
@@ -134,9 +134,4 @@ export function setStrength(light: LightSource, strength: 'intensity' | 'power')
 function times(amount: Amount, factor: number): Amount {
   const one = (value: number): number => Number((value * factor).toPrecision(15));
   return typeof amount === 'number' ? one(amount) : (amount.map(one) as Vec3);
-}
-
-/** How far a light is from a point; null for a parallel one. */
-export function distanceTo(light: LightSource, point: Vec3): number | null {
-  return light.position ? length(subtract(point, light.position)) : null;
 }

@@ -79,4 +79,14 @@ export function parseNumber(typed: string): number | null {
   return Number(plain);
 }
 
+/** A text with values in its {places}. */
+export function fill(template: string, values: Record<string, string>): string {
+  return template.replace(/\{(\w+)\}/g, (place, name: string) => values[name] ?? place);
+}
+
+/** What an error says. */
+export function reasonOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
 export const text = new Text();

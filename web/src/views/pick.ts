@@ -1,7 +1,8 @@
 /** What a click on the picture does. */
 
 import type { Vec2 } from '../engine/types';
-import { append, namesBeside } from '../scene/edit';
+import { addProbe } from '../scene/defaults';
+import { namesBeside } from '../scene/edit';
 import type { Session } from '../session.svelte';
 import { text } from '../text/index.svelte';
 
@@ -19,7 +20,7 @@ export async function pick(session: Session, mode: ClickMode, screen: Vec2): Pro
     session.tab = 'why';
   } else {
     session.store.edit((draft) => {
-      append(draft, 'probe', { name: newProbeName(session), at });
+      addProbe(draft, session.info, newProbeName(session), at);
     });
     session.tab = 'values';
   }
