@@ -59,7 +59,7 @@ app: check-wasm web/node_modules/.package-lock.json ## Build the app: web/dist/s
 
 web/node_modules/.package-lock.json: web/package-lock.json
 	@command -v npm >/dev/null || { echo "Node is missing: install version 20 or later, with npm, by your system's package manager"; exit 1; }
-	cd web && npm ci --silent --no-fund --no-audit
+	cd web && npm ci --loglevel error --no-fund --no-audit
 	@touch $@
 
 CHROMIUM := $(or $(ISOPHOTE_CHROMIUM),/usr/bin/chromium)
