@@ -33,6 +33,19 @@ impl PreparedScene {
         hit.filter(|hit| doubtful_from.is_none_or(|from| hit.distance < from)).map(|hit| Hit::of(primitive, hit))
     }
 
+    /// Where the ray through a screen position hits a primitive, with 32 digits.
+    pub(crate) fn precise_hit_on(&self, primitive: Primitive, position: ScreenPosition) -> Option<Hit> {
+        let geometry = &self.shapes[primitive.shape].geometry;
+        let ray = self.precise_frame.ray(position)?;
+        let hit = geometry.intersect(primitive.part, &ray, Accuracy::OF_VISIBILITY).hit?;
+        Some(Hit::of(primitive, hit).rounded())
+    }
+
+    /// Whether a primitive has a highlight that is sharper than this.
+    pub(crate) fn has_sharper_highlight(&self, primitive: Primitive, shininess: f64) -> bool {
+        self.prepared_formula(primitive).formula.sharpness().is_some_and(|n| n > shininess)
+    }
+
     /// What a pixel of the full image sees.
     #[must_use]
     pub fn trace_pixel(&self, pixel: Pixel) -> Option<Hit> {

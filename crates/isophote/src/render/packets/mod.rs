@@ -9,12 +9,14 @@
 mod blocked;
 mod candidates;
 mod nearest;
+mod points;
 mod rays;
 mod shading;
 mod triangle;
 
 use self::blocked::Blocked;
 use self::nearest::{Nearest, Seen};
+use self::points::{Combine, FindPoints, Points, PreciseRays};
 use self::rays::{OCTET, RAYS, RayPacket};
 use self::shading::Shader;
 use crate::accelerate::Walk;
@@ -27,6 +29,7 @@ use crate::render::band::{self, Band, Tile};
 use crate::render::hits::HitBlock;
 use crate::render::shading::emitters::Lighting;
 use crate::render::{Observer, RenderError};
+use crate::shape::Primitive;
 
 /// Columns and rows of a tile.
 pub const SIDE: u32 = 8;
@@ -54,6 +57,9 @@ pub fn supports(scene: &PreparedScene) -> bool {
 
 const MOST_LIGHTS: usize = 8192;
 
+/// A sharper highlight would show that normals in lanes are rounded more than once.
+const SHARPEST: f64 = 1000.0;
+
 /// What each ray of a tile hits.
 type Hits = [Option<Hit>; RAYS];
 
@@ -63,7 +69,9 @@ impl<'a> Packets<'a> {
         let mut work = Work {
             packets: *self,
             packet: RayPacket::new(),
-            nearest: Nearest::new(self.scene),
+            precise: PreciseRays::new(),
+            nearest: Nearest::new(),
+            points: Points::new(),
             walk: Walk::default(),
             hits: Box::new([None; RAYS]),
             shader: Shader::new(self),
@@ -83,7 +91,10 @@ impl<'a> Packets<'a> {
 struct Work<'a> {
     packets: Packets<'a>,
     packet: Box<RayPacket>,
-    nearest: Box<Nearest<'a>>,
+    /// The same rays with 32 digits.
+    precise: Box<PreciseRays>,
+    nearest: Box<Nearest>,
+    points: Box<Points>,
     walk: Walk,
     hits: Box<Hits>,
     shader: Shader<'a>,
@@ -96,13 +107,13 @@ struct Work<'a> {
 impl Work<'_> {
     fn tile(&mut self, tile: Tile, band: &mut Band<'_>) -> Result<(), RenderError> {
         let scene = self.packets.scene;
-        self.aim(tile);
+        let is_precise = self.aim(tile);
         if self.packet.in_use == 0 {
             return Ok(());
         }
         let Self { packets: Packets { instructions, .. }, packet, nearest, walk, .. } = self;
         instructions.run(FindNearest { scene, packet, walk, nearest });
-        let mut doubtful = self.find_points();
+        let mut doubtful = self.find_points(tile, is_precise);
         doubtful |= self.clear_offsets();
         for ray in set_bits(doubtful) {
             let pixel = pixel_of(tile, ray);
@@ -124,45 +135,79 @@ impl Work<'_> {
         self.shader.shade(&self.hits, tile, &mut self.packet, &mut self.walk, band)
     }
 
-    /// Sets the rays of a tile.
-    fn aim(&mut self, tile: Tile) {
-        let frame = self.packets.scene.frame();
-        let mut rays: [Option<Ray>; RAYS] = [None; RAYS];
-        let mut in_use = 0;
-        for (index, ray) in rays.iter_mut().enumerate() {
+    /// Sets the rays of a tile; returns whether they are known with 32 digits.
+    fn aim(&mut self, tile: Tile) -> bool {
+        let Self { packets: Packets { scene, instructions, .. }, packet, precise, nearest, .. } = self;
+        let is_in_tile = |index: usize| {
             let (column, row) = place_of(index);
-            if column < tile.width && row < tile.height {
-                *ray = frame.ray(ScreenPosition::PixelCenter(pixel_of(tile, index)));
-                in_use |= u64::from(ray.is_some()) << index;
-            }
+            column < tile.width && row < tile.height
+        };
+        let is_precise = precise.aim(scene, &std::array::from_fn(|index| pixel_of(tile, index)));
+        if is_precise {
+            instructions.run(Combine { rays: precise });
         }
-        let packet = &mut *self.packet;
-        packet.in_use = in_use;
+        let ray = |index: usize| {
+            if is_precise {
+                Some(precise.ray(index))
+            } else {
+                scene.frame().ray(ScreenPosition::PixelCenter(pixel_of(tile, index)))
+            }
+        };
+        let rays: [Option<Ray>; RAYS] = std::array::from_fn(|index| if is_in_tile(index) { ray(index) } else { None });
+        packet.in_use = bits(rays.iter().map(Option::is_some));
         packet.range = [0.0, f64::INFINITY];
-        let Some(first) = rays.iter().flatten().next().copied() else { return };
+        let Some(first) = rays.iter().flatten().next().copied() else { return is_precise };
         packet.origin = first.anchor;
         for (index, ray) in rays.iter().enumerate() {
             if let Some(ray) = ray {
                 packet.set(index, ray.start_from(first.anchor), ray.direction);
             }
         }
-        self.nearest.start(in_use, rays.iter().map(|ray| ray.unwrap_or(first)));
+        nearest.start(packet.in_use, rays.iter().map(|ray| ray.unwrap_or(first)));
+        is_precise
     }
 
     /// The points that the rays hit; returns the rays for which a double is not enough, as bits.
-    fn find_points(&mut self) -> u64 {
-        let Self { packets: Packets { scene, .. }, packet, nearest, hits, .. } = self;
+    fn find_points(&mut self, tile: Tile, is_precise: bool) -> u64 {
+        let Self { packets: Packets { scene, instructions, .. }, packet, precise, nearest, points, hits, .. } = self;
         let mut doubtful = 0;
+        let mut left = 0_u64;
+        let mut primitives = [Primitive { shape: 0, part: 0 }; RAYS];
         hits.fill(None);
         for index in set_bits(packet.in_use) {
             match nearest.seen(index) {
                 Seen::Nothing => {}
-                Seen::Hit(hit) => hits[index] = Some(hit),
                 Seen::Doubtful => doubtful |= 1 << index,
-                Seen::Primitive(number) => match scene.hit_on(scene.primitive(number), nearest.ray(index)) {
-                    Some(hit) => hits[index] = Some(hit),
-                    None => doubtful |= 1 << index,
-                },
+                Seen::Primitive(number) => {
+                    primitives[index] = scene.primitive(number);
+                    left |= 1 << index;
+                }
+            }
+        }
+        points.clear();
+        while left != 0 {
+            let Primitive { shape, .. } = primitives[left.trailing_zeros() as usize];
+            let on_shape = set_bits(left).filter(|ray| primitives[*ray].shape == shape);
+            let on_shape = on_shape.fold(0, |bits, ray| bits | 1 << ray);
+            left &= !on_shape;
+            let geometry = scene.geometry(shape);
+            let in_lanes = is_precise
+                && points::finds_points(geometry)
+                && !scene.has_sharper_highlight(primitives[on_shape.trailing_zeros() as usize], SHARPEST);
+            if in_lanes {
+                let parts = primitives.map(|primitive| primitive.part);
+                instructions.run(FindPoints { rays: precise, on_shape, geometry, parts: &parts, points });
+            }
+            for index in set_bits(on_shape) {
+                let primitive = primitives[index];
+                hits[index] = if in_lanes {
+                    points.hit(index, primitive, points::anchor_of(geometry, primitive.part), precise)
+                } else {
+                    let position = ScreenPosition::PixelCenter(pixel_of(tile, index));
+                    let hit = scene.hit_on(primitive, nearest.ray(index));
+                    hit.or_else(|| scene.precise_hit_on(primitive, position))
+                };
+                doubtful |= u64::from(hits[index].is_none()) << index;
             }
         }
         doubtful
@@ -206,14 +251,14 @@ impl Work<'_> {
 }
 
 /// Finds what the rays of a packet hit first.
-struct FindNearest<'f, 's> {
-    scene: &'s PreparedScene,
+struct FindNearest<'f> {
+    scene: &'f PreparedScene,
     packet: &'f mut RayPacket,
     walk: &'f mut Walk,
-    nearest: &'f mut Nearest<'s>,
+    nearest: &'f mut Nearest,
 }
 
-impl LaneJob for FindNearest<'_, '_> {
+impl LaneJob for FindNearest<'_> {
     type Output = ();
 
     #[inline(always)]

@@ -4,13 +4,12 @@ use super::candidates::{Candidate, Search};
 use super::rays::{OCTET, RAYS, RayPacket};
 use super::triangle::{Met, PacketTriangle};
 use crate::lanes::Lane;
-use crate::prepare::{ERROR_OF_DISTANCE, Hit, PreparedScene};
+use crate::prepare::ERROR_OF_DISTANCE;
 use crate::ray::Ray;
-use crate::shape::Geometry;
+use crate::shape::{Accuracy, Geometry};
 
 /// The nearest hits so far.
-pub struct Nearest<'s> {
-    scene: &'s PreparedScene,
+pub struct Nearest {
     /// The rays that are still in use.
     in_use: u64,
     /// t of the nearest hit, its possible error, and the number of the primitive, −1 for none.
@@ -21,8 +20,6 @@ pub struct Nearest<'s> {
     doubtful_from: [f64; RAYS],
     /// The rays themselves.
     rays: Vec<Ray>,
-    /// The hits, where they are on other primitives than triangles.
-    hits: Vec<Option<Hit>>,
     /// The largest distance of a ray, unless it has to be found again.
     farthest: Option<f64>,
 }
@@ -31,27 +28,23 @@ pub struct Nearest<'s> {
 pub enum Seen {
     /// Nothing.
     Nothing,
-    /// A primitive, by its number; the point is still to be computed.
+    /// A primitive, by its number.
     Primitive(u32),
-    /// A point.
-    Hit(Hit),
     /// It takes more than a double to tell.
     Doubtful,
 }
 
-impl<'s> Nearest<'s> {
+impl Nearest {
     /// Nothing found yet.
     #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
-    pub fn new(scene: &'s PreparedScene) -> Box<Self> {
+    pub fn new() -> Box<Self> {
         Box::new(Self {
-            scene,
             in_use: 0,
             distance: [0.0; RAYS],
             error: [0.0; RAYS],
             number: [0.0; RAYS],
             doubtful_from: [0.0; RAYS],
             rays: Vec::with_capacity(RAYS),
-            hits: vec![None; RAYS],
             farthest: None,
         })
     }
@@ -65,7 +58,6 @@ impl<'s> Nearest<'s> {
         self.error.fill(0.0);
         self.number.fill(-1.0);
         self.doubtful_from.fill(f64::INFINITY);
-        self.hits.fill(None);
         self.farthest = None;
     }
 
@@ -84,11 +76,7 @@ impl<'s> Nearest<'s> {
         if self.number[ray] < 0.0 {
             return Seen::Nothing;
         }
-        let number = self.number[ray] as u32;
-        match self.hits[ray] {
-            Some(hit) if hit.primitive == self.scene.primitive(number) => Seen::Hit(hit),
-            _ => Seen::Primitive(number),
-        }
+        Seen::Primitive(self.number[ray] as u32)
     }
 
     fn doubt(&mut self, ray: usize, from: f64) {
@@ -151,7 +139,7 @@ impl<'s> Nearest<'s> {
     }
 }
 
-impl Search for Nearest<'_> {
+impl Search for Nearest {
     #[inline(always)]
     fn test_triangle<V: Lane<Element = f64>>(&mut self, token: V::Token, packet: &RayPacket, found: &Candidate<'_>) {
         let Geometry::Mesh(mesh) = found.geometry else { return };
@@ -168,11 +156,11 @@ impl Search for Nearest<'_> {
 
     #[inline(never)]
     fn test_rays(&mut self, found: &Candidate<'_>, mut rays: u64) {
-        let accuracy = self.scene.accuracy(found.primitive);
         while rays != 0 {
             let index = rays.trailing_zeros() as usize;
             rays &= rays - 1;
-            let intersection = found.geometry.intersect(found.primitive.part, &self.rays[index], accuracy);
+            let intersection =
+                found.geometry.intersect(found.primitive.part, &self.rays[index], Accuracy::OF_VISIBILITY);
             if let Some(from) = intersection.doubtful_from {
                 self.doubt(index, from);
             }
@@ -185,7 +173,6 @@ impl Search for Nearest<'_> {
             if t < before {
                 (self.distance[index], self.error[index]) = (t, 0.0);
                 self.number[index] = f64::from(found.number);
-                self.hits[index] = Some(Hit::of(found.primitive, hit));
                 self.farthest = None;
             }
         }

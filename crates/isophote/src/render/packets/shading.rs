@@ -145,8 +145,8 @@ impl<'a> Shader<'a> {
             };
             let mut maybe = 0;
             if in_use != 0 {
-                let ray = |index: usize| -> Option<(Ray, Option<f64>)> {
-                    let hit = hits[index].as_ref()?;
+                let ray = |ray: usize| -> Option<(Ray, Option<f64>)> {
+                    let hit = hits[ray].as_ref()?;
                     scene.shadow_ray(&hit.point, hit.shadow_ray_offset, index)
                 };
                 packet.in_use = in_use;

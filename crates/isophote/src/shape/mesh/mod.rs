@@ -35,6 +35,12 @@ impl Mesh {
         self.triangle(part).intersect(ray, accuracy, self.size())
     }
 
+    /// The corners of one of its triangles, in metres, and the normals there, if it has any: unit vectors, or zero.
+    pub(crate) fn corners_and_normals(&self, part: u32) -> ([Vector; 3], Option<[Vector; 3]>) {
+        let Triangle { corners, normals } = self.triangle(part);
+        (corners, normals)
+    }
+
     fn triangle(&self, part: u32) -> Triangle {
         let (corners, part) = (self.corners(part), part as usize);
         let vector = |list: &[[f64; 3]], index: u32| Vector::from(list[index as usize]);
