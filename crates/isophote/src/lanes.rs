@@ -274,6 +274,23 @@ impl Instructions {
     pub fn run<J: LaneJob>(self, job: J) -> J::Output {
         job.run_by(self)
     }
+
+    /// Whether [`run_wide`](Self::run_wide) knows this instruction set.
+    #[must_use]
+    pub fn are_wide(self) -> bool {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        return self.fuse();
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        true
+    }
+
+    /// Runs a job that is not compiled for machines from before 2013, of the kind that has SSE2 alone.
+    ///
+    /// # Panics
+    /// On such a machine.
+    pub fn run_wide<J: LaneJob>(self, job: J) -> J::Output {
+        job.run_wide_by(self)
+    }
 }
 
 /// A level that kernels are compiled for.
@@ -303,18 +320,30 @@ pub trait LaneJob {
     where
         Self: Sized,
     {
-        let level = instructions.0;
         // Not the crate's `dispatch!`, which would also compile a kernel for SSE4.2 unless build flags set outside the
         // source say otherwise. Machines between SSE2 and AVX2 (2008 to 2013) use the SSE2 kernels.
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        if !instructions.are_wide()
+            && let Some(token) = instructions.0.as_sse2()
+        {
+            return run_with(token, self);
+        }
+        self.run_wide_by(instructions)
+    }
+
+    /// See [`Instructions::run_wide`].
+    #[inline(never)]
+    fn run_wide_by(self, instructions: Instructions) -> Self::Output
+    where
+        Self: Sized,
+    {
+        let level = instructions.0;
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         {
             if let Some(token) = level.as_avx512() {
                 return run_with(token, self);
             }
             if let Some(token) = level.as_avx2() {
-                return run_with(token, self);
-            }
-            if let Some(token) = level.as_sse2() {
                 return run_with(token, self);
             }
         }

@@ -181,3 +181,48 @@ fn what_has_no_end_is_always_found() {
     assert_eq!(found(&tree, past, Vector::new(0.0, 0.0, 1.0), 1.0), [0, 2]);
     assert_eq!(found(&tree, Vector::new(0.5, 0.5, -1.0), Vector::new(0.0, 0.0, 1.0), 1.0), [0, 1, 2]);
 }
+
+/// A box given by its middle and half its sides.
+fn around(middle: Vector, half: Vector) -> Bounds {
+    Bounds { least: middle - half, greatest: middle + half }
+}
+
+fn found_in_shaft(tree: &Accelerator, starts: &Bounds, ends: &Bounds) -> Vec<u32> {
+    let Some(shaft) = tree.shaft(starts, ends) else { return Vec::new() };
+    let mut walk = Walk::default();
+    walk.start(tree);
+    std::iter::from_fn(|| walk.next_with(tree.instructions, tree, &shaft, shaft.depth_of(1.0))).collect()
+}
+
+proptest! {
+    /// Segments between any points of two boxes, near the scene or far away, at any scale: whatever they pass through is found.
+    #[test]
+    fn a_shaft_misses_nothing_between_its_ends(
+        boxes in boxes(1),
+        (from, to) in (vector(6.0), vector(6.0)),
+        (half, other_half) in (vector(0.4), vector(0.4)),
+        away in prop_oneof![Just(0.0), Just(1.0), Just(1e6)],
+        size in prop_oneof![Just(1e-3), Just(1.0), Just(1e3)],
+        corners in prop::collection::vec(([0.0..=1.0_f64, 0.0..=1.0, 0.0..=1.0], [0.0..=1.0_f64, 0.0..=1.0, 0.0..=1.0]), 8),
+    ) {
+        let place = Vector::new(3.0, -2.0, 1.0) * away;
+        let moved = moved(&boxes, size, place);
+        let tree = tree_over(&moved);
+        let end = |middle: Vector, half: Vector| around(middle * size + place, half.map(f64::abs) * size);
+        let (starts, ends) = (end(from, half), end(to, other_half));
+        let found = found_in_shaft(&tree, &starts, &ends);
+        let within = |bounds: &Bounds, part: [f64; 3]| {
+            let side = bounds.greatest - bounds.least;
+            bounds.least + Vector::new(side.x * part[0], side.y * part[1], side.z * part[2])
+        };
+        for (first, last) in corners {
+            let (start, end) = (within(&starts, first), within(&ends, last));
+            for (number, bounds) in moved.iter().enumerate() {
+                let Some(bounds) = bounds else { continue };
+                if enters(bounds, start, end - start).is_some_and(|at| at <= 1.0) {
+                    prop_assert!(found.iter().any(|one| *one as usize == number), "{start:?} {end:?} {bounds:?}");
+                }
+            }
+        }
+    }
+}

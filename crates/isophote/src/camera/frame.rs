@@ -141,22 +141,20 @@ impl CameraFrame<DoubleDouble> {
 }
 
 impl LinearRays<'_> {
-    /// What a column adds, counted from a first one.
-    pub fn of_column(&self, first: u32, index: usize) -> Vector<DoubleDouble> {
+    /// What a column adds.
+    pub fn of_column(&self, column: u32) -> Vector<DoubleDouble> {
         let [left, right] = self.frame.extent.x;
-        self.frame.right * self.at(left, right, first, index, 0, self.frame.resolution.width)
+        self.frame.right * self.at([left, right], column, 0, self.frame.resolution.width)
     }
 
-    /// What a row adds, counted from a first one, and what all rays have.
-    pub fn of_row(&self, first: u32, index: usize) -> Vector<DoubleDouble> {
+    /// What a row adds, and what all rays have.
+    pub fn of_row(&self, row: u32) -> Vector<DoubleDouble> {
         let [bottom, top] = self.frame.extent.y;
-        self.center + self.frame.up * self.at(top, bottom, first, index, 1, self.frame.resolution.height)
+        self.center + self.frame.up * self.at([top, bottom], row, 1, self.frame.resolution.height)
     }
 
-    fn at(&self, low: f64, high: f64, first: u32, index: usize, axis: usize, count: u32) -> DoubleDouble {
-        #[expect(clippy::cast_precision_loss, reason = "a few pixels")]
-        let pixel = f64::from(first) + index as f64;
-        between(low, high, pixel + (self.frame.place[axis] - 0.5), count)
+    fn at(&self, [first, last]: [f64; 2], pixel: u32, axis: usize, count: u32) -> DoubleDouble {
+        between(first, last, f64::from(pixel) + (self.frame.place[axis] - 0.5), count)
     }
 }
 

@@ -124,7 +124,7 @@ impl SimdRenderer {
                 let job = RowsJob { scene, band, candidates, lighting, asked_for, precision, observer };
                 self.instructions.run(job)
             }
-            None if packets::supports(scene) => {
+            None if packets::supports(scene, instructions) => {
                 Packets { scene, lighting, asked_for, instructions, observer }.fill(band)
             }
             None => rays::fill(&mut band, scene, asked_for, observer),

@@ -51,6 +51,16 @@ struct Found<T> {
 const NORMAL_ERROR: f64 = 0.2;
 
 impl Cone {
+    /// Its axes: the third runs from the base to the apex.
+    pub(crate) fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
+    /// R₀, k and h, in metres.
+    pub(crate) fn profile(&self) -> [DoubleDouble; 3] {
+        [DoubleDouble::from_f64(self.radii[0]), self.slope(), self.height]
+    }
+
     /// It in its own axes.
     pub(super) fn body(&self) -> Body {
         let [radius, _] = self.radii;

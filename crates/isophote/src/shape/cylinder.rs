@@ -13,6 +13,11 @@ pub struct Cylinder {
 }
 
 impl Cylinder {
+    /// The cone that it is.
+    pub(crate) fn as_cone(&self) -> &Cone {
+        &self.body
+    }
+
     /// It in its own axes.
     pub(super) fn body(&self) -> Body {
         self.body.body()

@@ -16,6 +16,16 @@ pub struct Ellipsoid {
 }
 
 impl Ellipsoid {
+    /// Its axes.
+    pub(crate) fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
+    /// a, b and c, in metres.
+    pub(crate) fn radii(&self) -> Vector {
+        self.radii
+    }
+
     /// It in its own axes.
     pub(super) fn body(&self) -> Body {
         Body::ball(self.placement.origin, self.placement.axes(), self.radii.to_array())

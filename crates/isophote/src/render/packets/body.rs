@@ -102,11 +102,12 @@ impl PacketBody {
         let passes = V::bits(enter[1].is_less(leave[0]));
         let may_pass = V::bits_not(leave[1].is_less(enter[0]));
         let (soonest, latest) = (V::splat(token, first + margin), V::splat(token, last - margin));
-        let within = |[low, high]: [V; 2]| V::bits(soonest.is_less(low)) & V::bits(high.is_less(latest));
-        let surely = passes & (within(enter) | within(leave));
+        let surely = passes & (within(enter, soonest, latest) | within(leave, soonest, latest));
         let (soonest, latest) = (V::splat(token, first - margin), V::splat(token, last + margin));
-        let near = |[low, high]: [V; 2]| V::bits_not(high.is_less(soonest)) & V::bits_not(latest.is_less(low));
-        Met { surely, maybe: may_pass & (near(enter) | near(leave)) & !surely }
+        Met {
+            surely,
+            maybe: may_pass & (may_be_within(enter, soonest, latest) | may_be_within(leave, soonest, latest)) & !surely,
+        }
     }
 
     #[inline(always)]
@@ -125,7 +126,12 @@ impl PacketBody {
                 let ends = self.slab(token, start.z, direction.z, [0.0, height]);
                 self.round(token, rays, [radius, slope, 0.0]).and(&ends)
             }
-            Form::Plane => self.flat(token, rays, |_, _| V::splat(token, NEVER)),
+            Form::Plane => self.flat(
+                token,
+                rays,
+                #[inline(always)]
+                |_, _| V::splat(token, NEVER),
+            ),
             Form::Rectangle([width, height]) => self.flat(
                 token,
                 rays,
@@ -192,13 +198,9 @@ impl PacketBody {
         let (slope_there, weight) = (V::splat(token, slope), V::splat(token, weight));
         let radius_there = slope_there.mul_add(start.z, V::splat(token, radius));
         let widening = slope_there * direction.z;
-        let product = |first: &Vector<V>, second: &Vector<V>| {
-            let flat = first.y.mul_add(second.y, first.x * second.x);
-            (weight * first.z).mul_add(second.z, flat)
-        };
-        let a = product(direction, direction) - widening * widening;
-        let b = product(start, direction) - widening * radius_there;
-        let c = product(start, start) - radius_there * radius_there;
+        let a = product(weight, direction, direction) - widening * widening;
+        let b = product(weight, start, direction) - widening * radius_there;
+        let c = product(weight, start, start) - radius_there * radius_there;
         let discriminant = b * b - a * c;
         let growth = 1.0 + slope * slope;
         let (square, along) = (direction.dot(*direction), start.dot(*start));
@@ -227,10 +229,10 @@ impl PacketBody {
         // Steep rays of a cone, and those along a cylinder, are left to others.
         let is_regular = (square * V::splat(token, 1e-4)).is_less(a);
         let misses = V::select(is_regular, V::select(discriminant.is_less(-lost), never, -never), -never);
-        let sure = |number: V, otherwise: V| V::select(is_regular, V::select(is_there, number, otherwise), otherwise);
+        let is_sure = both::<V>(is_regular, is_there, zero);
         Inside {
-            enter: [sure(near - spread, misses), sure(near + spread, never)],
-            leave: [sure(far - spread, -never), sure(far + spread, zero - misses)],
+            enter: [V::select(is_sure, near - spread, misses), V::select(is_sure, near + spread, never)],
+            leave: [V::select(is_sure, far - spread, -never), V::select(is_sure, far + spread, zero - misses)],
         }
     }
 
@@ -259,8 +261,8 @@ impl PacketBody {
         let is_steep = (length * V::splat(token, 1e-9)).is_less(size);
         let zero = V::splat(token, 0.0);
         let (soonest, latest) = (t - spread, t + spread);
-        let is_ahead = |yes: V, no: V| V::select(zero.is_less(soonest), yes, no);
-        let is_hit = |yes: V, no: V| V::select(is_steep, V::select(unsure.is_less(inside), is_ahead(yes, no), no), no);
+        let is_hit = both::<V>(is_steep, unsure.is_less(inside), zero);
+        let is_hit = both::<V>(is_hit, zero.is_less(soonest), zero);
         // Certainly beside it or behind the start; or seen edge-on, from outside its plane.
         let is_beside = V::select(inside.is_less(-unsure), never, V::select(latest.is_less(zero), never, -never));
         let is_above = V::select(V::splat(token, 4.0 * self.error).is_less(start.z.max(-start.z)), never, -never);
@@ -268,8 +270,8 @@ impl PacketBody {
         // There is nothing to leave.
         let endless = V::splat(token, f64::INFINITY);
         Inside {
-            enter: [is_hit(soonest, misses), is_hit(latest, never)],
-            leave: [is_hit(endless, -never), is_hit(endless, zero - misses)],
+            enter: [V::select(is_hit, soonest, misses), V::select(is_hit, latest, never)],
+            leave: [V::select(is_hit, endless, -never), V::select(is_hit, endless, zero - misses)],
         }
     }
 }
@@ -283,4 +285,29 @@ impl<V: Lane<Element = f64>> Inside<V> {
             leave: [self.leave[0].min(other.leave[0]), self.leave[1].min(other.leave[1])],
         }
     }
+}
+
+/// The lanes that both masks are set in; `zero` is in all lanes.
+#[inline(always)]
+fn both<V: Lane<Element = f64>>(first: V::Mask, second: V::Mask, zero: V) -> V::Mask {
+    zero.is_less(V::select(first, V::select(second, zero.splat_like(1.0), zero), zero))
+}
+
+/// The lanes in which a range is certainly between two numbers, as bits.
+#[inline(always)]
+fn within<V: Lane<Element = f64>>([low, high]: [V; 2], soonest: V, latest: V) -> u32 {
+    V::bits(soonest.is_less(low)) & V::bits(high.is_less(latest))
+}
+
+/// The lanes in which something of a range may be between two numbers, as bits.
+#[inline(always)]
+fn may_be_within<V: Lane<Element = f64>>([low, high]: [V; 2], soonest: V, latest: V) -> u32 {
+    V::bits_not(high.is_less(soonest)) & V::bits_not(latest.is_less(low))
+}
+
+/// x x' + y y' + w z z'.
+#[inline(always)]
+fn product<V: Lane<Element = f64>>(weight: V, first: &Vector<V>, second: &Vector<V>) -> V {
+    let flat = first.y.mul_add(second.y, first.x * second.x);
+    (weight * first.z).mul_add(second.z, flat)
 }

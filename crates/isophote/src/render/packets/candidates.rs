@@ -88,7 +88,10 @@ fn test<V: Lane<Element = f64>>(
         search.test_triangle::<V>(token, packet, &found);
         return;
     };
-    let rays = geometry.bounds(primitive.part).map_or(u64::MAX, |bounds| through::<V>(token, packet, &bounds));
+    let rays = match geometry.bounds(primitive.part) {
+        Some(bounds) => through::<V>(token, packet, &bounds),
+        None => u64::MAX,
+    };
     if rays & packet.in_use != 0 {
         search.test_body::<V>(token, packet, &found, &PacketBody::new(body, packet), rays & packet.in_use);
     }

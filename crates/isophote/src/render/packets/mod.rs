@@ -51,9 +51,9 @@ pub struct Packets<'a> {
 }
 
 /// Whether a scene is rendered by packets: the visibility of each light at each point of a tile is stored, so there must not
-/// be too many lights.
-pub fn supports(scene: &PreparedScene) -> bool {
-    scene.emitters().all().len() <= MOST_LIGHTS
+/// be too many lights. Machines without wide vectors gain little.
+pub fn supports(scene: &PreparedScene, instructions: Instructions) -> bool {
+    instructions.are_wide() && scene.emitters().all().len() <= MOST_LIGHTS
 }
 
 const MOST_LIGHTS: usize = 8192;
@@ -70,6 +70,7 @@ impl<'a> Packets<'a> {
         let mut work = Work {
             packets: *self,
             packet: RayPacket::new(),
+            is_precise: false,
             precise: PreciseRays::new(),
             nearest: Nearest::new(),
             points: Points::new(),
@@ -79,6 +80,7 @@ impl<'a> Packets<'a> {
             one_by_one: HitBlock::new(self.scene, self.asked_for),
             seen: vec![band::NOTHING; band.size.pixels()],
         };
+        work.is_precise = work.precise.begin(self.scene, &band);
         for tile in band.tiles(SIDE, SIDE) {
             work.tile(tile, &mut band)?;
             band::advance(self.observer, u64::from(tile.width) * u64::from(tile.height))?;
@@ -92,7 +94,8 @@ impl<'a> Packets<'a> {
 struct Work<'a> {
     packets: Packets<'a>,
     packet: Box<RayPacket>,
-    /// The same rays with 32 digits.
+    /// The same rays with 32 digits, if the camera has them.
+    is_precise: bool,
     precise: Box<PreciseRays>,
     nearest: Box<Nearest>,
     points: Box<Points>,
@@ -108,13 +111,13 @@ struct Work<'a> {
 impl Work<'_> {
     fn tile(&mut self, tile: Tile, band: &mut Band<'_>) -> Result<(), RenderError> {
         let scene = self.packets.scene;
-        let is_precise = self.aim(tile);
+        self.aim(tile);
         if self.packet.in_use == 0 {
             return Ok(());
         }
         let Self { packets: Packets { instructions, .. }, packet, nearest, walk, .. } = self;
-        instructions.run(FindNearest { scene, packet, walk, nearest });
-        let mut doubtful = self.find_points(tile, is_precise);
+        instructions.run_wide(FindNearest { scene, packet, walk, nearest });
+        let mut doubtful = self.find_points(tile);
         doubtful |= self.clear_offsets();
         for ray in set_bits(doubtful) {
             let pixel = pixel_of(tile, ray);
@@ -136,19 +139,19 @@ impl Work<'_> {
         self.shader.shade(&self.hits, tile, &mut self.packet, &mut self.walk, band)
     }
 
-    /// Sets the rays of a tile; returns whether they are known with 32 digits.
-    fn aim(&mut self, tile: Tile) -> bool {
-        let Self { packets: Packets { scene, instructions, .. }, packet, precise, nearest, .. } = self;
+    /// Sets the rays of a tile.
+    fn aim(&mut self, tile: Tile) {
+        let Self { packets: Packets { scene, instructions, .. }, packet, is_precise, precise, nearest, .. } = self;
         let is_in_tile = |index: usize| {
             let (column, row) = place_of(index);
             column < tile.width && row < tile.height
         };
-        let is_precise = precise.aim(scene, &std::array::from_fn(|index| pixel_of(tile, index)));
-        if is_precise {
-            instructions.run(Combine { rays: precise });
+        if *is_precise {
+            precise.aim(tile);
+            instructions.run_wide(Combine { rays: precise });
         }
         let ray = |index: usize| {
-            if is_precise {
+            if *is_precise {
                 Some(precise.ray(index))
             } else {
                 scene.frame().ray(ScreenPosition::PixelCenter(pixel_of(tile, index)))
@@ -157,7 +160,7 @@ impl Work<'_> {
         let rays: [Option<Ray>; RAYS] = std::array::from_fn(|index| if is_in_tile(index) { ray(index) } else { None });
         packet.in_use = bits(rays.iter().map(Option::is_some));
         packet.range = [0.0, f64::INFINITY];
-        let Some(first) = rays.iter().flatten().next().copied() else { return is_precise };
+        let Some(first) = rays.iter().flatten().next().copied() else { return };
         packet.origin = first.anchor;
         for (index, ray) in rays.iter().enumerate() {
             if let Some(ray) = ray {
@@ -165,12 +168,20 @@ impl Work<'_> {
             }
         }
         nearest.start(packet.in_use, rays.iter().map(|ray| ray.unwrap_or(first)));
-        is_precise
     }
 
     /// The points that the rays hit; returns the rays for which a double is not enough, as bits.
-    fn find_points(&mut self, tile: Tile, is_precise: bool) -> u64 {
-        let Self { packets: Packets { scene, instructions, .. }, packet, precise, nearest, points, hits, .. } = self;
+    fn find_points(&mut self, tile: Tile) -> u64 {
+        let Self {
+            packets: Packets { scene, instructions, .. },
+            packet,
+            is_precise,
+            precise,
+            nearest,
+            points,
+            hits,
+            ..
+        } = self;
         let mut doubtful = 0;
         let mut left = 0_u64;
         let mut primitives = [Primitive { shape: 0, part: 0 }; RAYS];
@@ -192,12 +203,11 @@ impl Work<'_> {
             let on_shape = on_shape.fold(0, |bits, ray| bits | 1 << ray);
             left &= !on_shape;
             let geometry = scene.geometry(shape);
-            let in_lanes = is_precise
-                && points::finds_points(geometry)
-                && !scene.has_sharper_highlight(primitives[on_shape.trailing_zeros() as usize], SHARPEST);
+            let in_lanes =
+                *is_precise && !scene.has_sharper_highlight(primitives[on_shape.trailing_zeros() as usize], SHARPEST);
             if in_lanes {
                 let parts = primitives.map(|primitive| primitive.part);
-                instructions.run(FindPoints { rays: precise, on_shape, geometry, parts: &parts, points });
+                instructions.run_wide(FindPoints { rays: precise, on_shape, geometry, parts: &parts, points });
             }
             for index in set_bits(on_shape) {
                 let primitive = primitives[index];
@@ -238,7 +248,7 @@ impl Work<'_> {
             Some((Ray { anchor: hit.point.anchor, offset: hit.point.offset, direction }, Some(length)))
         };
         let mut blocked = Blocked { scene, own: &own, ray: &ray, in_use, surely: 0, maybe: 0 };
-        instructions.run(FindBlocked { scene, packet, walk, blocked: &mut blocked });
+        instructions.run_wide(FindBlocked { scene, packet, walk, blocked: &mut blocked });
         let mut doubtful = 0;
         for index in set_bits(blocked.surely | blocked.maybe) {
             if let Some(hit) = &mut hits[index] {

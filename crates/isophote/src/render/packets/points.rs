@@ -1,17 +1,17 @@
 //! The points that rays hit, once it is known which primitive each of them hits.
 //!
-//! Where a ray meets a triangle, a flat shape or the face of a box is computed in lanes of 32 digits, so that the accuracy of a
-//! double, which the result has, is enough for any highlight that the kernel can shade.
+//! They are computed in lanes of 32 digits: the accuracy of a double, which the result has, is then enough for any highlight.
 
-use super::rays::{OCTET, RAYS, Vectors, get, load, put, store};
-use super::set_bits;
+use super::rays::{OCTET, RAYS, Vectors, get, load, put, splat, store};
+use super::{place_of, set_bits};
 use crate::double_double::DoubleDouble;
-use crate::lanes::{Lane, LaneJob};
+use crate::lanes::{Lane, LaneJob, SimdToken};
 use crate::map::Pixel;
 use crate::prepare::{Hit, PreparedScene};
 use crate::ray::Ray;
 use crate::real::Real;
-use crate::shape::{Cuboid, Geometry, Placement, Primitive, SurfacePoint};
+use crate::render::band::{Band, Tile};
+use crate::shape::{Cone, Cuboid, Ellipsoid, Geometry, Placement, Primitive, Sphere, SurfacePoint};
 use crate::vector::Vector;
 
 /// The rays of a tile with 32 digits: a ray's direction, or its start if all rays are parallel, is the sum of what its column
@@ -20,9 +20,13 @@ pub struct PreciseRays {
     is_parallel: bool,
     /// The eye; the direction of parallel rays.
     common: Vector<DoubleDouble>,
-    /// The upper and the lower halves of what columns and rows contribute.
-    columns: [Vectors; 2],
-    rows: [Vectors; 2],
+    /// The upper and the lower halves of what the columns and the rows of a band contribute, and where these begin.
+    columns: Vec<[Vector; 2]>,
+    rows: Vec<[Vector; 2]>,
+    first: Pixel,
+    /// The same for each ray.
+    of_columns: [Vectors; 2],
+    of_rows: [Vectors; 2],
     /// The upper and the lower halves of the sums.
     sums: [Vectors; 2],
     /// Unit vectors along the rays.
@@ -59,35 +63,42 @@ impl PreciseRays {
         Box::new(Self {
             is_parallel: false,
             common: Vector::zero(),
-            columns: [zeros; 2],
-            rows: [zeros; 2],
+            columns: Vec::new(),
+            rows: Vec::new(),
+            first: Pixel { column: 0, row: 0 },
+            of_columns: [zeros; 2],
+            of_rows: [zeros; 2],
             sums: [zeros; 2],
             directions: zeros,
         })
     }
 
-    /// The rays through the centres of pixels; false for a camera whose rays are not linear in columns and rows.
-    pub fn aim(&mut self, scene: &PreparedScene, pixels: &[Pixel; RAYS]) -> bool {
-        let frame = scene.precise_frame();
-        let Some(parts) = frame.linear_rays() else { return false };
-        (self.is_parallel, self.common) = (parts.is_parallel, parts.common);
-        let first = pixels[0];
+    /// Prepares the rays of a band; returns whether they are linear in columns and rows.
+    pub fn begin(&mut self, scene: &PreparedScene, band: &Band<'_>) -> bool {
+        let Some(rays) = scene.precise_frame().linear_rays() else { return false };
+        (self.is_parallel, self.common, self.first) = (rays.is_parallel, rays.common, band.first);
         let halves = |vector: Vector<DoubleDouble>| {
             let high = vector.map(DoubleDouble::rounded);
             [high, (vector - Vector::from_f64(high)).map(DoubleDouble::rounded)]
         };
-        // A tile has eight columns and eight rows.
-        let columns: [_; 8] = std::array::from_fn(|index| halves(parts.of_column(first.column, index)));
-        let rows: [_; 8] = std::array::from_fn(|index| halves(parts.of_row(first.row, index)));
-        for (ray, pixel) in pixels.iter().enumerate() {
-            let column = columns[(pixel.column - first.column) as usize];
-            let row = rows[(pixel.row - first.row) as usize];
+        let Pixel { column, row } = band.first;
+        self.columns.extend((column..column + band.size.width).map(|column| halves(rays.of_column(column))));
+        self.rows.extend((row..row + band.size.height).map(|row| halves(rays.of_row(row))));
+        true
+    }
+
+    /// Chooses the rays of a tile of the band; those beyond its last column or row are copies.
+    pub fn aim(&mut self, tile: Tile) {
+        let (column, row) = (tile.first.column - self.first.column, tile.first.row - self.first.row);
+        for ray in 0..RAYS {
+            let (across, down) = place_of(ray);
+            let column = self.columns[(column + across.min(tile.width - 1)) as usize];
+            let row = self.rows[(row + down.min(tile.height - 1)) as usize];
             for half in 0..2 {
-                put(&mut self.columns[half], ray, column[half]);
-                put(&mut self.rows[half], ray, row[half]);
+                put(&mut self.of_columns[half], ray, column[half]);
+                put(&mut self.of_rows[half], ray, row[half]);
             }
         }
-        true
     }
 
     /// A ray.
@@ -136,10 +147,10 @@ impl LaneJob for Combine<'_> {
 impl Combine<'_> {
     #[inline(always)]
     fn combine<V: Lane<Element = f64>>(self, token: V::Token) {
-        let PreciseRays { is_parallel, common, columns, rows, sums, directions } = self.rays;
+        let PreciseRays { is_parallel, common, of_columns, of_rows, sums, directions, .. } = self.rays;
         let parallel = nearest(exact::<V>(token, *common));
         for at in (0..RAYS).step_by(V::COUNT) {
-            let sum = pairs::<V>(token, columns, at) + pairs(token, rows, at);
+            let sum = pairs::<V>(token, of_columns, at) + pairs(token, of_rows, at);
             let high = nearest(sum);
             store(&mut sums[0], at, high);
             let low = sum + -exactly(high);
@@ -231,11 +242,6 @@ pub struct FindPoints<'f> {
     pub points: &'f mut Points,
 }
 
-/// Whether [`FindPoints`] can do it.
-pub fn finds_points(geometry: &Geometry) -> bool {
-    matches!(geometry, Geometry::Mesh(_) | Geometry::Cuboid(_)) || flat(geometry).is_some()
-}
-
 /// The place of a flat shape.
 fn flat(geometry: &Geometry) -> Option<&Placement> {
     match geometry {
@@ -250,8 +256,7 @@ fn flat(geometry: &Geometry) -> Option<&Placement> {
 pub fn anchor_of(geometry: &Geometry, part: u32) -> Vector {
     match geometry {
         Geometry::Mesh(mesh) => mesh.corners(part)[0],
-        Geometry::Cuboid(cuboid) => cuboid.placement().origin,
-        _ => flat(geometry).map(|placement| placement.origin).unwrap_or_default(),
+        other => other.body(part).map(|body| body.origin).unwrap_or_default(),
     }
 }
 
@@ -270,14 +275,32 @@ impl LaneJob for FindPoints<'_> {
             if lanes == 0 {
                 continue;
             }
+            // Each kind in a function of its own, which compiles sooner.
             match self.geometry {
-                Geometry::Mesh(_) => self.on_triangles::<D::Narrow>(token, at, lanes, is_smooth),
-                Geometry::Cuboid(cuboid) => self.on_box::<D::Narrow>(token, at, lanes, cuboid),
-                geometry => {
-                    if let Some(placement) = flat(geometry) {
-                        self.on_plane::<D::Narrow>(token, at, lanes, placement);
-                    }
-                }
+                Geometry::Mesh(_) => token.in_own_function(
+                    #[inline(always)]
+                    || self.on_triangles::<D::Narrow>(token, at, lanes, is_smooth),
+                ),
+                Geometry::Sphere(_) | Geometry::Spheres(_) => token.in_own_function(
+                    #[inline(always)]
+                    || self.on_spheres::<D::Narrow>(token, at, lanes),
+                ),
+                Geometry::Ellipsoid(ellipsoid) => token.in_own_function(
+                    #[inline(always)]
+                    || self.on_ellipsoid::<D::Narrow>(token, at, lanes, ellipsoid),
+                ),
+                Geometry::Cuboid(cuboid) => token.in_own_function(
+                    #[inline(always)]
+                    || self.on_box::<D::Narrow>(token, at, lanes, cuboid),
+                ),
+                Geometry::Cylinder(_) | Geometry::Cone(_) => token.in_own_function(
+                    #[inline(always)]
+                    || self.on_cone::<D::Narrow>(token, at, lanes),
+                ),
+                Geometry::Plane(_) | Geometry::Rectangle(_) | Geometry::Disk(_) => token.in_own_function(
+                    #[inline(always)]
+                    || self.on_plane::<D::Narrow>(token, at, lanes),
+                ),
             }
         }
     }
@@ -296,12 +319,16 @@ struct Found<V> {
 }
 
 impl FindPoints<'_> {
-    /// Looks the corners of triangles up; returns whether they have normals.
+    /// Looks the corners of triangles up, and centres and radii of spheres; returns whether triangles have normals.
     fn gather(&mut self) -> bool {
-        let Geometry::Mesh(mesh) = self.geometry else { return false };
         let mut is_smooth = false;
         for ray in set_bits(self.on_shape) {
-            let (corners, normals) = mesh.corners_and_normals(self.parts[ray]);
+            let (corners, normals) = match self.geometry {
+                Geometry::Mesh(mesh) => mesh.corners_and_normals(self.parts[ray]),
+                Geometry::Sphere(sphere) => (of_sphere(sphere), None),
+                Geometry::Spheres(cloud) => (of_sphere(&cloud.spheres[self.parts[ray] as usize]), None),
+                _ => return false,
+            };
             for (out, corner) in self.points.corners.iter_mut().zip(corners) {
                 put(out, ray, corner);
             }
@@ -393,7 +420,8 @@ impl FindPoints<'_> {
 
     /// The points of a flat shape, which the third axis of its placement is normal to.
     #[inline(always)]
-    fn on_plane<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64, placement: &Placement) {
+    fn on_plane<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64) {
+        let Some(placement) = flat(self.geometry) else { return };
         let Way { start, along, direction } = self.rays.way::<V>(token, at);
         let start = start + -exact::<V>(token, Vector::from_f64(placement.origin));
         let [first, second, third] = placement.axes::<DoubleDouble>();
@@ -419,42 +447,46 @@ impl FindPoints<'_> {
         let local = [(start.dot(x), along.dot(x)), (start.dot(y), along.dot(y)), (start.dot(z), along.dot(z))];
         let half = cuboid.half_sides().to_array();
         let zero = V::splat(token, 0.0);
+        let wide_zero = DoubleDouble::exactly(zero);
         // The face through which the ray enters, and the one through which it leaves.
-        let mut enter = (V::splat(token, f64::NEG_INFINITY), zero, zero);
-        let mut leave = (V::splat(token, f64::INFINITY), zero, zero);
+        let mut enter = (DoubleDouble::exactly(V::splat(token, f64::MIN)), zero, zero);
+        let mut leave = (DoubleDouble::exactly(V::splat(token, f64::MAX)), zero, zero);
         for axis in 0..3 {
-            let (start, along) = (local[axis].0.nearest(), local[axis].1.nearest());
-            let side = V::select(along.is_less(zero), V::splat(token, half[axis]), V::splat(token, -half[axis]));
+            let (start, along) = local[axis];
+            // So small a component never reaches a face.
+            let smallest = V::splat(token, 1e-250);
+            let is_parallel = along.nearest().max(-along.nearest()).is_less(smallest);
+            let along = DoubleDouble::select(is_parallel, DoubleDouble::exactly(smallest), along);
+            let side =
+                V::select(along.nearest().is_less(zero), V::splat(token, half[axis]), V::splat(token, -half[axis]));
             let number = V::splat(token, AXES[axis]);
-            let inverse = V::splat(token, 1.0) / along;
-            let (first, last) = ((side - start) * inverse, (-side - start) * inverse);
+            let inverse = DoubleDouble::exactly(V::splat(token, 1.0)) / along;
+            let wide_side = DoubleDouble::exactly(side);
+            let (first, last) = ((wide_side + -start) * inverse, (-wide_side + -start) * inverse);
             let is_later = enter.0.is_less(first);
             enter = (
-                V::select(is_later, first, enter.0),
+                DoubleDouble::select(is_later, first, enter.0),
                 V::select(is_later, number, enter.1),
                 V::select(is_later, side, enter.2),
             );
             let is_sooner = last.is_less(leave.0);
             leave = (
-                V::select(is_sooner, last, leave.0),
+                DoubleDouble::select(is_sooner, last, leave.0),
                 V::select(is_sooner, number, leave.1),
                 V::select(is_sooner, -side, leave.2),
             );
         }
-        let is_outside = zero.is_less(enter.0);
+        let is_outside = wide_zero.is_less(enter.0);
         self.points.from_inside |= (u64::from(V::bits_not(is_outside)) & lanes) << at;
+        let parameter = DoubleDouble::select(is_outside, enter.0, leave.0);
         let face = V::select(is_outside, enter.1, leave.1);
         let side = V::select(is_outside, enter.2, leave.2);
-        let (is_second, is_third) = (V::splat(token, 0.5).is_less(face), V::splat(token, 1.5).is_less(face));
-        let (starts, ways) = ([local[0].0, local[1].0, local[2].0], [local[0].1, local[1].1, local[2].1]);
-        let start = DoubleDouble::select(is_third, starts[2], DoubleDouble::select(is_second, starts[1], starts[0]));
-        let way = DoubleDouble::select(is_third, ways[2], DoubleDouble::select(is_second, ways[1], ways[0]));
-        let parameter = (DoubleDouble::exactly(side) + -start) / way;
         let units = [nearest(x), nearest(y), nearest(z)];
         let mut offset = Vector::new(zero, zero, zero);
         let mut normal = units[0];
         for axis in 0..3 {
-            let place = ways[axis].mul_add(parameter, starts[axis]).nearest();
+            let (start, along) = local[axis];
+            let place = along.mul_add(parameter, start).nearest();
             let from_face = face - V::splat(token, AXES[axis]);
             let is_face = (from_face * from_face).is_less(V::splat(token, 0.25));
             offset = units[axis].mul_add(V::select(is_face, side, place), offset);
@@ -466,6 +498,150 @@ impl FindPoints<'_> {
         }
         let found = self.facing::<V>(token, at, direction, offset, normal, parameter.nearest());
         self.keep(at, lanes, &found, 0);
+    }
+
+    /// The points of spheres.
+    #[inline(always)]
+    fn on_spheres<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64) {
+        let Way { start, along, .. } = self.rays.way::<V>(token, at);
+        let [center, radius, _] = &self.points.corners;
+        let start = start + -exactly(load::<V>(token, center, at));
+        let radius = V::load(token, &radius[0][at..]);
+        let wide = DoubleDouble::exactly(radius);
+        let squares = [along.dot(along), start.dot(along), start.dot(start) + -(wide * wide)];
+        let Roots { parameter, root, is_inside } = roots(squares);
+        self.points.from_inside |= (u64::from(V::bits(is_inside)) & lanes) << at;
+        let offset = nearest(along.mul_add(parameter, start));
+        let zero = V::splat(token, 0.0);
+        let turn = V::select(is_inside, V::splat(token, -1.0), V::splat(token, 1.0));
+        let length = nearest(along).length();
+        let found = Found {
+            offset,
+            normal: offset * (turn / radius),
+            cos_theta_o: root / (length * radius),
+            distance: parameter.nearest() * length,
+            shadow_ray_offset: Vector::new(zero, zero, zero),
+        };
+        self.keep(at, lanes, &found, 0);
+    }
+
+    /// The points of an ellipsoid: those of a sphere, in the space where its radii are 1.
+    #[inline(always)]
+    fn on_ellipsoid<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64, ellipsoid: &Ellipsoid) {
+        let Way { start, along, .. } = self.rays.way::<V>(token, at);
+        let placement = ellipsoid.placement();
+        let start = start + -exact::<V>(token, Vector::from_f64(placement.origin));
+        let [x, y, z] = placement.axes::<DoubleDouble>();
+        let (x, y, z) = (exact::<V>(token, x), exact::<V>(token, y), exact::<V>(token, z));
+        let radii = ellipsoid.radii();
+        let inverse =
+            exact::<V>(token, radii.map(|radius| DoubleDouble::from_f64(1.0) / DoubleDouble::from_f64(radius)));
+        let scaled_start = Vector::new(start.dot(x) * inverse.x, start.dot(y) * inverse.y, start.dot(z) * inverse.z);
+        let scaled = Vector::new(along.dot(x) * inverse.x, along.dot(y) * inverse.y, along.dot(z) * inverse.z);
+        let one = DoubleDouble::exactly(V::splat(token, 1.0));
+        let squares = [scaled.dot(scaled), scaled_start.dot(scaled), scaled_start.dot(scaled_start) + -one];
+        let Roots { parameter, root, is_inside } = roots(squares);
+        self.points.from_inside |= (u64::from(V::bits(is_inside)) & lanes) << at;
+        let unit = nearest(scaled.mul_add(parameter, scaled_start));
+        let (x, y, z) = (nearest(x), nearest(y), nearest(z));
+        let (inverse, zero) = (nearest(inverse), V::splat(token, 0.0));
+        let gradient = Vector::new(unit.x * inverse.x, unit.y * inverse.y, unit.z * inverse.z);
+        let steepness = gradient.length();
+        let turn = V::select(is_inside, V::splat(token, -1.0), V::splat(token, 1.0)) / steepness;
+        let radii = splat::<V>(token, radii);
+        let length = nearest(along).length();
+        let found = Found {
+            offset: x * (unit.x * radii.x) + y * (unit.y * radii.y) + z * (unit.z * radii.z),
+            normal: (x * gradient.x + y * gradient.y + z * gradient.z) * turn,
+            cos_theta_o: root / (length * steepness),
+            distance: parameter.nearest() * length,
+            shadow_ray_offset: Vector::new(zero, zero, zero),
+        };
+        self.keep(at, lanes, &found, 0);
+    }
+
+    /// The points of a cone or of a cylinder.
+    #[inline(always)]
+    fn on_cone<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64) {
+        let cone: &Cone = match self.geometry {
+            Geometry::Cylinder(cylinder) => cylinder.as_cone(),
+            Geometry::Cone(cone) => cone,
+            _ => return,
+        };
+        let Way { start, along, .. } = self.rays.way::<V>(token, at);
+        let placement = cone.placement();
+        let start = start + -exact::<V>(token, Vector::from_f64(placement.origin));
+        let [x, y, z] = placement.axes::<DoubleDouble>();
+        let (x, y, z) = (exact::<V>(token, x), exact::<V>(token, y), exact::<V>(token, z));
+        let start = Vector::new(start.dot(x), start.dot(y), start.dot(z));
+        let local = Vector::new(along.dot(x), along.dot(y), along.dot(z));
+        let (zero, one) = (V::splat(token, 0.0), V::splat(token, 1.0));
+        let wide_zero = DoubleDouble::exactly(zero);
+        let [base_radius, slope, height] = cone.profile();
+        let (base_radius, slope, height) =
+            (exact_number::<V>(token, base_radius), exact_number::<V>(token, slope), exact_number::<V>(token, height));
+        // The side: x² + y² = R(z)².
+        let radius = slope.mul_add(start.z, base_radius);
+        let widening = slope * local.z;
+        let squares = [
+            across(&local, &local) + -(widening * widening),
+            across(&start, &local) + -(widening * radius),
+            across(&start, &start) + -(radius * radius),
+        ];
+        let root = wide_root(squares);
+        let inverse = DoubleDouble::exactly(one) / squares[0];
+        let (near, far) = ((-squares[1] + -root) * inverse, (-squares[1] + root) * inverse);
+        // The ends: z = 0 and z = h.
+        let smallest = V::splat(token, 1e-250);
+        let is_parallel = local.z.nearest().max(-local.z.nearest()).is_less(smallest);
+        let way = DoubleDouble::select(is_parallel, DoubleDouble::exactly(smallest), local.z);
+        let inverse = DoubleDouble::exactly(one) / way;
+        let (base, end) = (-start.z * inverse, (height + -start.z) * inverse);
+        let is_rising = zero.is_less(way.nearest());
+        let (first, last) = (DoubleDouble::select(is_rising, base, end), DoubleDouble::select(is_rising, end, base));
+        // From outside, the later of the entrances; from inside, the sooner of the exits.
+        let enters_side = first.is_less(near);
+        let leaves_side = far.is_less(last);
+        let enter = DoubleDouble::select(enters_side, near, first);
+        let leave = DoubleDouble::select(leaves_side, far, last);
+        let is_outside = wide_zero.is_less(enter);
+        self.points.from_inside |= (u64::from(V::bits_not(is_outside)) & lanes) << at;
+        let parameter = DoubleDouble::select(is_outside, enter, leave);
+        let half = V::splat(token, 0.5);
+        let on_side =
+            half.is_less(V::select(is_outside, V::select(enters_side, one, zero), V::select(leaves_side, one, zero)));
+        let is_at_end = V::select(is_rising, V::select(is_outside, zero, one), V::select(is_outside, one, zero));
+        let place = local.mul_add(parameter, start);
+        let at_end = DoubleDouble::select(half.is_less(is_at_end), height, wide_zero);
+        let place = Vector::new(place.x, place.y, DoubleDouble::select(on_side, place.z, at_end));
+        let there = nearest(place);
+        let radius_there = slope.mul_add(place.z, base_radius);
+        // Outward: (x, y, −kR) on the side, ±z at the ends.
+        let [kr, radius_there] = [(slope * radius_there).nearest(), radius_there.nearest()];
+        let end_normal = V::select(half.is_less(is_at_end), one, V::splat(token, -1.0));
+        let outward = Vector::new(
+            V::select(on_side, there.x, zero),
+            V::select(on_side, there.y, zero),
+            V::select(on_side, -kr, end_normal),
+        );
+        let steepness = outward.length();
+        let length = nearest(along).length();
+        let slope_there = V::select(on_side, root.nearest(), local.z.nearest().max(-local.z.nearest()));
+        let turn = V::select(is_outside, one, V::splat(token, -1.0)) / steepness;
+        let (x, y, z) = (nearest(x), nearest(y), nearest(z));
+        let found = Found {
+            offset: x * there.x + y * there.y + z * there.z,
+            normal: (x * outward.x + y * outward.y + z * outward.z) * turn,
+            cos_theta_o: slope_there / (length * steepness),
+            distance: parameter.nearest() * length,
+            shadow_ray_offset: Vector::new(zero, zero, zero),
+        };
+        // Steep rays, and the apex, are left to others.
+        let square = nearest(local);
+        let is_regular = (square.dot(square) * V::splat(token, 1e-4)).is_less(squares[0].nearest());
+        let is_apex = radius_there.is_less(V::splat(token, 1e-9 * cone.size()));
+        let doubtful = V::bits_not(is_regular) | V::bits(is_apex) & V::bits(on_side);
+        self.keep(at, lanes, &found, doubtful);
     }
 
     /// Points at a place of a plane, whose normal is turned to the eye.
@@ -536,4 +712,53 @@ fn keep_vectors<V: Lane<Element = f64>>(at: usize, lanes: u64, vectors: Vector<V
     keep(at, lanes, vectors.x, x);
     keep(at, lanes, vectors.y, y);
     keep(at, lanes, vectors.z, z);
+}
+
+/// Where a ray meets a quadric.
+struct Roots<V: Lane> {
+    /// The t of the first root ahead of the start.
+    parameter: DoubleDouble<V>,
+    /// √(b² − ac).
+    root: V,
+    /// Whether the start is inside.
+    is_inside: V::Mask,
+}
+
+/// √(b² − ac), 0 where it is negative.
+#[inline(always)]
+fn wide_root<V: Lane<Element = f64>>([a, b, c]: [DoubleDouble<V>; 3]) -> DoubleDouble<V> {
+    (b * b + -(a * c)).max_zero().sqrt()
+}
+
+/// The roots of at² + 2bt + c.
+#[inline(always)]
+fn roots<V: Lane<Element = f64>>(squares: [DoubleDouble<V>; 3]) -> Roots<V> {
+    let [a, b, _] = squares;
+    let root = wide_root(squares);
+    let inverse = a.splat_like(1.0) / a;
+    let (near, far) = ((-b + -root) * inverse, (-b + root) * inverse);
+    let is_inside = near.is_less(near.splat_like(0.0));
+    Roots { parameter: DoubleDouble::select(is_inside, far, near), root: root.nearest(), is_inside }
+}
+
+#[inline(always)]
+fn exact_number<V: Lane<Element = f64>>(token: V::Token, number: DoubleDouble) -> DoubleDouble<V> {
+    number.map(
+        #[inline(always)]
+        |half| V::splat(token, half),
+    )
+}
+
+/// The centre of a sphere and its radius, in place of corners.
+fn of_sphere(sphere: &Sphere) -> [Vector; 3] {
+    [sphere.center, Vector::new(sphere.radius, 0.0, 0.0), Vector::default()]
+}
+
+/// x x' + y y'.
+#[inline(always)]
+fn across<V: Lane<Element = f64>>(
+    first: &Vector<DoubleDouble<V>>,
+    second: &Vector<DoubleDouble<V>>,
+) -> DoubleDouble<V> {
+    first.y.mul_add(second.y, first.x * second.x)
 }

@@ -125,7 +125,7 @@ impl<'a> Shader<'a> {
         for at in 0..self.order.len() {
             let (place, index) = self.order[at];
             let emitter = &scene.emitters().all()[index];
-            let Lit { lit, close } = instructions.run(Aim { shader: self, emitter, packet });
+            let Lit { lit, close } = instructions.run_wide(Aim { shader: self, emitter, packet });
             let lit = lit & present;
             if lit == 0 {
                 continue;
@@ -151,7 +151,7 @@ impl<'a> Shader<'a> {
                 };
                 packet.in_use = in_use;
                 let mut blocked = Blocked { scene, own: &self.own, ray: &ray, in_use, surely: 0, maybe: 0 };
-                instructions.run(FindBlocked { scene, packet, walk, blocked: &mut blocked });
+                instructions.run_wide(FindBlocked { scene, packet, walk, blocked: &mut blocked });
                 let surely = blocked.surely & !close;
                 dark |= surely;
                 maybe = (blocked.maybe | close & in_use) & !surely;
