@@ -15,6 +15,7 @@ use std::ffi::OsString;
 use std::io::Write;
 
 use clap::Parser;
+use isophote::text::Language;
 
 /// Parses the arguments and runs the command: results go to standard output, everything else to standard error. The
 /// first argument is the program's name; returns the exit code.
@@ -29,19 +30,20 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             return u8::try_from(answer.exit_code()).unwrap_or(2);
         }
     };
-    progress::watch_for_interrupts();
+    let language = arguments.language();
+    progress::watch_for_interrupts(language);
     match commands::run(arguments) {
-        Ok(result) => print(&result),
-        Err(error) => failure::report(&error),
+        Ok(result) => print(&result, language),
+        Err(error) => failure::report(&error, language),
     }
 }
 
 /// The reader may close standard output at any time: that is not an error.
-fn print(result: &str) -> u8 {
+fn print(result: &str, language: Language) -> u8 {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(result.as_bytes()).and_then(|()| stdout.flush()) {
         Ok(()) => 0,
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => 0,
-        Err(error) => failure::report(&anyhow::Error::new(error).context("cannot write to standard output")),
+        Err(error) => failure::report(&anyhow::Error::new(error).context("cannot write to standard output"), language),
     }
 }

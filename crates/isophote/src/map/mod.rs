@@ -16,7 +16,9 @@ pub use values::{Scalars, Values};
 
 use serde::{Deserialize, Serialize};
 
+use crate::message;
 use crate::reflectance::Convention;
+use crate::text::{Language, Message};
 use crate::units::{Keyword, LengthUnit, ScreenUnit, UnitSystem};
 
 /// Width and height in pixels.
@@ -231,6 +233,55 @@ impl Quantity {
             Self::LightBrightness(light) => format!("brightness.{light}"),
             Self::Color => "color".into(),
             Self::Light(light) => format!("light.{light}"),
+        }
+    }
+}
+
+/// What people call quantities, in figures and explanations.
+impl Quantity {
+    /// Its name for people: in English that of the channel, in Russian a term, such as «облучённость» for the irradiance.
+    #[must_use]
+    pub fn label(&self, language: Language) -> String {
+        self.label_in(UnitSystem::Radiometric, language)
+    }
+
+    /// The same in a scene of a unit system: in Russian the irradiance of a photometric scene is «освещённость».
+    #[must_use]
+    pub fn label_in(&self, units: UnitSystem, language: Language) -> String {
+        if language == Language::English || units == UnitSystem::Radiometric {
+            return self.radiometric_label().in_language(language);
+        }
+        let label = match self {
+            Self::Irradiance => message!("illuminance"),
+            Self::Ambient => message!("ambient illuminance"),
+            Self::AmbientError => message!("standard error of the ambient illuminance"),
+            Self::Light(light) => message!("illuminance from \"{light}\"", light),
+            _ => self.radiometric_label(),
+        };
+        label.in_language(language)
+    }
+
+    fn radiometric_label(&self) -> Message {
+        match self {
+            Self::Brightness => message!("brightness"),
+            Self::Irradiance => message!("irradiance"),
+            Self::Ambient => message!("ambient"),
+            Self::Diffuse => message!("diffuse"),
+            Self::Specular => message!("specular"),
+            Self::Depth => message!("depth"),
+            Self::Position => message!("position"),
+            Self::Normal => message!("normal"),
+            Self::Shape => message!("shape"),
+            Self::Samples => message!("samples"),
+            Self::Coverage => message!("coverage"),
+            Self::AmbientError => message!("ambient-error"),
+            Self::ZDepth => message!("z-depth"),
+            Self::CosThetaO => message!("cos_theta_o"),
+            Self::CameraNormal => message!("camera-normal"),
+            Self::Material => message!("material"),
+            Self::LightBrightness(light) => message!("brightness.{light}", light),
+            Self::Color => message!("color"),
+            Self::Light(light) => message!("light.{light}", light),
         }
     }
 }
