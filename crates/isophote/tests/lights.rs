@@ -218,6 +218,6 @@ fn a_light_that_is_off_gives_no_light() {
     let reading = off.probe(&ProbePosition::Pixel(isophote::map::Pixel { column: 20, row: 20 }));
     if let Ok(reading) = reading {
         assert_eq!(reading.terms[1].irradiance, 0.0);
-        assert!(reading.explain(&off, "here").contains("switched off"));
+        assert!(reading.explain(&off, "here", isophote::text::Language::English).contains("switched off"));
     }
 }

@@ -82,7 +82,9 @@ fn man(name: Option<&str>) -> Result<String> {
     command.build();
     let command = match name {
         None => &command,
-        Some(name) => command.find_subcommand(name).ok_or_else(|| Usage(message!("there is no command `{name}`", name)))?,
+        Some(name) => {
+            command.find_subcommand(name).ok_or_else(|| Usage(message!("there is no command `{name}`", name)))?
+        }
     };
     let mut bytes = Vec::new();
     clap_mangen::Man::new(command.clone()).render(&mut bytes)?;

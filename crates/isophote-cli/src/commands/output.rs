@@ -126,8 +126,9 @@ fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<M
 /// Colour channels are shown in their own colours, without a colour map.
 pub fn refuse_colormap(quantity: &Quantity, colormap: Option<Colormap>) -> Result<(), Usage> {
     if *quantity == Quantity::Color && colormap.is_some() {
-        let message =
-            message!("--colormap does not go with the channel `color`, which is shown as it is; put -c brightness first");
+        let message = message!(
+            "--colormap does not go with the channel `color`, which is shown as it is; put -c brightness first"
+        );
         return Err(Usage(message));
     }
     Ok(())

@@ -10,9 +10,9 @@ use isophote::units::Keyword;
 use isophote::vector::Vector;
 use serde::Serialize;
 
-use super::there_are;
 use super::reading_json::ProbeJson;
 use super::reading_table;
+use super::there_are;
 use crate::args::ProbeArguments;
 use crate::failure::{self, Usage};
 use crate::{load, numbers};
@@ -39,8 +39,9 @@ pub fn run(arguments: &ProbeArguments) -> Result<String> {
         return Err(Usage(refusals).into());
     }
     if arguments.json {
-        let probes =
-            readings.iter().map(|(name, reading, published)| ProbeJson::new(&name.to_string(), reading, *published, &scene));
+        let probes = readings
+            .iter()
+            .map(|(name, reading, published)| ProbeJson::new(&name.to_string(), reading, *published, &scene));
         let (length, color_space) = (scene.scene().length().name(), scene.components().map(|parts| parts.space.name()));
         return numbers::json(&ProbesJson { length, color_space, probes: probes.collect() });
     }
@@ -52,8 +53,8 @@ pub fn run(arguments: &ProbeArguments) -> Result<String> {
         return Ok(explanations.join("\n"));
     }
     let names: Vec<String> = readings.iter().map(|(name, ..)| name.in_language(language)).collect();
-    let row = |(name, (_, reading, published))| (String::as_str(name), reading, *published);
-    let rows: Vec<_> = names.iter().zip(&readings).map(row).collect();
+    let with_names = names.iter().zip(&readings);
+    let rows: Vec<_> = with_names.map(|(name, (_, reading, published))| (name.as_str(), reading, *published)).collect();
     Ok(reading_table::text(&rows, &scene, language))
 }
 
@@ -103,9 +104,8 @@ fn requests(arguments: &ProbeArguments, scene: &Scene) -> Result<Vec<Request>> {
         }));
     }
     if requests.is_empty() {
-        let message = message!(
-            "the scene has no probes; say where with --at X,Y,Z, --pixel COLUMN,ROW or --angles THETA,PHI"
-        );
+        let message =
+            message!("the scene has no probes; say where with --at X,Y,Z, --pixel COLUMN,ROW or --angles THETA,PHI");
         return Err(Usage(message).into());
     }
     Ok(requests)

@@ -40,7 +40,11 @@ pub fn run(arguments: &RenderArguments) -> Result<String> {
             failure::note(&note.in_language(arguments.language.lang));
         }
     }
-    if arguments.json { numbers::json(&summary.to_json(&scene)) } else { Ok(summary.to_text(&scene, arguments.language.lang)) }
+    if arguments.json {
+        numbers::json(&summary.to_json(&scene))
+    } else {
+        Ok(summary.to_text(&scene, arguments.language.lang))
+    }
 }
 
 /// A render job with valid arguments.
@@ -190,11 +194,19 @@ impl<'a> Job<'a> {
         [
             note(!has_either && arguments.range.is_some(), "--range", message!(".png or figure")),
             note(!has_either && arguments.colormap.is_some(), "--colormap", message!(".png or figure")),
-            note(!has_isophotes && arguments.isophotes != DEFAULT_ISOPHOTES, "--isophotes", message!("figure of numbers")),
+            note(
+                !has_isophotes && arguments.isophotes != DEFAULT_ISOPHOTES,
+                "--isophotes",
+                message!("figure of numbers"),
+            ),
             note(!has_picture && arguments.normalize != Normalization::Max, "--normalize", Message::verbatim(".png")),
             note(!has_picture && arguments.gamma != 1.0, "--gamma", Message::verbatim(".png")),
             note(!has_picture && self.style.depth == Depth::Sixteen, "--bits", Message::verbatim(".png")),
-            note(arguments.visible_only && !self.files.iter().any(MapFile::is_table), "--visible-only", Message::verbatim(".csv")),
+            note(
+                arguments.visible_only && !self.files.iter().any(MapFile::is_table),
+                "--visible-only",
+                Message::verbatim(".csv"),
+            ),
         ]
         .into_iter()
         .flatten()

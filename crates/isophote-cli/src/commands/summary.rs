@@ -86,7 +86,10 @@ impl Summary {
             lines.push(format!("  {:<12}{}", name.in_language(language), value.in_language(language)));
         };
         let Resolution { width, height } = resolution;
-        row(message!("image"), message!("{width} × {height} pixels{region}", width, height, region = self.region_text()));
+        row(
+            message!("image"),
+            message!("{width} × {height} pixels{region}", width, height, region = self.region_text()),
+        );
         #[allow(clippy::cast_precision_loss, reason = "fewer than 2^53 pixels")]
         let share = 100.0 * visible as f64 / pixels as f64;
         row(
@@ -98,10 +101,7 @@ impl Summary {
         let separator = if unit.is_empty() { "" } else { ", " };
         let channel = self.main.label_in(description.unit_system(), language);
         row(message!("channel"), Message::verbatim(format!("{channel}{separator}{unit}")));
-        row(
-            message!("convention"),
-            Message::verbatim(format!("{}: {}", convention.label(), convention.formula())),
-        );
+        row(message!("convention"), Message::verbatim(format!("{}: {}", convention.label(), convention.formula())));
         if let Some(color) = description.color_label() {
             row(message!("color space"), Message::verbatim(color));
         }

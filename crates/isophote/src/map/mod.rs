@@ -237,7 +237,7 @@ impl Quantity {
     }
 }
 
-/// What people call quantities, in figures and explanations.
+/// What people call quantities, in figures and tables.
 impl Quantity {
     /// Its name for people: in English that of the channel, in Russian a term, such as «облучённость» for the irradiance.
     #[must_use]
@@ -248,40 +248,37 @@ impl Quantity {
     /// The same in a scene of a unit system: in Russian the irradiance of a photometric scene is «освещённость».
     #[must_use]
     pub fn label_in(&self, units: UnitSystem, language: Language) -> String {
-        if language == Language::English || units == UnitSystem::Radiometric {
-            return self.radiometric_label().in_language(language);
+        match language {
+            Language::English => self.name(),
+            Language::Russian => self.term(units == UnitSystem::Photometric).in_language(language),
         }
-        let label = match self {
-            Self::Irradiance => message!("illuminance"),
-            Self::Ambient => message!("ambient illuminance"),
-            Self::AmbientError => message!("standard error of the ambient illuminance"),
-            Self::Light(light) => message!("illuminance from \"{light}\"", light),
-            _ => self.radiometric_label(),
-        };
-        label.in_language(language)
     }
 
-    fn radiometric_label(&self) -> Message {
+    fn term(&self, is_photometric: bool) -> Message {
         match self {
+            Self::Irradiance if is_photometric => message!("illuminance"),
+            Self::Ambient if is_photometric => message!("ambient illuminance"),
+            Self::AmbientError if is_photometric => message!("standard error of the ambient illuminance"),
+            Self::Light(light) if is_photometric => message!("illuminance from \"{light}\"", light),
             Self::Brightness => message!("brightness"),
             Self::Irradiance => message!("irradiance"),
-            Self::Ambient => message!("ambient"),
-            Self::Diffuse => message!("diffuse"),
-            Self::Specular => message!("specular"),
+            Self::Ambient => message!("ambient irradiance"),
+            Self::Diffuse => message!("diffuse part"),
+            Self::Specular => message!("specular part"),
             Self::Depth => message!("depth"),
-            Self::Position => message!("position"),
+            Self::Position => message!("point of the surface"),
             Self::Normal => message!("normal"),
-            Self::Shape => message!("shape"),
-            Self::Samples => message!("samples"),
-            Self::Coverage => message!("coverage"),
-            Self::AmbientError => message!("ambient-error"),
-            Self::ZDepth => message!("z-depth"),
-            Self::CosThetaO => message!("cos_theta_o"),
-            Self::CameraNormal => message!("camera-normal"),
-            Self::Material => message!("material"),
-            Self::LightBrightness(light) => message!("brightness.{light}", light),
-            Self::Color => message!("color"),
-            Self::Light(light) => message!("light.{light}", light),
+            Self::Shape => message!("index of the shape"),
+            Self::Samples => message!("number of rays"),
+            Self::Coverage => message!("part of the pixel that shows a surface"),
+            Self::AmbientError => message!("standard error of the ambient irradiance"),
+            Self::ZDepth => message!("depth along the direction of view"),
+            Self::CosThetaO => Message::verbatim("cosθ_o"),
+            Self::CameraNormal => message!("normal in the axes of the camera"),
+            Self::Material => message!("index of the material"),
+            Self::LightBrightness(light) => message!("brightness from \"{light}\"", light),
+            Self::Color => message!("colour"),
+            Self::Light(light) => message!("irradiance from \"{light}\"", light),
         }
     }
 }

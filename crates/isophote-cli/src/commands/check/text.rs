@@ -80,12 +80,10 @@ fn projection_text(projection: &Projection) -> [Message; 2] {
         message!("x {left} to {right}, y {bottom} to {top}", left, right, bottom, top)
     };
     match *projection {
-        Projection::Perspective(Screen { distance, x, y }) => {
-            [
-                message!("screen"),
-                message!("distance {distance}, {edges}", distance = short(distance), edges = edges(x, y)),
-            ]
-        }
+        Projection::Perspective(Screen { distance, x, y }) => [
+            message!("screen"),
+            message!("distance {distance}, {edges}", distance = short(distance), edges = edges(x, y)),
+        ],
         Projection::Orthographic(Extent { x, y }) => {
             [message!("projection"), message!("orthographic (2.7), {edges}", edges = edges(x, y))]
         }
@@ -160,8 +158,7 @@ fn lights(scene: &Scene, language: Language) -> Option<String> {
     let rows = scene.lights().iter().enumerate().map(|(index, light)| {
         let strength = |of: fn(&Light) -> f64| amount(scene, |lighting| of(&lighting.lights[index]), of(light));
         let light_row = |position, intensity, power, emission: Message| {
-            let emission =
-                if light.is_on { emission } else { message!("{emission}; switched off", emission) };
+            let emission = if light.is_on { emission } else { message!("{emission}; switched off", emission) };
             vec![light.name.clone(), position, intensity, power, emission.in_language(language)]
         };
         match &light.kind {
@@ -192,8 +189,8 @@ fn emission_text(emission: &Emission) -> Message {
 }
 
 fn probes(scene: &Scene, language: Language) -> Option<String> {
-    let [name, at, published] =
-        [message!("name"), message!("at, {length}", length = "m"), message!("published")].map(|heading| heading.in_language(language));
+    let [name, at, published] = [message!("name"), message!("at, {length}", length = "m"), message!("published")]
+        .map(|heading| heading.in_language(language));
     let columns = [(name.as_str(), Align::Left), (at.as_str(), Align::Left), (published.as_str(), Align::Right)];
     let rows = scene
         .probes()
