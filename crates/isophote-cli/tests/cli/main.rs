@@ -16,6 +16,7 @@ mod nasty;
 mod options;
 mod pictures;
 mod probe;
+mod russian;
 mod scene_files;
 mod schema;
 mod section;

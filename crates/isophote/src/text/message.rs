@@ -36,8 +36,8 @@ pub trait ToValue {
 /// use isophote::message;
 /// use isophote::text::Language;
 ///
-/// let (path, number) = ("sphere[0].radius", -1);
-/// let message = message!("`{path}` is {number}", path, number);
+/// let path = "sphere[0].radius";
+/// let message = message!("`{path}` is {value}", path, value = -1);
 /// assert_eq!(message.to_string(), "`sphere[0].radius` is -1");
 /// assert_eq!(message.in_language(Language::Russian), "`sphere[0].radius` равно -1");
 /// ```
