@@ -49,6 +49,7 @@ impl Areas {
             (headings[2].as_str(), Align::Right),
             (place.as_str(), Align::Left),
         ];
+        let nothing = message!("no surface is seen").in_language(language);
         let row = |(area, reading): (&Area, Option<&AreaReading>)| match reading {
             Some(AreaReading { max, min, mean, .. }) => vec![
                 area.name.clone(),
@@ -59,8 +60,7 @@ impl Areas {
                 point_text(min, scene),
             ],
             None => {
-                let nothing = message!("no surface is seen").in_language(language);
-                vec![area.name.clone(), "–".into(), nothing, "–".into(), "–".into(), "–".into()]
+                vec![area.name.clone(), "–".into(), nothing.clone(), "–".into(), "–".into(), "–".into()]
             }
         };
         let mut text = table(&columns, &self.with_areas(scene).map(row).collect::<Vec<_>>());

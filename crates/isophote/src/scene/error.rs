@@ -194,13 +194,11 @@ impl Problem {
             ProblemKind::Warning => (Level::WARNING, message!("warning")),
             _ => (Level::ERROR, message!("error")),
         };
-        match language {
-            Language::English => (level, Level::HELP),
-            _ => {
-                let help = message!("help").in_language(language);
-                (level.with_name(word.in_language(language)), Level::HELP.with_name(help))
-            }
+        if language == Language::English {
+            return (level, Level::HELP);
         }
+        let help = message!("help").in_language(language);
+        (level.with_name(word.in_language(language)), Level::HELP.with_name(help))
     }
 
     fn with_help_drawn(

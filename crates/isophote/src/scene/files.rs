@@ -87,7 +87,7 @@ impl Scene {
             .read_to_end(&mut bytes)
             .map_err(|error| SceneError::unreadable(name, describe(&error), None))?;
         if bytes.len() as u64 > limits::FILE_BYTES {
-            return Err(too_large(name, message!("more than {most} bytes", most = limits::FILE_BYTES)));
+            return Err(too_large(name, &message!("more than {most} bytes", most = limits::FILE_BYTES)));
         }
         String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
@@ -114,12 +114,12 @@ fn open(path: &Path, name: &str) -> Result<File, SceneError> {
         return Err(SceneError::unreadable(name, message!("this is a directory, not a scene file"), None));
     }
     if metadata.len() > limits::FILE_BYTES {
-        return Err(too_large(name, message!("{count} bytes", count = metadata.len())));
+        return Err(too_large(name, &message!("{count} bytes", count = metadata.len())));
     }
     Ok(file)
 }
 
-fn too_large(name: &str, size: Message) -> SceneError {
+fn too_large(name: &str, size: &Message) -> SceneError {
     let message = message!("the file has {size}; a scene file may have {most}", size, most = limits::FILE_BYTES);
     SceneError::unreadable(name, message, None)
 }

@@ -34,7 +34,7 @@ impl Scene {
             syntax_problems.truncate(1);
             let help = message!("what follows could not be read because of this; mend it and check again");
             // Advice on the problem itself is better.
-            syntax_problems[0].help.get_or_insert_with(|| help);
+            syntax_problems[0].help.get_or_insert(help);
         }
         problems.extend(syntax_problems);
         let source = SceneSource { origin: files.origin(), ..SceneSource::read(&document, &mut problems) };

@@ -41,37 +41,41 @@ impl<'t> Table<'t> {
     fn value<T>(
         &mut self,
         key: &'static str,
-        expected: Message,
+        expected: impl Fn() -> Message,
         convert: impl FnOnce(&Value) -> Option<T>,
     ) -> Option<T> {
         let node = self.find(key)?;
         let value = convert(&node.value);
         if value.is_none() {
-            self.wrong_type(&self.path.key(key), &node.value, expected);
+            self.wrong_type(&self.path.key(key), &node.value, &expected());
         }
         value
     }
 
-    fn wrong_type(&mut self, path: &Path, value: &Value, expected: Message) {
+    fn wrong_type(&mut self, path: &Path, value: &Value, expected: &Message) {
         let message = message!("`{path}` is {found}", path, found = value.describe());
         self.problems.push(ProblemKind::WrongType, path, message, message!("allowed: {expected}", expected));
     }
 
     pub(super) fn text(&mut self, key: &'static str) -> Option<String> {
-        self.value(key, message!("a text in quotes"), |value| match value {
-            Value::Text(text) => Some(text.clone()),
-            _ => None,
-        })
+        self.value(
+            key,
+            || message!("a text in quotes"),
+            |value| match value {
+                Value::Text(text) => Some(text.clone()),
+                _ => None,
+            },
+        )
     }
 
     pub(super) fn number(&mut self, key: &'static str) -> Option<f64> {
-        let number = self.value(key, message!("a number"), as_number)?;
+        let number = self.value(key, || message!("a number"), as_number)?;
         self.finite(&self.path.key(key), number)
     }
 
     /// A number, or three.
     pub(super) fn amount(&mut self, key: &'static str) -> Option<Amount> {
-        let expected = message!("a number, or a list of three: [red, green, blue]");
+        let expected = || message!("a number, or a list of three: [red, green, blue]");
         let entry = self.entries.iter().find(|entry| entry.key == key);
         if entry.is_some_and(|entry| matches!(entry.node.value, Value::Array(_))) {
             return self.numbers_expected(key, expected).map(Amount::Rgb);
@@ -81,21 +85,29 @@ impl<'t> Table<'t> {
     }
 
     pub(super) fn boolean(&mut self, key: &'static str) -> Option<bool> {
-        self.value(key, message!("true or false"), |value| match value {
-            Value::Boolean(value) => Some(*value),
-            _ => None,
-        })
+        self.value(
+            key,
+            || message!("true or false"),
+            |value| match value {
+                Value::Boolean(value) => Some(*value),
+                _ => None,
+            },
+        )
     }
 
     pub(super) fn count(&mut self, key: &'static str) -> Option<u64> {
-        self.value(key, message!("a whole number, not negative"), as_count)
+        self.value(key, || message!("a whole number, not negative"), as_count)
     }
 
     pub(super) fn numbers<const N: usize>(&mut self, key: &'static str) -> Option<[f64; N]> {
-        self.numbers_expected(key, message!("a list of {count} numbers", count = N))
+        self.numbers_expected(key, || message!("a list of {count} numbers", count = N))
     }
 
-    fn numbers_expected<const N: usize>(&mut self, key: &'static str, expected: Message) -> Option<[f64; N]> {
+    fn numbers_expected<const N: usize>(
+        &mut self,
+        key: &'static str,
+        expected: impl Fn() -> Message,
+    ) -> Option<[f64; N]> {
         let numbers: [f64; N] = self.list(key, expected, as_number)?;
         let mut all_finite = true;
         for (index, number) in numbers.into_iter().enumerate() {
@@ -109,7 +121,7 @@ impl<'t> Table<'t> {
 
     /// Three rows of three numbers.
     pub(super) fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]> {
-        let rows: [[f64; 3]; 3] = self.list(key, message!("a list of 3 rows, each a list of 3 numbers"), as_row)?;
+        let rows: [[f64; 3]; 3] = self.list(key, || message!("a list of 3 rows, each a list of 3 numbers"), as_row)?;
         let path = self.path.key(key);
         for (number, row) in rows.iter().enumerate() {
             for (column, value) in row.iter().enumerate() {
@@ -124,7 +136,7 @@ impl<'t> Table<'t> {
 
     /// Any number of rows of three numbers.
     pub(super) fn rows(&mut self, key: &'static str) -> Option<Vec<[f64; 3]>> {
-        let rows = self.several(key, message!("a list of 3 numbers"), as_row)?;
+        let rows = self.several(key, || message!("a list of 3 numbers"), as_row)?;
         for (number, row) in rows.iter().enumerate() {
             if let Some(column) = row.iter().position(|value| !value.is_finite()) {
                 let path = self.path.key(key);
@@ -138,30 +150,38 @@ impl<'t> Table<'t> {
 
     /// Any number of rows of three whole numbers.
     pub(super) fn rows_of_counts(&mut self, key: &'static str) -> Option<Vec<[u64; 3]>> {
-        self.several(key, message!("a list of 3 whole numbers, not negative"), |value| {
-            let Value::Array(items) = value else { return None };
-            let [a, b, c] = items.as_slice() else { return None };
-            Some([as_count(&a.value)?, as_count(&b.value)?, as_count(&c.value)?])
-        })
+        self.several(
+            key,
+            || message!("a list of 3 whole numbers, not negative"),
+            |value| {
+                let Value::Array(items) = value else { return None };
+                let [a, b, c] = items.as_slice() else { return None };
+                Some([as_count(&a.value)?, as_count(&b.value)?, as_count(&c.value)?])
+            },
+        )
     }
 
     /// A list of any length. Only the first item that is not as expected is reported: there may be millions.
     fn several<T>(
         &mut self,
         key: &'static str,
-        expected: Message,
+        expected: impl Fn() -> Message,
         convert: impl Fn(&Value) -> Option<T>,
     ) -> Option<Vec<T>> {
         let node = self.find(key)?;
         let path = self.path.key(key);
         let Value::Array(items) = &node.value else {
-            self.wrong_type(&path, &node.value, message!("a list, each of whose items is {expected}", expected));
+            self.wrong_type(
+                &path,
+                &node.value,
+                &message!("a list, each of whose items is {expected}", expected = expected()),
+            );
             return None;
         };
         let mut list = Vec::with_capacity(items.len());
         for (index, item) in items.iter().enumerate() {
             let Some(value) = convert(&item.value) else {
-                self.wrong_type(&path.index(index), &item.value, expected);
+                self.wrong_type(&path.index(index), &item.value, &expected());
                 self.problems.reported.insert(path);
                 return None;
             };
@@ -171,19 +191,19 @@ impl<'t> Table<'t> {
     }
 
     pub(super) fn counts<const N: usize>(&mut self, key: &'static str) -> Option<[u64; N]> {
-        self.list(key, message!("a list of {count} whole numbers, not negative", count = N), as_count)
+        self.list(key, || message!("a list of {count} whole numbers, not negative", count = N), as_count)
     }
 
     fn list<T: Copy + Default, const N: usize>(
         &mut self,
         key: &'static str,
-        expected: Message,
+        expected: impl Fn() -> Message,
         convert: impl Fn(&Value) -> Option<T>,
     ) -> Option<[T; N]> {
         let node = self.find(key)?;
         let path = self.path.key(key);
         let Value::Array(items) = &node.value else {
-            self.wrong_type(&path, &node.value, expected);
+            self.wrong_type(&path, &node.value, &expected());
             return None;
         };
         if items.len() != N {
@@ -192,7 +212,7 @@ impl<'t> Table<'t> {
             } else {
                 Message::empty()
             };
-            self.wrong_type(&path, &node.value, message!("{expected}{comma}", expected, comma));
+            self.wrong_type(&path, &node.value, &message!("{expected}{comma}", expected = expected(), comma));
             return None;
         }
         let mut list = [T::default(); N];
@@ -204,7 +224,7 @@ impl<'t> Table<'t> {
                 self.wrong_type(
                     &path.index(index),
                     &item.value,
-                    message!("`{key}` is {expected}", key, expected = expected.clone()),
+                    &message!("`{key}` is {expected}", key, expected = expected()),
                 );
                 complete = false;
             }
@@ -241,7 +261,7 @@ impl<'t> Table<'t> {
 
     fn read_table<T>(&mut self, node: &Node, path: Path, read: impl FnOnce(&mut Table<'_>) -> T) -> Option<T> {
         let Value::Table(entries) = &node.value else {
-            self.wrong_type(&path, &node.value, message!("a table"));
+            self.wrong_type(&path, &node.value, &message!("a table"));
             return None;
         };
         let mut table = Table { entries, path, known: Vec::new(), problems: self.problems };
@@ -257,7 +277,7 @@ impl<'t> Table<'t> {
         };
         let Value::Array(items) = &node.value else {
             let help = message!("a list of tables, each headed by [[{key}]]", key);
-            self.wrong_type(&path, &node.value, help);
+            self.wrong_type(&path, &node.value, &help);
             return Vec::new();
         };
         let read_item = |(index, item)| {
@@ -278,7 +298,7 @@ impl<'t> Table<'t> {
             return BTreeMap::new();
         };
         let Value::Table(tables) = &node.value else {
-            self.wrong_type(&path, &node.value, message!("tables with names, each headed by [{key}.NAME]", key));
+            self.wrong_type(&path, &node.value, &message!("tables with names, each headed by [{key}.NAME]", key));
             return BTreeMap::new();
         };
         let read_entry = |entry: &Entry| {

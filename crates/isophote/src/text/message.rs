@@ -10,7 +10,11 @@ use super::{Language, escaped, russian};
 ///
 /// Values are [escaped](escaped()), so that nothing in them can control a terminal.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Message {
+pub struct Message(Box<Sentence>);
+
+/// Boxed, so that errors which hold several messages stay small.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Sentence {
     template: &'static str,
     values: Vec<(&'static str, Value)>,
 }
@@ -45,14 +49,19 @@ pub trait ToValue {
 /// Every template has its translation in `text/russian.rs`; a test of the core compares the two lists.
 #[macro_export]
 macro_rules! message {
-    ($template:literal $(, $name:ident $(= $value:expr)?)* $(,)?) => {{
-        // Placeholders and names are the same; constants cannot capture a variable of the same name.
-        const _: fn() = || { let _ = ::core::format_args!($template $(, $name = "")*); };
-        $crate::text::Message::new($template, ::std::vec![$((
-            ::core::stringify!($name),
-            $crate::text::ToValue::to_value(&$crate::message!(@value $name $(= $value)?)),
-        )),*])
-    }};
+    ($template:literal $(, $name:ident $(= $value:expr)?)* $(,)?) => {
+        $crate::text::Message::new(
+            {
+                // Placeholders and names are the same; constants cannot capture a variable of the same name.
+                const _: fn() = || { let _ = ::core::format_args!($template $(, $name = "")*); };
+                $template
+            },
+            ::std::vec![$((
+                ::core::stringify!($name),
+                $crate::text::ToValue::to_value(&$crate::message!(@value $name $(= $value)?)),
+            )),*],
+        )
+    };
     (@value $name:ident) => { $name };
     (@value $name:ident = $value:expr) => { $value };
 }
@@ -62,25 +71,25 @@ impl Message {
     #[doc(hidden)]
     #[must_use]
     pub fn new(template: &'static str, values: Vec<(&'static str, Value)>) -> Self {
-        Self { template, values }
+        Self(Box::new(Sentence { template, values }))
     }
 
     /// A text that is the same in every language: what the operating system or a library says, or a list of names.
     #[must_use]
     pub fn verbatim(text: impl ToValue) -> Self {
-        Self { template: VERBATIM, values: vec![("text", text.to_value())] }
+        Self::new(VERBATIM, vec![("text", text.to_value())])
     }
 
     /// An empty text, for an optional part of a sentence.
     #[must_use]
     pub fn empty() -> Self {
-        Self { template: "", values: Vec::new() }
+        Self::new("", Vec::new())
     }
 
     /// The text in a language.
     #[must_use]
     pub fn in_language(&self, language: Language) -> String {
-        let mut text = String::with_capacity(self.template.len() + 16 * self.values.len());
+        let mut text = String::with_capacity(self.0.template.len() + 16 * self.0.values.len());
         self.write(&mut text, language);
         text
     }
@@ -96,10 +105,10 @@ impl Message {
                 continue;
             }
             let (name, after) = from[1..].split_once('}').unwrap_or((&from[1..], ""));
-            match self.values.iter().find(|(known, _)| *known == name) {
+            match self.0.values.iter().find(|(known, _)| *known == name) {
                 Some((_, Value::Text(value))) => text.push_str(value),
                 Some((_, Value::Message(message))) => message.write(text, language),
-                None => debug_assert!(false, "no value for {{{name}}} in {:?}", self.template),
+                None => debug_assert!(false, "no value for {name} in {}", self.0.template),
             }
             rest = after;
         }
@@ -107,13 +116,14 @@ impl Message {
     }
 
     fn template_in(&self, language: Language) -> &'static str {
+        let template = self.0.template;
         match language {
-            Language::English => self.template,
-            _ if matches!(self.template, "" | VERBATIM) => self.template,
+            Language::English => template,
+            _ if matches!(template, "" | VERBATIM) => template,
             Language::Russian => {
-                let russian = russian::template(self.template);
-                debug_assert!(russian.is_some(), "no Russian for {:?}", self.template);
-                russian.unwrap_or(self.template)
+                let russian = russian::template(template);
+                debug_assert!(russian.is_some(), "no Russian for {template}");
+                russian.unwrap_or(template)
             }
         }
     }

@@ -56,7 +56,7 @@ fn sources(folder: &Path, files: &mut Vec<PathBuf>) {
             if !matches!(name, "tests" | "target" | "benches") && !name.starts_with('.') {
                 sources(&path, files);
             }
-        } else if name.ends_with(".rs") && name != "tests.rs" {
+        } else if path.extension().is_some_and(|suffix| suffix == "rs") && name != "tests.rs" {
             files.push(path);
         }
     }

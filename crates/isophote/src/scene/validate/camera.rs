@@ -147,7 +147,7 @@ impl Validator<'_> {
         path: &Path,
         key: &str,
         edges: Option<[f64; 2]>,
-        which: Message,
+        which: &Message,
     ) -> Option<[f64; 2]> {
         let Some(edges) = edges else {
             self.problems.missing(

@@ -52,7 +52,7 @@ impl Validator<'_> {
             let help = message!(
                 "leave it out, or write a coefficient, an intensity, an irradiance or a radiance as [R, G, B]"
             );
-            self.wrong(&Path::root().key("color_space"), message.into(), help);
+            self.wrong(&Path::root().key("color_space"), message, help);
         }
         None
     }

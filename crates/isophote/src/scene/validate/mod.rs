@@ -121,7 +121,7 @@ impl Validator<'_> {
             None => self.problems.missing(&root, "version", message!("write `version = 1` on top")),
             Some(1) => {}
             Some(version) => {
-                self.wrong(&root.key("version"), message!("`version` is {version}", version), message!("allowed: 1"))
+                self.wrong(&root.key("version"), message!("`version` is {version}", version), message!("allowed: 1"));
             }
         }
         if let Some(title) = source.title.as_ref().filter(|title| title.len() > limits::TITLE_BYTES) {
@@ -183,7 +183,7 @@ impl Validator<'_> {
             let message = message!("the shapes cast no shadows on each other: each is lit as if it were alone");
             self.warn(
                 &root.key("shadows"),
-                message.into(),
+                message,
                 message!("write `shadows = true`, or `shadows = false` if that is meant"),
             );
         }

@@ -119,8 +119,8 @@ impl Validator<'_> {
     fn screen(&mut self, path: &Path, screen: &ScreenSource) -> Option<Screen> {
         let path = path.key("screen");
         let distance = self.required_size(&path, "distance", screen.distance);
-        let x = self.edges(&path, "x", screen.x, message!("left and right"));
-        let y = self.edges(&path, "y", screen.y, message!("lower and upper"));
+        let x = self.edges(&path, "x", screen.x, &message!("left and right"));
+        let y = self.edges(&path, "y", screen.y, &message!("lower and upper"));
         Some(Screen { distance: distance?, x: x?, y: y? })
     }
 
@@ -130,8 +130,8 @@ impl Validator<'_> {
             return None;
         };
         let path = path.key("window");
-        let x = self.edges(&path, "x", window.x, message!("left and right"));
-        let y = self.edges(&path, "y", window.y, message!("lower and upper"));
+        let x = self.edges(&path, "x", window.x, &message!("left and right"));
+        let y = self.edges(&path, "y", window.y, &message!("lower and upper"));
         Some(Extent { x: x?, y: y? })
     }
 

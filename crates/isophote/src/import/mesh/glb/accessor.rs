@@ -124,7 +124,7 @@ fn check_kind(accessor: &Accessor, kind: &str, components: &[u64]) -> Result<(),
     })
 }
 
-fn within<'a>(bytes: &'a [u8], offset: u64, length: u128, what: fn() -> Message) -> Result<&'a [u8], FileProblem> {
+fn within(bytes: &[u8], offset: u64, length: u128, what: fn() -> Message) -> Result<&[u8], FileProblem> {
     let left = (bytes.len() as u64).saturating_sub(offset);
     let start = usize::try_from(offset).ok().filter(|start| *start <= bytes.len());
     let end = start.and_then(|start| start.checked_add(usize::try_from(length).ok()?));
