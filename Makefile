@@ -21,7 +21,7 @@ FUZZ_TARGETS := $(notdir $(basename $(wildcard fuzz/fuzz_targets/*.rs)))
 FUZZ_SECONDS := 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-python test-wasm check check-python check-wasm bench bench-python bench-instructions compare growth trials audit fuzz docs generate generated-is-current
+.PHONY: help demo test test-python test-wasm check check-python check-wasm app test-app bench-app bench bench-python bench-instructions compare growth trials audit fuzz docs generate generated-is-current
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-18s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -43,9 +43,35 @@ test-wasm: ## Run the conformance suite as WebAssembly (needs Node 20 or later; 
 	CARGO_TARGET_WASM32_WASIP1_RUSTFLAGS="-C target-feature=+simd128" CARGO_TARGET_WASM32_WASIP1_RUNNER="$(WASM_RUNNER)" \
 		$(CARGO) test --target $(WASM) -p isophote-wasm
 
+BROWSER := wasm32-unknown-unknown
+APP_MODULE := $(or $(CARGO_TARGET_DIR),target)/$(BROWSER)/dist/isophote_web.wasm
+
 check-wasm: ## Build the core for browsers
-	@rustup target list --installed 2>/dev/null | grep -qx wasm32-unknown-unknown || rustup target add wasm32-unknown-unknown
-	$(CARGO) build --release --target wasm32-unknown-unknown -p isophote
+	@rustup target list --installed 2>/dev/null | grep -qx $(BROWSER) || rustup target add $(BROWSER)
+	CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="-C target-feature=+simd128" \
+		$(CARGO) build --profile dist --target $(BROWSER) -p isophote-web
+
+app: check-wasm web/node_modules/.package-lock.json ## Build the app: web/dist/site, a folder for any web server, and web/dist/isophote.html, one file (needs Node 20 or later)
+	CARGO_TARGET_DIR=target/bindgen $(CARGO) run --quiet --locked --manifest-path web/bindgen/Cargo.toml -- $(APP_MODULE) web/src/engine/wasm
+	cd web && npm run --silent build
+	cp web/dist/one-file/index.html web/dist/isophote.html
+	gzip --best --no-name --force --keep web/dist/isophote.html
+
+web/node_modules/.package-lock.json: web/package-lock.json
+	@command -v npm >/dev/null || { echo "Node is missing: install version 20 or later, with npm, by your system's package manager"; exit 1; }
+	cd web && npm ci --loglevel error --no-fund --no-audit
+	@touch $@
+
+CHROMIUM := $(or $(ISOPHOTE_CHROMIUM),/usr/bin/chromium)
+
+test-app: app ## Check and test the app, with Chromium in a browser too
+	cd web && npm run --silent check && npm run --silent test
+	$(TESTED_BUILD)
+	@if [ -x "$(CHROMIUM)" ]; then cd web && ISOPHOTE="$(CURDIR)/$(TESTED)" npm run --silent e2e; \
+	else echo "no Chromium at $(CHROMIUM): the tests of the page in a browser are skipped"; fi
+
+bench-app: app ## Time the app in a browser: first visit, change to picture, kernel beside the native one
+	cd web && npx playwright test --config bench.config.ts
 
 test-python: python-env python-module ## Run the tests of the Python package alone
 	cd python && PYTHONPATH="$(CURDIR)/python" $(PYTHON) -m pytest

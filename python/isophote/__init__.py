@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from .lights import Ambient, LambertianLight, Light, ParallelLight, PointLight, SpotLight
     from .map import Axis, Isophote, Map
     from .materials import Convention, Material
+    from .notebook import app
     from .probing import Probes, Section, Values, probe, section
     from .rendering import render
     from .scene import Area, Grid, Probe, Scene
@@ -108,6 +109,7 @@ __all__ = [
     "Values",
     "Window",
     "__version__",
+    "app",
     "areas",
     "brightness",
     "errors",
@@ -142,6 +144,7 @@ _NAMES = {
     "lights": ("Ambient", "LambertianLight", "Light", "ParallelLight", "PointLight", "SpotLight"),
     "map": ("Axis", "Isophote", "Map"),
     "materials": ("Convention", "Material"),
+    "notebook": ("app",),
     "probing": ("Probes", "Section", "Values", "probe", "section"),
     "rendering": ("render",),
     "scene": ("Area", "Grid", "Probe", "Scene"),

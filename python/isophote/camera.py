@@ -203,7 +203,7 @@ def _aim(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 class Sampling(Part):
     """How many rays make up a pixel's value (2.6).
 
-    - ``samples``: the number of rays, 1 to 4096; with a tolerance, the most
+    - ``samples``: the number of rays, 1 to 4096; with a tolerance, the most (4096)
     - ``tolerance``: instead, the allowed error as a fraction of the maximum brightness, 1e-4 to 1
     - ``filter``: ``"box"``, ``"triangle"``, ``"gaussian"`` or ``"mitchell"``
     """

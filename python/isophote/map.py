@@ -149,6 +149,12 @@ class Map(Mapping[str, NDArray[Any]]):
         return column, row, width, height
 
     @property
+    def over_tolerance(self) -> int | None:
+        """The number of pixels in which the allowed number of rays does not assure the tolerance (2.6): their
+        ``sampling-error`` exceeds it. ``None`` for a scene without a tolerance."""
+        return self._core.over_tolerance()
+
+    @property
     def shapes(self) -> NDArray[np.int32]:
         """The index of the shape at each pixel, −1 where no surface is seen."""
         return self._core.shapes()

@@ -36,6 +36,8 @@ def channel_names(scene: Scene, channels: Channels) -> list[str]:
     of_camera = ["z-depth", "cos_theta_o", "camera-normal", "material"]
     ambient = ["ambient", *(["ambient-error"] if scene.ambient is not None and scene.ambient.obstructed else [])]
     sampling = ["samples", "coverage"] if about["is_sampled"] else []
+    if scene.sampling is not None and scene.sampling.tolerance is not None:
+        sampling.append("sampling-error")
     everything = [*common, *(ambient if scene.ambient is not None else []), *sampling, *of_camera, *lights]
     words = {
         "all": everything,

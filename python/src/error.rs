@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use isophote::render::RenderError;
-use isophote::scene::{Problem, ProblemKind, SceneError};
+use isophote::scene::{Problem, SceneError};
 use isophote_export::{ExportError, ReadError};
 use isophote_zarr::StoreError;
 use pyo3::call::PyCallArgs;
@@ -73,7 +73,8 @@ pub fn of_render(py: Python<'_>, error: &RenderError) -> PyErr {
         RenderError::Region { .. }
         | RenderError::TooLarge { .. }
         | RenderError::NoSuchLight { .. }
-        | RenderError::NoColor => value(py, error),
+        | RenderError::NoColor
+        | RenderError::NoTolerance => value(py, error),
         RenderError::Memory { .. }
         | RenderError::Overflow { .. }
         | RenderError::Interrupted
@@ -101,19 +102,7 @@ pub fn problems<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Vec<Boun
         let place = problem.place.as_ref().map(|place| (place.line, place.column, place.text.as_str()));
         let Problem { kind, path, message, help, .. } = problem;
         let (message, help) = (message.to_string(), help.as_ref().map(ToString::to_string));
-        class.call1((kind_name(*kind), path.as_str(), message, help, place))
+        class.call1((kind.name(), path.as_str(), message, help, place))
     };
     problems.iter().map(problem).collect()
-}
-
-fn kind_name(kind: ProblemKind) -> &'static str {
-    match kind {
-        ProblemKind::Unreadable => "unreadable",
-        ProblemKind::Syntax => "syntax",
-        ProblemKind::UnknownKey => "unknown-key",
-        ProblemKind::MissingKey => "missing-key",
-        ProblemKind::WrongType => "wrong-type",
-        ProblemKind::Value => "value",
-        ProblemKind::Warning => "warning",
-    }
 }

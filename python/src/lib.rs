@@ -22,7 +22,7 @@ mod _isophote {
     #[pymodule_export]
     use crate::analysis::{areas, center_on_screen, grid, section, surface};
     #[pymodule_export]
-    use crate::command::command;
+    use crate::command::{app_page, command};
     #[pymodule_export]
     use crate::formula::{brightness, conventions};
     #[pymodule_export]

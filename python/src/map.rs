@@ -124,6 +124,11 @@ impl Map {
         [corner.column, corner.row, size.width, size.height]
     }
 
+    /// How many pixels the allowed number of rays is not enough for; none without a tolerance.
+    fn over_tolerance(&self) -> Option<usize> {
+        self.map.over_tolerance
+    }
+
     /// For both directions: name, title, unit, first and last edge.
     fn axes(&self) -> Vec<(&str, &str, &str, [f64; 2])> {
         let window = &self.map.window;

@@ -435,3 +435,21 @@ def test_maps_of_vectors_alone_are_saved_too(lab, tmp_path):
         np.testing.assert_allclose(iso.read(tmp_path / f"map.{suffix}")["normal"], found["normal"], atol=1e-7)
     with pytest.raises(iso.ArgumentError):
         found.save(tmp_path / "map.png")
+
+
+def test_the_error_of_the_means_is_bounded_and_pixels_over_the_tolerance_are_counted():
+    scene = iso.Scene.from_file(REPOSITORY / "scenes" / "shadows.toml")
+    scene = scene.set({"camera.resolution": (60, 45), "sampling": iso.Sampling(tolerance=0.01, samples=16)})
+    m = iso.render(scene, channels=["brightness", "samples", "sampling-error"])
+    error = m["sampling-error"]
+    assert m.units["sampling-error"] == m.units["brightness"]
+    assert error[m["samples"] <= 1].max() == 0
+    # So small an image is itself the one that tells the largest brightness.
+    peak = iso.render(scene.replace(sampling=None)).max()
+    assert m.over_tolerance == (error > 0.01 * peak).sum() > 0
+    assert iso.render(scene.set({"sampling.samples": 4096})).over_tolerance == 0
+    assert iso.render(scene.replace(sampling=None)).over_tolerance is None
+    assert "sampling-error" in iso.render(scene, channels="all")
+    assert "sampling-error" not in iso.render(scene.replace(sampling=None), channels="all")
+    with pytest.raises(iso.Error, match=r"`sampling\.tolerance`"):
+        iso.render(scene.replace(sampling=None), channels="sampling-error")

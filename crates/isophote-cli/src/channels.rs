@@ -17,6 +17,9 @@ pub fn named(names: &[String], scene: &Scene) -> Result<Vec<Quantity>> {
         if color.is_none() && *name == Quantity::Color.name() {
             return Err(Usage(RenderError::NoColor.message()).into());
         }
+        if scene.sampling().tolerance.is_none() && *name == Quantity::SamplingError.name() {
+            return Err(Usage(RenderError::NoTolerance.message()).into());
+        }
         Quantity::from_name(name).filter(known).ok_or_else(|| {
             let known = Quantity::COMMON
                 .iter()

@@ -17,6 +17,8 @@ use std::io::Write;
 use clap::Parser;
 use isophote::text::Language;
 
+pub use commands::APP_PAGE;
+
 /// Parses the arguments and runs the command: results go to standard output, everything else to standard error. The
 /// first argument is the program's name; returns the exit code.
 ///

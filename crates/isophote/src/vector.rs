@@ -97,6 +97,21 @@ impl<T: Copy> Vector<T> {
     }
 }
 
+impl Vector {
+    /// Two unit vectors perpendicular to this unit vector and to each other. (Duff et al., "Building an orthonormal basis,
+    /// revisited", Journal of Computer Graphics Techniques 6(1), 2017.)
+    #[must_use]
+    pub fn perpendiculars(self) -> [Self; 2] {
+        let sign = 1.0_f64.copysign(self.z);
+        let a = -1.0 / (sign + self.z);
+        let b = self.x * self.y * a;
+        [
+            Self::new(1.0 + sign * self.x * self.x * a, sign * b, -sign * self.x),
+            Self::new(b, sign + self.y * self.y * a, -self.y),
+        ]
+    }
+}
+
 impl<T> From<[T; 3]> for Vector<T> {
     #[inline(always)]
     fn from([x, y, z]: [T; 3]) -> Self {
@@ -137,5 +152,29 @@ impl<T: Real> Mul<T> for Vector<T> {
     #[inline(always)]
     fn mul(self, factor: T) -> Self {
         Self::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_basis_is_orthonormal(direction in prop::array::uniform3(-1.0..1.0_f64)) {
+            prop_assume!(Vector::from(direction).length() > 1e-3);
+            let normal = Vector::from(direction).normalized();
+            let [first, second] = normal.perpendiculars();
+            for (product, expected) in [
+                (first.dot(first), 1.0),
+                (second.dot(second), 1.0),
+                (first.dot(second), 0.0),
+                (first.dot(normal), 0.0),
+                (second.dot(normal), 0.0),
+            ] {
+                prop_assert!((product - expected).abs() < 1e-15, "{product}");
+            }
+        }
     }
 }

@@ -294,3 +294,236 @@ fn rays_one_by_one_and_images_of_each_place_find_the_same() {
         }
     }
 }
+
+/// The fraction of the pixel with this upper left corner where a·x + b·y ≤ d, with a and b positive.
+fn below_the_edge([a, b]: [f64; 2], d: f64, [left, top]: [f64; 2]) -> f64 {
+    let distance = d - a * left - b * (top - 1.0);
+    let half_square = |distance: f64| 0.5 * distance.max(0.0) * distance.max(0.0);
+    (half_square(distance) - half_square(distance - a) - half_square(distance - b) + half_square(distance - a - b))
+        / (a * b)
+}
+
+/// Parallel light on a half plane: a pixel is as bright as it is covered. Along the diagonal, unscrambled Hammersley points
+/// would be off by 1/(2√n).
+#[test]
+fn the_mean_over_a_straight_edge_is_within_the_tolerance_and_the_bound() {
+    let mut worst = 0.0_f64;
+    for [a, b] in [[1.0, 1.0], [1.0, 2.0], [2.0, 1.0], [1.0, 3.0], [0.3, 0.9]] {
+        for step in 0..12 {
+            let d = 0.3 + f64::from(step) / 12.0 * (a + b);
+            let length = f64::hypot(a, b);
+            let center = [a, b].map(|part| part / length * (d / length - 500.0));
+            let text = format!(
+                "version = 1\nlength = \"m\"\nconvention = \"irradiance\"
+                [camera]\nprojection = \"orthographic\"\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nresolution = [16, 12]
+                window = {{ x = [-8, 8], y = [-6, 6] }}
+                [sampling]\ntolerance = 0.01
+                [[rectangle]]\ncenter = [{}, {}, 0]\nnormal = [0, 0, 1]\nup = [{a}, {b}, 0]\nwidth = 1000\nheight = 1000
+                [[light]]\nemission = \"parallel\"\ndirection = [0, 0, -1]\nirradiance = 1",
+                center[0], center[1]
+            );
+            let map = render_with_errors(&scene(&text));
+            let (found, bounds) = (values(&map, &Quantity::Brightness), values(&map, &Quantity::SamplingError));
+            for (index, (found, bound)) in found.iter().zip(bounds).enumerate() {
+                let Pixel { column, row } = map.pixel(index);
+                let exact = below_the_edge([a, b], d, [f64::from(column) - 8.0, 6.0 - f64::from(row)]);
+                let error = (found - exact).abs();
+                assert!(
+                    error <= 0.01 && error <= bound + 1e-7,
+                    "{a} {b} {d}, {column} {row}: {found} {exact} ± {bound}"
+                );
+                worst = worst.max(error);
+            }
+            assert_eq!(map.over_tolerance, Some(0));
+        }
+    }
+    assert!(worst > 1e-3, "{worst}");
+}
+
+fn scene(text: &str) -> PreparedScene {
+    PreparedScene::new(&Scene::from_text("test", text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}")))
+}
+
+fn render_with_errors(scene: &PreparedScene) -> Map {
+    let quantities = vec![Quantity::Brightness, Quantity::Samples, Quantity::SamplingError, Quantity::Coverage];
+    let settings = RenderSettings { quantities, ..RenderSettings::default() };
+    SimdRenderer::new(Precision::Double, None).render(scene, &settings).expect("it renders")
+}
+
+/// Rods 0.4 pixels wide, which pass between the centres of pixels: the sum of the coverage is their area.
+#[test]
+fn rods_narrower_than_a_pixel_are_seen_all_along() {
+    for degrees in [0.0_f64, 1.0, 17.0, 45.0, 63.0, 90.0] {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        for beside in [0.0, 0.3, 0.5] {
+            let [x, y] = [-sine * beside, cosine * beside];
+            let [across, up] = [4.5 * cosine, 4.5 * sine];
+            let rods = [
+                format!(
+                    "[[cylinder]]\nfrom = [{}, {}, 0]\nto = [{}, {}, 0]\nradius = 0.2",
+                    x - across,
+                    y - up,
+                    x + across,
+                    y + up
+                ),
+                format!(
+                    "[[box]]\ncenter = [{x}, {y}, 0]\nsize = [9, 0.4, 0.4]\nrotation = {{ axis = [0, 0, 1], degrees = {degrees} }}"
+                ),
+            ];
+            for rod in rods {
+                let text = format!(
+                    "version = 1\nlength = \"m\"\nconvention = \"irradiance\"
+                    [camera]\nprojection = \"orthographic\"\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nresolution = [16, 12]
+                    window = {{ x = [-8, 8], y = [-6, 6] }}
+                    [sampling]\ntolerance = 0.01\n{rod}
+                    [[light]]\nemission = \"parallel\"\ndirection = [0, 0, -1]\nirradiance = 1"
+                );
+                let map = render_with_errors(&scene(&text));
+                let area: f64 = values(&map, &Quantity::Coverage).iter().sum();
+                assert!((area - 9.0 * 0.4).abs() < 0.01 * 9.0 * 0.4, "{degrees}° at {beside}: {area}, {rod}");
+            }
+        }
+    }
+}
+
+/// Their shadows under parallel light have the same area, wherever they fall.
+#[test]
+fn shadows_narrower_than_a_pixel_are_seen_all_along() {
+    for degrees in [0.0_f64, 17.0, 45.0, 90.0] {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        for beside in [0.0, 0.3, 0.5] {
+            // The light falls slantwise, so that the rod is outside the image and its shadow in the middle.
+            let [x, y] = [-sine * beside + 20.0, cosine * beside];
+            let text = format!(
+                "version = 1\nlength = \"m\"\nconvention = \"irradiance\"\nshadows = true
+                [camera]\nprojection = \"orthographic\"\neye = [0, 0, 50]\ntarget = [0, 0, 0]\nresolution = [16, 12]
+                window = {{ x = [-8, 8], y = [-6, 6] }}
+                [sampling]\ntolerance = 0.01
+                [[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]
+                [[box]]\ncenter = [{x}, {y}, 20]\nsize = [9, 0.4, 0.01]\nrotation = {{ axis = [0, 0, 1], degrees = {degrees} }}
+                [[light]]\nemission = \"parallel\"\ndirection = [-1, 0, -1]\nirradiance = 1"
+            );
+            let map = render_with_errors(&scene(&text));
+            let brightest = 0.5_f64.sqrt();
+            let dark: f64 = values(&map, &Quantity::Brightness).iter().map(|found| 1.0 - found / brightest).sum();
+            // The box casts the shadow of its thickness too, on the side away from the light.
+            let area = 9.0 * 0.4 + 0.01 * (9.0 * sine + 0.4 * cosine);
+            assert!((dark - area).abs() < 0.02 * area, "{degrees}° at {beside}: {dark} {area}");
+        }
+    }
+}
+
+/// Spheres, boxes, cylinders and cones on a floor under four lamps, some of them thin.
+fn still_life(seed: u64, size: [u32; 2], sampling: &str) -> PreparedScene {
+    use std::fmt::Write;
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut between = |least: f64, greatest: f64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        #[expect(clippy::cast_precision_loss, reason = "a fraction")]
+        let part = (state >> 40) as f64 / (1_u64 << 24) as f64;
+        least + (greatest - least) * part
+    };
+    let mut text = format!(
+        "version = 1\nlength = \"m\"\nconvention = \"radiance\"\nshadows = true
+        [camera]\neye = [0, 3, -8]\ntarget = [0, 0.4, 0]\nresolution = [{}, {}]
+        screen = {{ distance = 1, x = [-0.4, 0.4], y = [-0.3, 0.3] }}
+        [sampling]\n{sampling}
+        [material.chalk]\ndiffuse = 0.6
+        [material.glaze]\ndiffuse = 0.3\nspecular = 0.4\nshininess = 20
+        [[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"chalk\"\n",
+        size[0], size[1]
+    );
+    let kinds = ["sphere", "box", "cylinder", "cone", "rod"];
+    for kind in kinds {
+        let (x, y, z) = (between(-2.5, 2.5), between(0.5, 0.9), between(-2.0, 2.0));
+        let form = match kind {
+            "sphere" => format!("center = [{x}, {y}, {z}]\nradius = {}", between(0.3, 0.5)),
+            "box" => format!(
+                "center = [{x}, {y}, {z}]\nsize = [{}, 0.5, 0.7]\nrotation = {{ axis = [1, 2, 0], degrees = {} }}",
+                between(0.4, 1.0),
+                between(0.0, 90.0)
+            ),
+            "cylinder" => format!(
+                "from = [{x}, {y}, {z}]\nto = [{}, {}, {z}]\nradius = {}",
+                x + between(-1.0, 1.0),
+                y + 0.8,
+                between(0.15, 0.4)
+            ),
+            "cone" => format!("base = [{x}, 0.05, {z}]\napex = [{x}, {}, {z}]\nradius = 0.4", between(0.8, 1.5)),
+            _ => format!("from = [{x}, {y}, {z}]\nto = [{}, {}, {z}]\nradius = 0.01", x + 1.0, y + between(0.0, 1.0)),
+        };
+        let name = if kind == "rod" { "cylinder" } else { kind };
+        let casts_shadow = if kind == "rod" { "\ncasts_shadow = false" } else { "" };
+        let material = if matches!(kind, "cone" | "rod") { "chalk" } else { "glaze" };
+        write!(text, "[[{name}]]\n{form}\nmaterial = \"{material}\"{casts_shadow}\n").expect("a text takes it");
+    }
+    for _ in 0..4 {
+        let position = [between(-5.0, 5.0), between(3.0, 7.0), between(-6.0, 0.0)];
+        write!(text, "[[light]]\nposition = {position:?}\nintensity = {}\n", between(20.0, 80.0))
+            .expect("a text takes it");
+    }
+    scene(&text)
+}
+
+#[test]
+fn a_tolerance_is_kept_among_shapes_and_their_shadows() {
+    for seed in 0..5 {
+        let exact = values(&render(&still_life(seed, [24, 18], "samples = 4096"), None), &Quantity::Brightness);
+        let peak = exact.iter().copied().fold(0.0, f64::max);
+        for tolerance in [0.03, 0.01] {
+            let map = render_with_errors(&still_life(seed, [24, 18], &format!("tolerance = {tolerance}")));
+            let samples = values(&map, &Quantity::Samples);
+            for (index, (found, exact)) in values(&map, &Quantity::Brightness).iter().zip(&exact).enumerate() {
+                let (pixel, rays) = (map.pixel(index), samples[index]);
+                let error = (found - exact).abs() / peak;
+                assert!(error <= tolerance, "scene {seed}, {tolerance}, {pixel:?}: off by {error} with {rays} rays");
+            }
+        }
+    }
+}
+
+#[test]
+fn narrow_shapes_and_neighbours_are_the_same_in_any_region() {
+    let scene = still_life(3, [60, 45], "tolerance = 0.01\nsamples = 64");
+    let whole = render(&scene, None);
+    let [all, samples] = [Quantity::Brightness, Quantity::Samples].map(|quantity| values(&whole, &quantity));
+    let mut refined = 0;
+    for (column, row) in (0..60).step_by(7).flat_map(|column| (0..45).step_by(5).map(move |row| (column, row))) {
+        let size = Resolution { width: (60 - column).min(7), height: 5 };
+        let part = render(&scene, Some(Region { corner: Pixel { column, row }, size }));
+        for (index, value) in values(&part, &Quantity::Brightness).into_iter().enumerate() {
+            let pixel = part.pixel(index);
+            let at = pixel.row as usize * 60 + pixel.column as usize;
+            assert_eq!(value.to_bits(), all[at].to_bits(), "{pixel:?}");
+            refined += usize::from(samples[at] > 1.0);
+        }
+    }
+    assert!((100..2700).contains(&refined), "{refined}");
+}
+
+#[test]
+fn pixels_that_so_many_rays_do_not_assure_are_counted() {
+    let peak_of = |map: &Map| values(map, &Quantity::Brightness).into_iter().fold(0.0, f64::max);
+    // The image is as small as the one that tells the largest brightness.
+    let peak = peak_of(&render(&still_life(1, [32, 24], "samples = 1"), None));
+    let mut counts = Vec::new();
+    for samples in [16, 64, 4096] {
+        let map = render_with_errors(&still_life(1, [32, 24], &format!("tolerance = 0.02\nsamples = {samples}")));
+        let errors = values(&map, &Quantity::SamplingError);
+        let over = errors.iter().filter(|bound| **bound > 0.02 * peak).count();
+        assert_eq!(map.over_tolerance, Some(over), "{samples}");
+        counts.push(over);
+        let of_one = errors.iter().zip(values(&map, &Quantity::Samples)).filter(|(_, samples)| *samples <= 1.0);
+        assert!(of_one.into_iter().all(|(bound, _)| *bound == 0.0));
+    }
+    assert!(counts[0] > counts[1] && counts[1] > 0 && counts[2] == 0, "{counts:?}");
+    assert_eq!(render(&disc("samples = 16"), None).over_tolerance, None);
+}
+
+#[test]
+fn without_a_tolerance_there_is_no_bound() {
+    let settings = RenderSettings { quantities: vec![Quantity::SamplingError], ..RenderSettings::default() };
+    let refused = SimdRenderer::new(Precision::Double, None).render(&disc("samples = 16"), &settings);
+    let message = refused.expect_err("it has no tolerance").to_string();
+    assert!(message.contains("`sampling-error`") && message.contains("`sampling.tolerance`"), "{message}");
+}

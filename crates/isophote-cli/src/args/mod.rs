@@ -1,5 +1,6 @@
 //! The command line as the user types it: one file for the arguments of each command.
 
+mod app;
 mod check;
 mod grid;
 mod language;
@@ -19,6 +20,7 @@ mod surface;
 use clap::{Parser, Subcommand};
 use isophote::text::Language;
 
+pub use app::AppArguments;
 pub use check::CheckArguments;
 pub use grid::{GridArguments, PlacedGridArguments};
 pub use merge::MergeArguments;
@@ -53,6 +55,7 @@ impl Arguments {
             Some(Command::Surface(arguments)) => arguments.language.lang,
             Some(Command::Grid(arguments)) => arguments.language.lang,
             Some(Command::Merge(arguments)) => arguments.language.lang,
+            Some(Command::App(arguments)) => arguments.language.lang,
             Some(Command::Check(arguments)) => arguments.language.lang,
             Some(Command::New(arguments)) => arguments.lang,
             Some(Command::Show(arguments)) => arguments.language.lang,
@@ -75,6 +78,8 @@ pub enum Command {
     Grid(GridArguments),
     /// Put the parts of a .zarr store together: print its extremes and probes, or what is missing
     Merge(MergeArguments),
+    /// Open the app in a browser, with a scene or where it was left: fields, pictures and values side by side
+    App(AppArguments),
     /// Check a scene and print it as it is understood, in metres
     Check(CheckArguments),
     /// Write a commented scene file to start from

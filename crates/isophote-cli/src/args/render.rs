@@ -34,8 +34,7 @@ pub struct RenderArguments {
     pub figure: Vec<PathBuf>,
 
     /// Channel: brightness, color, irradiance, ambient, diffuse, specular, depth, position, normal, shape, samples,
-    /// coverage or light.NAME; may be given
-    /// several times. The first one is summarised and pictured. By default the picture shows the brightness, or its
+    /// coverage, sampling-error or light.NAME; may be given several times. The first one is summarised and pictured. By default the picture shows the brightness, or its
     /// colours in a scene that has them, and files with many channels get all
     #[arg(short, long, value_name = "NAME")]
     pub channel: Vec<String>,

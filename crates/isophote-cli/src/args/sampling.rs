@@ -9,7 +9,7 @@ use crate::args::parse;
 /// How many rays a pixel's value is made of, instead of what the scene says.
 #[derive(Args, Clone, Copy, Default)]
 pub struct SamplingArguments {
-    /// Rays for each pixel, whose mean is its value; with --tolerance the most that a pixel gets (256 by default)
+    /// Rays for each pixel, whose mean is its value; with --tolerance the most that a pixel gets (4096 by default)
     #[arg(long, value_name = "COUNT")]
     pub samples: Option<u64>,
 

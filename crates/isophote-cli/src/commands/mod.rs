@@ -1,5 +1,6 @@
 //! One file per command: raw arguments become a job; the job runs and returns the text for standard output.
 
+mod app;
 mod areas;
 mod cells;
 mod check;
@@ -16,6 +17,8 @@ mod show;
 mod store;
 mod summary;
 mod surface;
+
+pub use app::PAGE as APP_PAGE;
 
 use std::borrow::Cow;
 use std::io::IsTerminal;
@@ -44,6 +47,7 @@ pub fn run(arguments: Arguments) -> Result<String> {
         Some(Command::Surface(arguments)) => surface::run(&arguments),
         Some(Command::Grid(arguments)) => grid::run(&arguments),
         Some(Command::Merge(arguments)) => store::merge(&arguments),
+        Some(Command::App(arguments)) => app::run(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments),
         Some(Command::New(arguments)) => new::run(&arguments),
         Some(Command::Show(arguments)) => show::run(&arguments),

@@ -24,6 +24,8 @@ pub struct Summary {
     counts: Counts,
     statistics: Option<Statistics>,
     refined: Option<Refined>,
+    /// Pixels that would need more rays for the tolerance than they may have, if there is one.
+    over_tolerance: Option<usize>,
     probes: Vec<Reading>,
     areas: Areas,
 }
@@ -53,6 +55,7 @@ impl Summary {
             counts: counts(map),
             statistics: statistics(map, main),
             refined: Refined::of(map),
+            over_tolerance: map.over_tolerance,
             probes: readings(scene),
             areas: Areas::of(scene),
         }
@@ -68,6 +71,7 @@ impl Summary {
             counts: Counts { pixels: count(map.pixels), visible: count(map.visible), lit: Some(count(map.lit)) },
             statistics: main.and_then(|main| main.statistics),
             refined: None,
+            over_tolerance: None,
             probes: readings(scene),
             areas: Areas::of(scene),
         }
@@ -127,6 +131,11 @@ impl Summary {
             );
             row(message!("refined"), value);
         }
+        if let Some(pixels) = self.over_tolerance.filter(|pixels| *pixels > 0) {
+            let samples = description.sampling().samples;
+            let value = message!("not assured in {pixels} pixels by {samples} rays each", pixels, samples);
+            row(message!("tolerance"), value);
+        }
         let mut text = lines.join("\n") + "\n";
         if !self.probes.is_empty() {
             let rows: Vec<_> =
@@ -166,6 +175,7 @@ impl Summary {
             channel: self.main.name(),
             unit: unit(&self.main, description),
             refined: self.refined.map(|refined| refined.pixels),
+            over_tolerance: self.over_tolerance,
             pixels: self.counts.pixels,
             visible_pixels: self.counts.visible,
             lit_pixels: self.counts.lit,
@@ -210,6 +220,9 @@ pub struct SummaryJson {
     /// Pixels with more than one ray, if the scene asks for more than one.
     #[serde(skip_serializing_if = "Option::is_none")]
     refined: Option<usize>,
+    /// Pixels whose error bound exceeds the tolerance, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    over_tolerance: Option<usize>,
     pixels: usize,
     visible_pixels: usize,
     lit_pixels: Option<usize>,

@@ -1,5 +1,6 @@
 //! The command as its user meets it: every test runs the real program in a folder of its own.
 
+mod app;
 mod carried;
 mod check;
 mod color;

@@ -154,3 +154,22 @@ fn options_that_do_nothing_are_named() {
     assert!(!folder.ok("render --size 8x6 --gamma 2 --visible-only -o map.png -o map.csv").stderr.contains("effect"));
     folder.run("section --row 3 --samples 5").failed(2, &["--samples does not go with --row"]);
 }
+
+/// Two balls and their shadows, in an image that takes no time.
+const SHADOWS: &str = include_str!("../../../../scenes/shadows.toml");
+
+#[test]
+fn pixels_that_the_rays_do_not_assure_are_counted() {
+    let folder = Folder::with("shadows.toml", SHADOWS.replace("[400, 300]", "[60, 45]"));
+    let few = folder.ok("render shadows.toml --samples 16 --quiet --json").json();
+    let count = few["over_tolerance"].as_u64().expect("it has a tolerance");
+    assert!(count > 0 && count < few["refined"].as_u64().unwrap(), "{few}");
+    let text = folder.ok("render shadows.toml --samples 16 --quiet").stdout;
+    assert!(text.contains(&format!("  tolerance   not assured in {count} pixels by 16 rays each\n")), "{text}");
+    let many = folder.ok("render shadows.toml --quiet --json").json();
+    assert_eq!(many["over_tolerance"], 0);
+    assert!(!folder.ok("render shadows.toml --quiet").stdout.contains("not assured"));
+    let plain = SHADOWS.replace("[400, 300]", "[60, 45]").replace("tolerance = 0.01", "samples = 4");
+    let plain = Folder::with("shadows.toml", plain);
+    assert!(plain.ok("render shadows.toml --quiet --json").json().get("over_tolerance").is_none());
+}

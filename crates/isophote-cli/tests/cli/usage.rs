@@ -47,9 +47,10 @@ fn a_region_outside_of_the_image_is_refused() {
 
 #[test]
 fn an_unknown_channel_is_refused_with_the_list() {
-    let list = "allowed: brightness, irradiance, ambient, diffuse, specular, depth, position, normal, shape, samples, coverage, ambient-error, z-depth, cos_theta_o, camera-normal, material, light.lamp";
+    let list = "allowed: brightness, irradiance, ambient, diffuse, specular, depth, position, normal, shape, samples, coverage, sampling-error, ambient-error, z-depth, cos_theta_o, camera-normal, material, light.lamp";
     refused("render --channel brightnes", &["there is no channel `brightnes`", list]);
     refused("render --channel light.lump", &["there is no channel `light.lump`", list]);
+    refused("render --channel sampling-error", &["the scene has no tolerance; allowed with `sampling.tolerance`"]);
     refused("section --row 1 --channel foo", &["there is no channel `foo`", list]);
 }
 

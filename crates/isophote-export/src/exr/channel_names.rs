@@ -21,6 +21,7 @@ pub(super) fn of(map: &Map) -> Vec<Vec<String>> {
         Quantity::Irradiance
         | Quantity::Ambient
         | Quantity::AmbientError
+        | Quantity::SamplingError
         | Quantity::Diffuse
         | Quantity::Specular
         | Quantity::LightBrightness(_)

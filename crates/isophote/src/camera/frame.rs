@@ -140,6 +140,15 @@ impl CameraFrame {
         }
     }
 
+    /// The column and row of a point on the screen, x and y in metres or degrees, counted from the upper left corner of the
+    /// image: the centre of the first pixel is at (1/2, 1/2).
+    #[must_use]
+    pub fn column_and_row(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let part = |at: f64, [first, last]: [f64; 2], count: u32| (at - first) / (last - first) * f64::from(count);
+        let ([left, right], [bottom, top]) = (self.extent.x, self.extent.y);
+        [part(x, [left, right], self.resolution.width), part(y, [top, bottom], self.resolution.height)]
+    }
+
     /// The line of sight to the point `anchor + offset`.
     #[must_use]
     pub fn sight(&self, anchor: Vector, offset: Vector) -> Sight {

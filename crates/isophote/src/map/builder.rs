@@ -96,7 +96,7 @@ impl MapBuilder {
         let mask = Mask::of_shapes(self.region.size, seen);
         let Self { full, region, window, provenance, channels, .. } = self;
         let whole = whole(full, region, window);
-        Ok(Map { full, region, window, whole, provenance, mask, channels })
+        Ok(Map { full, region, window, whole, provenance, over_tolerance: None, mask, channels })
     }
 
     fn check_region(&self) -> Result<(), MapError> {

@@ -124,6 +124,9 @@ pub enum Quantity {
     Coverage,
     /// The standard error of [`Ambient`](Self::Ambient), where its obstruction is sampled.
     AmbientError,
+    /// A bound on the error of the mean brightness over the pixel's area (2.6); 0 where the value at the centre is the mean.
+    /// Only in scenes with a tolerance.
+    SamplingError,
     /// The distance of P along the direction of view: that of the plane through P parallel to the screen.
     ZDepth,
     /// The cosine of the angle between the normal and the direction to the eye.
@@ -156,7 +159,7 @@ impl Quantity {
     ];
 
     /// The quantities that describe how the others were sampled.
-    pub const OF_SAMPLING: [Self; 3] = [Self::Samples, Self::Coverage, Self::AmbientError];
+    pub const OF_SAMPLING: [Self; 4] = [Self::Samples, Self::Coverage, Self::SamplingError, Self::AmbientError];
 
     /// The quantities that follow from the point and its normal, in terms of the camera.
     pub const OF_CAMERA: [Self; 3] = [Self::ZDepth, Self::CosThetaO, Self::CameraNormal];
@@ -171,9 +174,12 @@ impl Quantity {
     #[must_use]
     pub fn unit(&self, convention: Convention, units: UnitSystem, length: LengthUnit) -> &'static str {
         match self {
-            Self::Brightness | Self::Color | Self::Diffuse | Self::Specular | Self::LightBrightness(_) => {
-                convention.unit(units)
-            }
+            Self::Brightness
+            | Self::Color
+            | Self::Diffuse
+            | Self::Specular
+            | Self::SamplingError
+            | Self::LightBrightness(_) => convention.unit(units),
             Self::Irradiance | Self::Ambient | Self::AmbientError | Self::Light(_) => units.irradiance_unit(),
             Self::Depth | Self::ZDepth | Self::Position => length.name(),
             Self::Normal | Self::CameraNormal | Self::CosThetaO | Self::Samples | Self::Coverage => "1",
@@ -225,6 +231,7 @@ impl Quantity {
             Self::Shape => "shape".into(),
             Self::Samples => "samples".into(),
             Self::Coverage => "coverage".into(),
+            Self::SamplingError => "sampling-error".into(),
             Self::AmbientError => "ambient-error".into(),
             Self::ZDepth => "z-depth".into(),
             Self::CosThetaO => "cos_theta_o".into(),
@@ -271,6 +278,7 @@ impl Quantity {
             Self::Shape => message!("index of the shape"),
             Self::Samples => message!("number of rays"),
             Self::Coverage => message!("part of the pixel that shows a surface"),
+            Self::SamplingError => message!("bound on the error of the mean"),
             Self::AmbientError => message!("standard error of the ambient irradiance"),
             Self::ZDepth => message!("depth along the direction of view"),
             Self::CosThetaO => Message::verbatim("cosθ_o"),
@@ -328,6 +336,10 @@ pub struct Map {
     pub(crate) whole: Window,
     /// The provenance of the map.
     pub provenance: Provenance,
+    /// In a scene with a tolerance, the number of pixels in which the allowed number of rays was not enough for it: their
+    /// [error bound](Quantity::SamplingError) exceeds the tolerance. `None` without a tolerance, and in maps that were not
+    /// rendered just now.
+    pub over_tolerance: Option<usize>,
     pub(crate) mask: Mask,
     pub(crate) channels: Vec<Channel>,
 }
@@ -356,6 +368,12 @@ impl Map {
     #[must_use]
     pub fn channel(&self, quantity: &Quantity) -> Option<&Channel> {
         self.channels.iter().find(|channel| channel.quantity == *quantity)
+    }
+
+    /// Takes the values of a channel out of the map, if it holds it.
+    pub fn take(&mut self, quantity: &Quantity) -> Option<Values> {
+        let index = self.channels.iter().position(|channel| channel.quantity == *quantity)?;
+        Some(self.channels.remove(index).values)
     }
 
     /// The values of a scalar channel, if the map holds it.

@@ -200,6 +200,11 @@ impl PreparedScene {
         Primitive { shape, part: number - self.first_primitives[shape] }
     }
 
+    /// The form of a shape.
+    pub(crate) fn geometry(&self, shape: usize) -> &Geometry {
+        &self.shapes[shape].geometry
+    }
+
     /// The primitive as a sphere, if it is one.
     pub(crate) fn sphere(&self, primitive: Primitive) -> Option<&Sphere> {
         match &self.shapes[primitive.shape].geometry {

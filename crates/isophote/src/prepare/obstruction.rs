@@ -82,7 +82,7 @@ impl Hemisphere {
 
     /// The directions about a normal, unit vectors.
     fn about(&self, normal: Vector) -> impl Iterator<Item = Vector> {
-        let [first, second] = perpendiculars(normal);
+        let [first, second] = normal.perpendiculars();
         self.directions.iter().map(move |[cosine, sine, across, along]| {
             ((first * *cosine + second * *sine) * *across + normal * *along).normalized()
         })
@@ -102,40 +102,4 @@ pub(super) fn sampled(
     let (free, samples) = (free as f64, hemisphere.directions.len() as f64);
     let estimate = (free + 1.0) / (samples + 2.0);
     AmbientShare { share: free / samples, standard_error: (estimate * (1.0 - estimate) / samples).sqrt() }
-}
-
-/// Two unit vectors perpendicular to a unit vector and to each other. (Duff et al., "Building an orthonormal basis,
-/// revisited", Journal of Computer Graphics Techniques 6(1), 2017.)
-fn perpendiculars(normal: Vector) -> [Vector; 2] {
-    let sign = 1.0_f64.copysign(normal.z);
-    let a = -1.0 / (sign + normal.z);
-    let b = normal.x * normal.y * a;
-    [
-        Vector::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
-        Vector::new(b, sign + normal.y * normal.y * a, -normal.y),
-    ]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn the_basis_is_orthonormal(direction in prop::array::uniform3(-1.0..1.0_f64)) {
-            prop_assume!(Vector::from(direction).length() > 1e-3);
-            let normal = Vector::from(direction).normalized();
-            let [first, second] = perpendiculars(normal);
-            for (product, expected) in [
-                (first.dot(first), 1.0),
-                (second.dot(second), 1.0),
-                (first.dot(second), 0.0),
-                (first.dot(normal), 0.0),
-                (second.dot(normal), 0.0),
-            ] {
-                prop_assert!((product - expected).abs() < 1e-15, "{product}");
-            }
-        }
-    }
 }

@@ -40,6 +40,18 @@ impl PreparedScene {
         self.nearest(&ray).hit.map(|hit| hit.primitive)
     }
 
+    /// Where a line from a point meets another shape than one, which it may leave first. Double precision is enough to find a
+    /// place, though not to shade it.
+    pub(crate) fn first_beyond(&self, shape: usize, point: Vector, direction: Vector) -> Option<Vector> {
+        let ray = Ray { anchor: point, offset: Vector::default(), direction };
+        let mut search = Search::new(self, &ray);
+        let beyond = |primitive: Primitive| {
+            if primitive.shape == shape { search.reach() } else { search.test(primitive) }
+        };
+        self.along_ray(&ray, f64::INFINITY, beyond);
+        search.finish().hit.map(|hit| point + direction * hit.distance)
+    }
+
     /// Visits the primitives that a ray may hit, roughly from near to far; `test` returns the distance up to which the
     /// search goes on. With only a handful of primitives, all of them are visited.
     pub(super) fn along_ray<T: Scalar>(&self, ray: &Ray<T>, limit: f64, mut test: impl FnMut(Primitive) -> f64) {
@@ -110,6 +122,11 @@ impl<'s, T: Scalar> Search<'s, T> {
                 self.nearest = Some(Hit { primitive, distance, point, from_inside, shadow_ray_offset });
             }
         }
+        self.reach()
+    }
+
+    /// The distance beyond which nothing matters any more.
+    fn reach(&self) -> f64 {
         self.nearest.map_or(f64::INFINITY, |hit| hit.distance.rounded())
     }
 

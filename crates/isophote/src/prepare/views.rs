@@ -15,7 +15,8 @@ impl PreparedScene {
     }
 
     /// The same scene seen with another number of pixels.
-    pub(crate) fn at_resolution(&self, resolution: Resolution) -> Self {
+    #[must_use]
+    pub fn at_resolution(&self, resolution: Resolution) -> Self {
         self.with_view(&|other| {
             Arc::make_mut(&mut other.scene).camera.resolution = resolution;
             other.frame = CameraFrame::new(&other.scene.camera);

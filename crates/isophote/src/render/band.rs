@@ -77,7 +77,8 @@ fn empty_map(
         }
     }
     let mask = Mask::new(region.size, Vec::new());
-    Ok(Map { full, region, window, whole, provenance: provenance(scene, sheet.renderer.clone()), mask, channels })
+    let provenance = provenance(scene, sheet.renderer.clone());
+    Ok(Map { full, region, window, whole, provenance, over_tolerance: None, mask, channels })
 }
 
 /// Checks that the system grants the memory of a large map, which would otherwise end the program when it does not.
@@ -144,6 +145,9 @@ fn empty_channel(
     if *quantity == Quantity::Color {
         return Err(RenderError::NoColor);
     }
+    if *quantity == Quantity::SamplingError && scene.sampling.tolerance.is_none() {
+        return Err(RenderError::NoTolerance);
+    }
     let pixels = region.size.pixels();
     let mut reuse = |fits: fn(&Values) -> bool| {
         let index = memory.iter().position(|values| fits(values) && values.len() == pixels);
@@ -165,7 +169,7 @@ fn empty_channel(
 
 /// Whether a quantity stays in double precision even in maps of single precision.
 fn is_always_double(quantity: &Quantity) -> bool {
-    matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage)
+    matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage | Quantity::SamplingError)
 }
 
 /// Rows of a map that are to be filled.
@@ -326,6 +330,7 @@ impl ScalarChannel {
             | Quantity::Shape
             | Quantity::Samples
             | Quantity::Coverage
+            | Quantity::SamplingError
             | Quantity::ZDepth
             | Quantity::CosThetaO
             | Quantity::CameraNormal

@@ -37,6 +37,8 @@ pub fn combined(scene: &PreparedScene, quantities: &[Quantity], mut layers: Vec<
         let first = layers.red.channel(made_of).expect("it was asked for");
         let values = match quantity {
             Quantity::Color => color(&layers),
+            // Errors of components add up, even where one has a negative weight.
+            Quantity::SamplingError => luminances(&layers, quantity, weights.map(|weight| weight.abs())),
             quantity if depends_on_light(quantity) => luminances(&layers, quantity, weights),
             _ => first.values.clone(),
         };
@@ -54,6 +56,7 @@ fn depends_on_light(quantity: &Quantity) -> bool {
         | Quantity::Diffuse
         | Quantity::Specular
         | Quantity::AmbientError
+        | Quantity::SamplingError
         | Quantity::Color
         | Quantity::LightBrightness(_)
         | Quantity::Light(_) => true,

@@ -100,6 +100,8 @@ pub enum RenderError {
     },
     /// The channel `color` of a scene without colours.
     NoColor,
+    /// The channel `sampling-error` of a scene without a tolerance.
+    NoTolerance,
     /// Single precision cannot hold a value.
     Overflow {
         /// The pixel.
@@ -139,6 +141,9 @@ impl RenderError {
             ),
             Self::NoSuchLight { name } => message!("the scene has no light named \"{name}\"", name),
             Self::NoColor => no_color(),
+            Self::NoTolerance => message!(
+                "there is no channel `sampling-error`: the scene has no tolerance; allowed with `sampling.tolerance`"
+            ),
             Self::Overflow { pixel: Pixel { column, row }, value } => message!(
                 "column {column}, row {row}: {value} is more than single precision holds (3.4e38); double does",
                 column,
@@ -157,6 +162,14 @@ pub(crate) fn no_color() -> Message {
 }
 
 impl Region {
+    /// Whether a pixel of the image lies in it.
+    #[must_use]
+    pub fn contains(self, pixel: Pixel) -> bool {
+        let within = |at: u32, first: u32, count: u32| at >= first && at - first < count;
+        within(pixel.column, self.corner.column, self.size.width)
+            && within(pixel.row, self.corner.row, self.size.height)
+    }
+
     /// The whole image.
     #[must_use]
     pub fn all(full: Resolution) -> Self {

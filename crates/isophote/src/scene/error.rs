@@ -65,6 +65,22 @@ pub enum ProblemKind {
     Warning,
 }
 
+impl ProblemKind {
+    /// Its name for programs: `unknown-key`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Unreadable => "unreadable",
+            Self::Syntax => "syntax",
+            Self::UnknownKey => "unknown-key",
+            Self::MissingKey => "missing-key",
+            Self::WrongType => "wrong-type",
+            Self::Value => "value",
+            Self::Warning => "warning",
+        }
+    }
+}
+
 /// A place in a scene file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextPosition {

@@ -26,7 +26,7 @@ impl Default for Sampling {
 
 impl Sampling {
     /// The maximum number of samples per pixel if only a tolerance is given.
-    pub const MOST: u32 = 256;
+    pub const MOST: u32 = super::limits::SAMPLES;
 
     /// Whether a pixel is more than the value at its centre.
     #[must_use]

@@ -28,7 +28,7 @@ pub use shapes::{
     RotationSource, ShadowSource, SphereSource,
 };
 
-use super::document::Document;
+use super::document::{Document, Syntax};
 use super::problems::Problems;
 use super::table::read_root;
 use crate::camera::Handedness;
@@ -129,6 +129,14 @@ impl SceneSource {
     /// Reads a scene out of a document. What cannot be read is reported and left out.
     pub(super) fn read(document: &Document, problems: &mut Problems) -> Self {
         read_root(document, problems, TableSource::read)
+    }
+
+    /// As much of a scene as can be read in a text, whatever else is wrong with it. What is wrong, [`Scene::from_text`] says.
+    ///
+    /// [`Scene::from_text`]: super::Scene::from_text
+    #[must_use]
+    pub fn readable_part(text: &str, syntax: Syntax) -> Self {
+        Self::read(&Document::parse(text, syntax), &mut Problems::default())
     }
 
     /// The scene as a TOML scene file, with the keys that it has.

@@ -22,6 +22,19 @@ impl Cuboid {
         Self { placement: Placement::turned(center, rotation), half: size * 0.5 }
     }
 
+    /// Its centre, in metres.
+    #[must_use]
+    pub fn center(&self) -> Vector {
+        self.placement.origin
+    }
+
+    /// From its centre to the middle of a face, along each of its own axes, in metres.
+    #[must_use]
+    pub fn half_axes(&self) -> [Vector; 3] {
+        let [x, y, z] = self.placement.axes();
+        [x * self.half.x, y * self.half.y, z * self.half.z]
+    }
+
     /// The part of the ray between each pair of faces, and the intersection of the three parts (2.4).
     pub fn intersect<T: Scalar>(&self, ray: &Ray<T>, accuracy: Accuracy) -> Intersection<T> {
         let local = self.placement.local_ray(ray);

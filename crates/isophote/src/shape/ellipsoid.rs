@@ -21,6 +21,21 @@ impl Ellipsoid {
         Self { placement: Placement::turned(center, rotation), radii }
     }
 
+    /// Its centre, in metres.
+    #[must_use]
+    pub fn center(&self) -> Vector {
+        self.placement.origin
+    }
+
+    /// Its semi-axes, from the shortest to the longest, in metres.
+    #[must_use]
+    pub fn semi_axes(&self) -> [Vector; 3] {
+        let ([x, y, z], radii) = (self.placement.axes(), self.radii);
+        let mut axes = [x * radii.x, y * radii.y, z * radii.z];
+        axes.sort_unstable_by(|first, second| first.length().total_cmp(&second.length()));
+        axes
+    }
+
     /// Intersects the ray with a sphere, in the space where the radii are 1 (2.4). With x' = (x/a, y/b, z/c) of the point
     /// there and g = (x'/a, …), the normal is g/‖g‖, and cosθ_o = ‖D'‖ h'/‖g‖ exactly, where D' is the direction there and
     /// h' is half the chord.

@@ -1,6 +1,7 @@
 //! Shapes: what a ray can hit.
 
 mod box_tree;
+mod center_lines;
 mod cone;
 mod cuboid;
 mod cylinder;
@@ -21,6 +22,7 @@ mod spheres;
 use std::sync::Arc;
 
 pub use box_tree::BoxTree;
+pub use center_lines::CenterLine;
 pub use cone::Cone;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;

@@ -180,8 +180,7 @@ impl Surface<'_> {
     /// A channel of a camera, of a light that does not exist, or of colours in a scene without colours.
     pub fn map(&self, quantities: &[Quantity]) -> Result<Map, SurfaceError> {
         let of_camera = |quantity: &&Quantity| {
-            quantity.is_derived()
-                || matches!(quantity, Quantity::Depth | Quantity::Samples | Quantity::Coverage | Quantity::AmbientError)
+            quantity.is_derived() || **quantity == Quantity::Depth || Quantity::OF_SAMPLING.contains(quantity)
         };
         if let Some(quantity) = quantities.iter().find(of_camera) {
             return Err(SurfaceError::ChannelOfCamera { name: quantity.name() });

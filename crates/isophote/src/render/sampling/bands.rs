@@ -65,7 +65,8 @@ impl Stack {
             let channels = part.channels.iter().map(|channel| empty(channel, region.size.pixels())).collect();
             let mask = Mask::new(region.size, Vec::new());
             let (window, provenance) = (part.window, part.provenance.clone());
-            Map { full: part.full, region: *region, window, whole: part.whole, provenance, mask, channels }
+            let (full, whole) = (part.full, part.whole);
+            Map { full, region: *region, window, whole, provenance, over_tolerance: None, mask, channels }
         });
         let above = band.above as usize * width;
         let start = (band.region.corner.row + band.above - region.corner.row) as usize * width;

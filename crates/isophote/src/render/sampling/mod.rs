@@ -2,6 +2,7 @@
 
 mod bands;
 mod fixed;
+mod narrow;
 mod outlined;
 mod pattern;
 mod refine;
@@ -10,10 +11,11 @@ mod uncertain;
 
 use std::ops::Range;
 
+use self::narrow::Narrow;
 use self::outlined::{Nodes, Outlined};
 use self::pattern::Patterns;
 use self::refine::{Averages, Refinement, Wanted};
-use self::uncertain::{Finder, Suspects, uncertain_in_row};
+use self::uncertain::{Finder, Suspects, uncertain_in_rows};
 use super::band::{self, advance};
 use super::hits::HitBlock;
 use super::{RenderError, RenderSettings};
@@ -26,6 +28,9 @@ const FIRST_SAMPLES: u32 = 16;
 
 /// Where pixels are integrated, fewer than this are done before another thread has woken up.
 const WORTH_THREADS: usize = 20_000;
+
+/// How many rings of pixels around one decide whether it is uncertain: its neighbours, and theirs.
+const NEIGHBOURS: u32 = 2;
 
 /// The number of rows that one thread searches and refines at a time.
 const ROWS: usize = 16;
@@ -59,7 +64,7 @@ pub fn render(
     band::check(region, full)?;
     let wide = RenderSettings { region: Some(grown(region, reach, full)), ..settings.clone() };
     let layers = match sampling.tolerance {
-        Some(tolerance) => refined(scene, &wide, tolerance, threads, renders)?,
+        Some(tolerance) => refined(scene, &wide, (tolerance, region), threads, renders)?,
         None => fixed::render(scene, &wide, threads, renders)?,
     };
     let finish = |map| {
@@ -72,11 +77,11 @@ pub fn render(
     Ok(layers.into_iter().map(finish).collect())
 }
 
-/// The centres of a region, with the uncertain pixels refined.
+/// The centres of a region, with the uncertain pixels refined. Those over the tolerance are counted in the part `counted`.
 fn refined(
     scene: &PreparedScene,
     settings: &RenderSettings<'_>,
-    tolerance: f64,
+    (tolerance, counted): (f64, Region),
     threads: &Threads,
     renders: &Renders<'_>,
 ) -> Result<Vec<Map>, RenderError> {
@@ -85,7 +90,7 @@ fn refined(
     let region = settings.region.unwrap_or(Region::all(full));
     let mut quantities = settings.quantities.clone();
     quantities.push(Quantity::Brightness);
-    let wide = RenderSettings { region: Some(grown(region, 1, full)), quantities, ..settings.clone() };
+    let wide = RenderSettings { region: Some(grown(region, NEIGHBOURS, full)), quantities, ..settings.clone() };
     let mut layers = (renders.parallel)(Vec::new(), scene, &wide)?;
     let tolerances: Vec<f64> = peaks(scene, renders)?.into_iter().map(|peak| tolerance * peak).collect();
     let averages: Vec<Averages> = layers.iter().map(Averages::of).collect();
@@ -96,20 +101,20 @@ fn refined(
     let outlined = Outlined::new(scene, &wanted, &asked_for, refine::has_geometry(&layers[0]));
     let finders: Vec<Finder<'_>> =
         layers.iter().zip(&tolerances).map(|(map, tolerance)| Finder::new(map, region, *tolerance)).collect();
+    let narrow = Narrow::new(scene, &layers[0], region, &finders, &tolerances);
+    let narrow = narrow.find(&asked_for, threads, settings.observer)?;
     let refine = |rows: Range<usize>| {
         let (mut nodes, mut suspects) = (Nodes::new(asked_for.len()), Suspects::default());
         let mut hits = HitBlock::new(scene, &asked_for);
         let mut refined = Vec::new();
-        for row in rows {
-            for uncertain in uncertain_in_row(&finders, row, &mut suspects) {
-                let pixel = layers[0].pixel(uncertain.index);
-                if outlined.as_ref().is_some_and(|outlined| outlined.is_missed_by_all(pixel, &uncertain)) {
-                    continue;
-                }
-                advance(settings.observer, 0)?;
-                let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&mut nodes, pixel, &uncertain));
-                refined.push(mean.unwrap_or_else(|| Refinement::new(&mut hits, &wanted, pixel, &uncertain)));
+        for uncertain in uncertain_in_rows(&finders, &narrow, rows, &mut suspects) {
+            let pixel = layers[0].pixel(uncertain.index);
+            if outlined.as_ref().is_some_and(|outlined| outlined.is_missed_by_all(pixel, &uncertain)) {
+                continue;
             }
+            advance(settings.observer, 0)?;
+            let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&mut nodes, pixel, &uncertain));
+            refined.push(mean.unwrap_or_else(|| Refinement::new(&mut hits, &wanted, pixel, &uncertain)));
         }
         Ok(refined)
     };
@@ -124,8 +129,15 @@ fn refined(
         parts.into_iter().map(refine).collect::<Result<_, RenderError>>()?
     };
     let refined: Vec<Refinement> = refined.into_iter().flatten().collect();
+    let is_over = |refinement: &&Refinement| {
+        let pixel = layers[0].pixel(refinement.index);
+        let mut errors = refinement.error_bounds.iter().zip(&tolerances);
+        counted.contains(pixel) && errors.any(|(bound, tolerance)| bound > tolerance)
+    };
+    let over_tolerance = refined.iter().filter(is_over).count();
     for (layer, (map, averages)) in layers.iter_mut().zip(&averages).enumerate() {
         refine::apply((layer, map), averages, sampling.filter, &refined)?;
+        map.over_tolerance = Some(over_tolerance);
     }
     Ok(layers)
 }

@@ -107,14 +107,13 @@ impl<'s> Outlined<'s> {
             return None;
         }
         let center = sphere.center_of(pixel);
-        // Where the brightness has a kink, at a terminator, two rows may be off by 0.03 of its range and four by 0.014.
-        for (rows, widest) in [(RowRule::Two, 16.0), (RowRule::Four, 36.0)] {
+        for rows in [RowRule::Two, RowRule::Four] {
             nodes.places.place(sphere.candidate.ellipse, center, rows);
             let samples = u32::try_from(nodes.places.count).unwrap_or(u32::MAX);
             if nodes.places.coverage < NEGLIGIBLE || samples > self.wanted.sampling.samples {
                 return None;
             }
-            let Some(sums) = self.means(nodes, sphere, widest) else { continue };
+            let Some((sums, error_bounds)) = self.means(nodes, sphere, rows) else { continue };
             let hit = if uncertain.sees || !self.has_geometry {
                 None
             } else {
@@ -127,6 +126,7 @@ impl<'s> Outlined<'s> {
                 sees: uncertain.sees,
                 samples,
                 coverage: nodes.places.coverage.min(1.0),
+                error_bounds,
                 seen: Some(sphere.candidate.shape),
                 hit,
                 sums,
@@ -135,10 +135,16 @@ impl<'s> Outlined<'s> {
         None
     }
 
-    /// The means in each layer; `None` if the brightness of any layer varies by more than `widest` tolerances.
-    fn means(&self, nodes: &mut Nodes, sphere: &OutlinedSphere<'s>, widest: f64) -> Option<Vec<Vec<f64>>> {
+    /// The means in each layer and the bounds of their errors; `None` if any of these exceeds half the tolerance.
+    fn means(
+        &self,
+        nodes: &mut Nodes,
+        sphere: &OutlinedSphere<'s>,
+        rows: RowRule,
+    ) -> Option<(Vec<Vec<f64>>, Vec<f64>)> {
         let Wanted { averages, tolerances, .. } = self.wanted;
         let mut sums = Vec::with_capacity(averages.len());
+        let mut error_bounds = Vec::with_capacity(averages.len());
         let layers = sphere.layers.iter().zip(*averages).zip(*tolerances);
         for (is_first, ((lit, averages), tolerance)) in
             std::iter::once(true).chain(std::iter::repeat(false)).zip(layers)
@@ -147,16 +153,18 @@ impl<'s> Outlined<'s> {
             let count = nodes.places.count;
             let brightness = &nodes.shaded.brightness[..count];
             let (least, greatest) = (least_of(brightness), greatest_of(brightness));
-            if !(greatest - least <= widest * tolerance) {
+            let range = greatest - least;
+            if !(range <= rows.widest() * tolerance) {
                 return None;
             }
+            error_bounds.push(0.5 * range / rows.widest());
             let mean = |channel: ScalarChannel| {
                 let values = nodes.shaded.values(channel)[..count].iter();
                 values.zip(&nodes.places.weights).fold(0.0, |mean, (value, weight)| mean + weight * value)
             };
             sums.push(averages.channels().iter().map(|(_, channel)| mean(*channel)).chain([1.0]).collect());
         }
-        Some(sums)
+        Some((sums, error_bounds))
     }
 
     /// Shades the places in an outline, in one layer; the first one finds the points.

@@ -42,6 +42,8 @@ pub struct Refinement {
     pub samples: u32,
     /// The fraction of the pixel that shows a surface.
     pub coverage: f64,
+    /// In each layer, what the error of its brightness does not exceed.
+    pub error_bounds: Vec<f64>,
     /// The shape at the first sample that sees any.
     pub seen: Option<usize>,
     /// The hit there; needed only if the centre sees nothing and the map has channels for geometry.
@@ -97,6 +99,7 @@ pub fn is_mean(quantity: &Quantity) -> bool {
         | Quantity::CameraNormal
         | Quantity::Material
         | Quantity::LightBrightness(_)
+        | Quantity::SamplingError
         | Quantity::AmbientError => false,
     }
 }
@@ -114,7 +117,8 @@ impl Refinement {
             let (refinement, contrasts) = Self::of_samples(hits, wanted, pixel, uncertain, samples);
             let enough = enough(&contrasts);
             if enough <= samples {
-                return refinement;
+                let error_bounds = contrasts.iter().map(|contrast| pattern::error_bound(*contrast, samples)).collect();
+                return Self { error_bounds, ..refinement };
             }
             samples = enough;
         }
@@ -153,7 +157,8 @@ impl Refinement {
         let coverage = f64::from(covered) * share;
         let seen = first_hit.map(|hit| hit.primitive.shape);
         let Uncertain { index, sees, .. } = *uncertain;
-        (Self { index, sees, samples, coverage, seen, hit: first_hit.map(Box::new), sums }, contrasts)
+        let (hit, error_bounds) = (first_hit.map(Box::new), Vec::new());
+        (Self { index, sees, samples, coverage, error_bounds, seen, hit, sums }, contrasts)
     }
 }
 
@@ -227,7 +232,7 @@ pub fn apply(
     }
     let found = find_shapes(map, refined);
     for refinement in refined {
-        put_counts(map, refinement, refinement.sees || refinement.seen.is_some());
+        put_counts((layer, map), refinement, refinement.sees || refinement.seen.is_some());
         for (value, (channel, _)) in normalized(&refinement.sums[layer]).zip(&averages.channels) {
             put(map, *channel, refinement.index, value)?;
         }
@@ -258,11 +263,13 @@ fn find_shapes(map: &mut Map, refined: &[Refinement]) -> Vec<Run> {
     found
 }
 
-/// Writes the number of samples in a pixel, and the fraction of it that shows a surface. Where there is no surface, the
-/// sample count is 0.
-fn put_counts(map: &mut Map, refinement: &Refinement, is_seen: bool) {
+/// Writes the number of samples in a pixel, the fraction of it that shows a surface, and how far its mean may be off. Where
+/// there is no surface, all are 0.
+fn put_counts((layer, map): (usize, &mut Map), refinement: &Refinement, is_seen: bool) {
     let Refinement { index, samples, coverage, .. } = *refinement;
-    let [samples, coverage] = if is_seen { [samples.into(), coverage] } else { [0.0; 2] };
+    let counts = [samples.into(), coverage, refinement.error_bounds[layer]];
+    let [samples, coverage, error_bound] = if is_seen { counts } else { [0.0; 3] };
+    put_exactly(map, &Quantity::SamplingError, index, error_bound);
     put_exactly(map, &Quantity::Samples, index, samples);
     put_exactly(map, &Quantity::Coverage, index, coverage);
 }
@@ -283,7 +290,7 @@ fn spread(
     }
     put_shapes(map, &shapes);
     for refinement in refined {
-        put_counts(map, refinement, shapes[refinement.index] >= 0);
+        put_counts((layer, map), refinement, shapes[refinement.index] >= 0);
     }
     Ok(())
 }

@@ -1,11 +1,13 @@
 //! Which pixels need more than the value at their centre.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::lanes::{Element, Instructions, Lane, LaneJob};
 use crate::map::{Map, Quantity, Region, Run, Scalars};
 
 /// A pixel whose value differs from that at its centre.
+#[derive(Clone)]
 pub struct Uncertain {
     /// Index in the map.
     pub index: usize,
@@ -23,19 +25,36 @@ pub struct Suspect {
     sees: bool,
 }
 
-/// The pixels of a row, from left to right, that are uncertain in any layer.
-pub fn uncertain_in_row(finders: &[Finder<'_>], row: usize, suspects: &mut Suspects) -> Vec<Uncertain> {
-    let mut all: Vec<Uncertain> = Vec::new();
+/// The pixels of some rows, in reading order, that are uncertain in any layer.
+///
+/// `narrow` are those that show something which no centre sees.
+pub fn uncertain_in_rows(
+    finders: &[Finder<'_>],
+    narrow: &[Uncertain],
+    rows: Range<usize>,
+    suspects: &mut Suspects,
+) -> Vec<Uncertain> {
+    let width = finders.first().map_or(0, |finder| finder.width);
+    let place = |row: usize| narrow.partition_point(|uncertain| uncertain.index < row * width);
+    let narrow = narrow[place(rows.start)..place(rows.end)].iter();
+    let mut all: BTreeMap<usize, Uncertain> = narrow.map(|narrow| (narrow.index, narrow.clone())).collect();
     for (layer, finder) in finders.iter().enumerate() {
-        for Suspect { index, contrast, sees } in finder.in_row(row, suspects) {
-            let place = all.partition_point(|known| known.index < index);
-            if all.get(place).is_none_or(|known| known.index != index) {
-                all.insert(place, Uncertain { index, contrasts: vec![0.0; finders.len()], sees });
-            }
-            all[place].contrasts[layer] = contrast;
+        for Suspect { index, contrast, sees } in finder.in_rows(rows.clone(), suspects) {
+            let new = || Uncertain { index, contrasts: vec![0.0; finders.len()], sees };
+            let known = &mut all.entry(index).or_insert_with(new).contrasts[layer];
+            *known = known.max(contrast);
         }
     }
-    all
+    all.into_values().collect()
+}
+
+/// A pixel and its neighbours.
+struct Surroundings {
+    suspect: Suspect,
+    /// How far the brightness is from a straight line, along the worst of the four.
+    bend: f64,
+    /// Whether a neighbour sees another shape, of another brightness.
+    is_unlike: bool,
 }
 
 /// Columns of a row that are to be checked; the memory is reused for the next row.
@@ -47,14 +66,19 @@ pub struct Suspects {
 
 /// Finds the uncertain pixels of a region: those where the brightness curves by more than the tolerance along one of the
 /// four lines through the pixel and two of its neighbours, or differs by more than that from a neighbour that sees something
-/// else. A slope alone needs no refinement: its mean is the value at the centre. Across a limb, however, a straight line may
-/// be a coincidence.
+/// else; and their neighbours. A slope alone needs no refinement: its mean is the value at the centre. Where something ends,
+/// however, a straight line may be a coincidence, and the tip of a thin shadow may reach into a pixel beside all centres. Only
+/// the neighbours of a pixel that is uncertain by itself are added, not theirs in turn: a value depends on the two rings of
+/// pixels around it, whatever part of the image is rendered.
 pub struct Finder<'m> {
     brightness: Scalars<'m>,
     runs: &'m [Run],
     /// Where the runs of each row begin and end.
     of_row: Vec<Range<usize>>,
+    /// The columns of the region.
     columns: Range<usize>,
+    /// The same and one more on each side, as far as the map extends: what is uncertain there matters to its neighbours.
+    searched: Range<usize>,
     width: usize,
     height: usize,
     tolerance: f64,
@@ -62,12 +86,13 @@ pub struct Finder<'m> {
 }
 
 impl<'m> Finder<'m> {
-    /// For a region of a map.
+    /// For a region of a map that holds two more pixels on each side, as far as the image extends.
     pub fn new(map: &'m Map, region: Region, tolerance: f64) -> Self {
         let Region { corner, size } = map.region;
         let first = (region.corner.column - corner.column) as usize;
         let (width, height) = (size.width as usize, size.height as usize);
         let runs = map.mask().runs();
+        let columns = first..first + region.size.width as usize;
         let mut next = 0;
         let of_row = (1..=height).map(|row| {
             let start = next;
@@ -78,7 +103,8 @@ impl<'m> Finder<'m> {
             brightness: map.scalar(&Quantity::Brightness).expect("it was asked for"),
             runs,
             of_row: of_row.collect(),
-            columns: first..first + region.size.width as usize,
+            searched: columns.start.saturating_sub(1)..(columns.end + 1).min(width),
+            columns,
             width,
             height,
             tolerance,
@@ -86,8 +112,37 @@ impl<'m> Finder<'m> {
         }
     }
 
-    /// The uncertain pixels of a row of the map, from left to right.
-    fn in_row<'f>(&'f self, row: usize, suspects: &'f mut Suspects) -> impl Iterator<Item = Suspect> {
+    /// The uncertain pixels of some rows of the region.
+    fn in_rows(&self, rows: Range<usize>, suspects: &mut Suspects) -> Vec<Suspect> {
+        let searched = rows.start.saturating_sub(1)..(rows.end + 1).min(self.height);
+        let first = searched.start;
+        let found: Vec<Vec<Suspect>> = searched.map(|row| self.in_row(row, suspects)).collect();
+        let mut all = Vec::new();
+        for row in rows {
+            let known = &found[row - first];
+            all.extend(known.iter().filter(|suspect| self.columns.contains(&self.column(suspect))));
+            let around = &found[(row - first).saturating_sub(1)..(row - first + 2).min(found.len())];
+            let beside = around.iter().flatten().map(|suspect| self.column(suspect));
+            suspects.columns.clear();
+            suspects.columns.extend(beside.flat_map(|column| column.saturating_sub(1)..column + 2));
+            suspects.columns.sort_unstable();
+            suspects.columns.dedup();
+            for column in suspects.columns.iter().filter(|column| self.columns.contains(column)) {
+                let index = row * self.width + column;
+                if known.binary_search_by_key(&index, |suspect| suspect.index).is_err() {
+                    all.push(self.look_around(row, *column).suspect);
+                }
+            }
+        }
+        all
+    }
+
+    fn column(&self, suspect: &Suspect) -> usize {
+        suspect.index % self.width
+    }
+
+    /// The pixels of a row, from left to right, that are uncertain by themselves.
+    fn in_row(&self, row: usize, suspects: &mut Suspects) -> Vec<Suspect> {
         suspects.columns.clear();
         self.suspect_edges(row, suspects);
         if let Some(inner) = self.inner(row) {
@@ -95,7 +150,7 @@ impl<'m> Finder<'m> {
         }
         suspects.columns.sort_unstable();
         suspects.columns.dedup();
-        suspects.columns.iter().filter_map(move |column| self.uncertain(row, *column))
+        suspects.columns.iter().filter_map(|column| self.uncertain(row, *column)).collect()
     }
 
     fn runs_of(&self, row: usize) -> &[Run] {
@@ -114,8 +169,8 @@ impl<'m> Finder<'m> {
             Some((runs.first()?.start - row * self.width, runs.last()?.end - row * self.width))
         });
         let (start, end) = seen.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)))?;
-        let start = start.saturating_sub(1).max(self.columns.start).max(1);
-        let end = (end + 1).min(self.columns.end).min(self.width - 1);
+        let start = start.saturating_sub(1).max(self.searched.start).max(1);
+        let end = (end + 1).min(self.searched.end).min(self.width - 1);
         (row > 0 && row + 1 < self.height && start < end).then_some(start..end)
     }
 
@@ -135,7 +190,7 @@ impl<'m> Finder<'m> {
             return;
         }
         let mut suspect = |columns: Range<usize>| {
-            suspects.extend(columns.start.max(self.columns.start)..columns.end.min(self.columns.end));
+            suspects.extend(columns.start.max(self.searched.start)..columns.end.min(self.searched.end));
         };
         for pair in cuts.windows(2) {
             let [start, end] = [pair[0], pair[1]];
@@ -161,6 +216,11 @@ impl<'m> Finder<'m> {
     }
 
     fn uncertain(&self, row: usize, column: usize) -> Option<Suspect> {
+        let Surroundings { suspect, bend, is_unlike } = self.look_around(row, column);
+        (bend > self.tolerance || is_unlike).then_some(suspect)
+    }
+
+    fn look_around(&self, row: usize, column: usize) -> Surroundings {
         let index = row * self.width + column;
         let here = self.brightness.at(index);
         let (mut contrast, mut bend) = (0.0_f64, 0.0_f64);
@@ -176,12 +236,30 @@ impl<'m> Finder<'m> {
                 (self.value(row, column) - here).abs() > self.tolerance && self.shape(row, column) != shape
             })
         };
-        let is_uncertain =
-            bend > self.tolerance || contrast > self.tolerance && LINES.into_iter().flatten().any(is_unlike);
-        is_uncertain.then_some(Suspect { index, contrast, sees: shape.is_some() })
+        let is_unlike = contrast > self.tolerance && LINES.into_iter().flatten().any(is_unlike);
+        Surroundings { suspect: Suspect { index, contrast, sees: shape.is_some() }, bend, is_unlike }
     }
 
-    fn value(&self, row: usize, column: usize) -> f64 {
+    /// Whether a pixel's centre, or a neighbour's, sees a shape.
+    pub fn is_seen_nearby(&self, row: usize, column: usize, shape: usize) -> bool {
+        let around = LINES.into_iter().flatten().filter_map(|offset| self.beside(row, column, offset));
+        let mut pixels = around.chain([(row, column)]);
+        pixels.any(|(row, column)| self.shape(row, column).is_some_and(|seen| seen as usize == shape))
+    }
+
+    /// Whether a pixel is uncertain by what its neighbours see.
+    pub fn is_uncertain(&self, row: usize, column: usize) -> bool {
+        self.uncertain(row, column).is_some()
+    }
+
+    /// A pixel that is uncertain by so much.
+    pub fn uncertain_by(&self, row: usize, column: usize, contrasts: Vec<f64>) -> Uncertain {
+        let sees = self.shape(row, column).is_some();
+        Uncertain { index: row * self.width + column, contrasts, sees }
+    }
+
+    /// The brightness at the centre of a pixel of the map.
+    pub fn value(&self, row: usize, column: usize) -> f64 {
         self.brightness.at(row * self.width + column)
     }
 

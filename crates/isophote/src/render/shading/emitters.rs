@@ -12,7 +12,7 @@ use crate::vector::Vector;
 pub const BLOCK: usize = 64;
 
 /// In single precision, a lobe with a larger n would lose more digits than [`SINGLE`](crate::tolerance::SINGLE) allows.
-const LARGEST_SHININESS_IN_SINGLE: f64 = 32.0;
+const LARGEST_SHININESS_IN_SINGLE: f64 = 24.0;
 
 /// The largest distance, in radii, whose powers single precision can hold, and the intensities over R² that it can hold.
 const FARTHEST_IN_SINGLE: f64 = 1e5;

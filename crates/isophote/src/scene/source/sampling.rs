@@ -7,7 +7,7 @@ tables! {
     /// How many rays a pixel's value is made of.
     #[serde(deny_unknown_fields)]
     pub struct SamplingSource {
-        /// Rays for each pixel. With a tolerance the most that a pixel gets, 256 by default.
+        /// Rays for each pixel. With a tolerance the most that a pixel gets, 4096 by default.
         #[schemars(range(min = 1, max = limits::SAMPLES), extend("default" = 1))]
         pub samples: Option<u64>,
         /// The error of a pixel's brightness that is allowed, as a part of the largest brightness of the image: each pixel

@@ -82,6 +82,12 @@ impl Mesh {
         distances.min_by(|first, second| first.1.total_cmp(&second.1)).unwrap_or((0, f64::INFINITY))
     }
 
+    /// The corners of one of its triangles, in metres.
+    #[must_use]
+    pub fn corners(&self, part: u32) -> [Vector; 3] {
+        self.triangle(part).corners
+    }
+
     /// The bounding box of one of its triangles.
     #[must_use]
     pub fn part_bounds(&self, part: u32) -> Bounds {

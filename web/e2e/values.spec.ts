@@ -1,0 +1,68 @@
+/** The numbers of the page are those of the command. */
+
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import type { Page } from '@playwright/test';
+import { command, expect, folder, open, picture, saved, test } from './page';
+
+const PRESETS = ['lab', 'course-sphere', 'course-plane', 'two-lights', 'sun', 'room', 'photometric', 'course'];
+
+interface Probes {
+  probes: { name: string; point: number[]; channels: { brightness: { value: number }; irradiance: { value: number } } }[];
+}
+
+for (const preset of PRESETS) {
+  test(`${preset}: picture, extremes and probes are those of the command`, async ({ page }) => {
+    await open(page);
+    await page.getByRole('combobox', { name: 'Examples' }).selectOption(preset);
+    await picture(page);
+    const scene = join(folder(), 'scene.toml');
+    writeFileSync(scene, await saved(page, 'Scene (TOML)'));
+
+    if (/^\[\[probe\]\]/m.test(readFileSync(scene, 'utf8'))) await compareProbes(page, scene);
+
+    const png = await saved(page, 'Picture, 0–255 (PNG)');
+    const out = join(folder(), 'picture.png');
+    command('render', scene, '--json', '--quiet', '-o', out);
+    const [found, expected] = [await levels(page, png), await levels(page, readFileSync(out))];
+    expect(found.length).toBe(expected.length);
+    // A value half way between two levels may be rounded either way: WebAssembly has no fused multiply-add.
+    const differing = found.filter((level, index) => level !== expected[index]);
+    expect(differing.length).toBeLessThanOrEqual(3);
+    expect(found.every((level, index) => Math.abs(level - expected[index]!) <= 1)).toBe(true);
+  });
+}
+
+/** Every value at the scene's probes is that of the command to 1e-12. */
+async function compareProbes(page: Page, scene: string): Promise<void> {
+  const told = JSON.parse(command('probe', scene, '--json', '--quiet')) as Probes;
+  expect(told.probes.length).toBeGreaterThan(0);
+  const rows = (await saved(page, 'Values at the probes (CSV)')).toString().trim().split('\n');
+  const table = rows.filter((row) => !row.startsWith('#')).slice(1);
+  expect(table.length).toBe(told.probes.length);
+  table.forEach((row, index) => {
+    const probe = told.probes[index]!;
+    const [, , , , brightness, irradiance] = row.split(',').map(Number);
+    near(brightness!, probe.channels.brightness.value, 1e-12);
+    near(irradiance!, probe.channels.irradiance.value, 1e-12);
+  });
+}
+
+function near(found: number, expected: number, relative: number) {
+  expect(Math.abs(found - expected), `${found} ${expected}`).toBeLessThanOrEqual(relative * Math.abs(expected));
+}
+
+/** The grey levels of a picture. */
+async function levels(page: Page, png: Buffer): Promise<number[]> {
+  const text = await page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d')!;
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    let red = '';
+    for (let at = 0; at < data.length; at += 4) red += String.fromCharCode(data[at]!);
+    return btoa(red);
+  }, png.toString('base64'));
+  return [...Buffer.from(text, 'base64')];
+}

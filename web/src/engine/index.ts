@@ -1,0 +1,189 @@
+/** The engine: the core in workers. The first worker answers questions, all of them render bands of rows. */
+
+import type { SceneSource } from '../scene/model';
+import type { BandAnswer, CoreModule, Question } from './messages';
+import { CoreClient } from './pool';
+import type {
+  Analysis,
+  AreaReading,
+  Checked,
+  Colormap,
+  Engine,
+  Explanation,
+  ExportRequest,
+  Frame,
+  Language,
+  Probed,
+  ProbeRequest,
+  ReadScene,
+  Section,
+  SectionRequest,
+  SurfaceRequest,
+} from './types';
+
+/** Bands for each worker: several, so that one with an easy part of the image takes another. */
+const BANDS_PER_WORKER = 2;
+/** Fewer rows are not worth a message. */
+const LEAST_ROWS = 32;
+
+class WorkerEngine implements Engine {
+  version = '';
+  readonly #answering: CoreClient;
+  readonly #rendering: CoreClient[];
+  #language: Language;
+  /** Counts calls of `render`: bands of earlier ones are pointless. */
+  #latest = 0;
+  #texts = new WeakMap<SceneSource, string>();
+
+  constructor(module: CoreModule, workers: number, language: Language) {
+    this.#language = language;
+    this.#answering = new CoreClient(module, language);
+    this.#rendering = Array.from({ length: workers }, () => new CoreClient(module, language));
+  }
+
+  /** Waits for the first core. */
+  async start(): Promise<void> {
+    this.version = await this.#answering.started;
+  }
+
+  get language(): Language {
+    return this.#language;
+  }
+
+  set language(language: Language) {
+    this.#language = language;
+    this.#answering.setLanguage(language);
+    for (const client of this.#rendering) client.setLanguage(language);
+  }
+
+  read(text: string, syntax: 'toml' | 'json'): Promise<ReadScene> {
+    return this.#answering.ask({ kind: 'read', text, syntax });
+  }
+
+  starter(name: string): Promise<string> {
+    return this.#answering.ask({ kind: 'starter', name });
+  }
+
+  toToml(scene: SceneSource): Promise<string> {
+    return this.#answering.ask({ kind: 'toml', text: this.#text(scene) });
+  }
+
+  check(scene: SceneSource): Promise<Checked> {
+    return this.#answering.ask({ kind: 'check', text: this.#text(scene) });
+  }
+
+  async render(scene: SceneSource, channel: string, step: 1 | 2 = 1): Promise<Frame | null> {
+    const call = ++this.#latest;
+    for (const client of this.#rendering) client.forget((question) => question.kind === 'render');
+    const size = scene.camera.resolution;
+    if (!size) return null;
+    const height = Math.ceil(size[1] / step);
+    const bands = bandsOf(height, this.#rendering.length);
+    const text = this.#text(scene);
+    const answers = await Promise.all(
+      bands.map(([first, count], index) => {
+        const client = this.#rendering[index % this.#rendering.length]!;
+        return client.ask<BandAnswer | null>({ kind: 'render', scene: text, channel, first, count, step });
+      }),
+    );
+    return call === this.#latest ? joined(answers, step) : null;
+  }
+
+  analyse(scene: SceneSource, { values, shapes, ...head }: Frame, levels: number | number[]): Promise<Analysis> {
+    return this.#answering.ask({ kind: 'analyse', scene: this.#text(scene), head, values, shapes, levels });
+  }
+
+  probe(scene: SceneSource, requests: ProbeRequest[]): Promise<Probed[]> {
+    return this.#answering.ask({ kind: 'probe', scene: this.#text(scene), requests });
+  }
+
+  explain(scene: SceneSource, request: ProbeRequest): Promise<Explanation> {
+    return this.#answering.ask({ kind: 'explain', scene: this.#text(scene), request });
+  }
+
+  section(scene: SceneSource, lines: SectionRequest[], channels: string[]): Promise<Section[]> {
+    return this.#answering.ask({ kind: 'section', scene: this.#text(scene), lines, channels });
+  }
+
+  areas(scene: SceneSource): Promise<AreaReading[]> {
+    return this.#answering.ask({ kind: 'areas', scene: this.#text(scene) });
+  }
+
+  map(scene: SceneSource, channel: string): Promise<Frame> {
+    const count = scene.camera.resolution?.[1] ?? 0;
+    return this.#whole({ kind: 'render', scene: this.#text(scene), channel, first: 0, count, step: 1 });
+  }
+
+  surface(scene: SceneSource, request: SurfaceRequest, channel: string): Promise<Frame> {
+    return this.#whole({ kind: 'surface', scene: this.#text(scene), request, channel });
+  }
+
+  grid(scene: SceneSource, grid: string, channel: string): Promise<Frame> {
+    return this.#whole({ kind: 'grid', scene: this.#text(scene), grid, channel });
+  }
+
+  colormap(name: Colormap): Promise<Uint8Array> {
+    return this.#answering.ask({ kind: 'colormap', name });
+  }
+
+  export(scene: SceneSource, request: ExportRequest): Promise<Uint8Array> {
+    return this.#answering.ask({ kind: 'export', scene: this.#text(scene), request });
+  }
+
+  /** A map that is one band. */
+  async #whole(question: Question): Promise<Frame> {
+    const { head, values, shapes } = await this.#answering.ask<BandAnswer>(question);
+    return { ...head, values, shapes, step: 1 };
+  }
+
+  /** A scene as JSON, made once. */
+  #text(scene: SceneSource): string {
+    let text = this.#texts.get(scene);
+    if (text === undefined) {
+      text = JSON.stringify(scene);
+      this.#texts.set(scene, text);
+    }
+    return text;
+  }
+}
+
+/** The first row and the number of rows of each band. */
+export function bandsOf(height: number, workers: number): [number, number][] {
+  const rows = workers === 1 ? height : Math.max(LEAST_ROWS, Math.ceil(height / (workers * BANDS_PER_WORKER)));
+  const bands: [number, number][] = [];
+  for (let first = 0; first < height; first += rows) bands.push([first, Math.min(rows, height - first)]);
+  return bands;
+}
+
+/** The whole frame; null if a band was not rendered. */
+export function joined(bands: (BandAnswer | null)[], step: 1 | 2): Frame | null {
+  const [first] = bands;
+  if (!first || bands.some((band) => band === null)) return null;
+  const { full, ...head } = first.head;
+  const [width, height] = full;
+  // The edges of the whole image: the upper edge of the first band, the lower one of the last.
+  const last = bands.at(-1)!;
+  const y: [number, number] = [last.head.window.y[0], first.head.window.y[1]];
+  const window = { x: head.window.x, y };
+  if (bands.length === 1) return { ...head, width, height, values: first.values, shapes: first.shapes, window, step };
+  const values = new Float64Array(width * height);
+  const shapes = new Int32Array(width * height);
+  let at = 0;
+  for (const band of bands) {
+    values.set(band!.values, at);
+    shapes.set(band!.shapes, at);
+    at += band!.values.length;
+  }
+  return { ...head, width, height, values, shapes, window, step };
+}
+
+/** Starts the engine with a module, on as many workers as the machine has processors to spare. */
+export async function startEngine(
+  module: CoreModule,
+  language: Language,
+  workers = Math.min(8, Math.max(1, (navigator.hardwareConcurrency || 2) - 1)),
+): Promise<Engine> {
+  const engine = new WorkerEngine(module, workers, language);
+  await engine.start();
+  return engine;
+}

@@ -1,0 +1,2 @@
+/** Whether fields keep to the ranges that the course sets. */
+export const limits = $state({ course: false });

@@ -1,0 +1,34 @@
+/** Work on the newest input only: while one is worked on, others may come and replace each other, and only the last of them is next. */
+export class Latest<T> {
+  #work: (input: T, isNewest: () => boolean) => Promise<void>;
+  #next: { input: T } | null = null;
+  #isWorking = false;
+  #onWorking: (isWorking: boolean) => void;
+
+  /** `onWorking` is told when there begins to be work, and when all is done. */
+  constructor(
+    work: (input: T, isNewest: () => boolean) => Promise<void>,
+    onWorking: (isWorking: boolean) => void = () => {},
+  ) {
+    this.#work = work;
+    this.#onWorking = onWorking;
+  }
+
+  /** Takes an input; what waited is dropped. */
+  take(input: T): void {
+    this.#next = { input };
+    if (!this.#isWorking) void this.#run();
+  }
+
+  async #run(): Promise<void> {
+    this.#isWorking = true;
+    this.#onWorking(true);
+    while (this.#next) {
+      const { input } = this.#next;
+      this.#next = null;
+      await this.#work(input, () => this.#next === null);
+    }
+    this.#isWorking = false;
+    this.#onWorking(false);
+  }
+}
