@@ -20,6 +20,18 @@ impl fmt::Display for Usage {
 
 impl std::error::Error for Usage {}
 
+/// What went wrong although the arguments were right: exit code 1.
+#[derive(Debug)]
+pub struct Failed(pub Message);
+
+impl fmt::Display for Failed {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(formatter)
+    }
+}
+
+impl std::error::Error for Failed {}
+
 /// The user stopped the program: exit code 130.
 #[derive(Debug)]
 pub struct Interrupted;
@@ -84,6 +96,9 @@ pub fn report(error: &anyhow::Error, language: Language) -> u8 {
 /// What an error says in either language. What the system and the files of outputs say is in English.
 fn message_of(error: &anyhow::Error) -> Option<Message> {
     if let Some(Usage(message)) = find(error) {
+        return Some(message.clone());
+    }
+    if let Some(Failed(message)) = find(error) {
         return Some(message.clone());
     }
     find::<RenderError>(error).map(RenderError::message)

@@ -15,6 +15,7 @@ use std::ffi::OsString;
 use std::io::Write;
 
 use clap::Parser;
+use isophote::message;
 use isophote::text::Language;
 
 pub use commands::APP_PAGE;
@@ -46,6 +47,10 @@ fn print(result: &str, language: Language) -> u8 {
     match stdout.write_all(result.as_bytes()).and_then(|()| stdout.flush()) {
         Ok(()) => 0,
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => 0,
-        Err(error) => failure::report(&anyhow::Error::new(error).context("cannot write to standard output"), language),
+        Err(error) => {
+            let error = error.to_string();
+            let failed = failure::Failed(message!("cannot write to standard output: {error}", error));
+            failure::report(&failed.into(), language)
+        }
     }
 }

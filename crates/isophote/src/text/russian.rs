@@ -319,6 +319,10 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("a number that cannot be read", "число, которое не удаётся прочитать"),
     ("a number, or a list of three: [red, green, blue]", "число или список из трёх чисел: [красный, зелёный, синий]"),
     ("a primitive", "примитив"),
+    (
+        "a probe needs a point, a pixel, a screen point, or angles on a shape",
+        "контрольной точке нужны точка, пиксель, точка экрана или углы на фигуре",
+    ),
     ("a property of element {element}", "свойство элемента `{element}`"),
     ("a property that is there twice", "повторённое свойство"),
     ("a real surface has at most 1", "у настоящей поверхности — не больше 1"),
@@ -483,6 +487,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("below", "ниже"),
     ("binary data", "двоичные данные"),
     ("blue", "синяя составляющая"),
+    ("bound on the error of the mean", "граница погрешности среднего"),
     (
         "brackets are nested more than {deepest} deep; a scene needs 4",
         "глубина вложенности скобок больше {deepest}; для сцены достаточно 4",
@@ -491,6 +496,10 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("brightness from \"{light}\"", "яркость от источника «{light}»"),
     ("cannot read ‘{file}’: {reason}", "не удаётся прочитать «{file}»: {reason}"),
     (
+        "cannot serve the app on port {port} of 127.0.0.1: {error}",
+        "не удалось открыть приложение на порту {port} адреса 127.0.0.1: {error}",
+    ),
+    (
         "cannot tell the format of {path}; allowed for figures: .svg, .png",
         "не удаётся определить формат {path}; для рисунков допустимо: .svg, .png",
     ),
@@ -498,6 +507,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
         "cannot tell the format of {path}; allowed: {allowed}",
         "не удаётся определить формат {path}; допустимо: {allowed}",
     ),
+    ("cannot write to standard output: {error}", "не удалось записать в стандартный вывод: {error}"),
     ("cells", "ячейки"),
     ("channel", "величина"),
     (
@@ -507,6 +517,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("color space", "цвет"),
     ("colour", "цвет"),
     ("colours", "цвета"),
+    ("column {column}", "столбец {column}"),
     (
         "column {column} runs at x = {x}, half a pixel to the {side} of the middle of the image; --vertical {middle} runs through it",
         "столбец {column} проходит при x = {x}, на полпикселя {side} от середины изображения; через неё проходит `--vertical` {middle}",
@@ -525,6 +536,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("depth along the direction of view", "глубина вдоль направления взгляда"),
     ("diffuse part", "диффузная составляющая"),
     ("disk", "диск"),
+    ("distance", "расстояние"),
     ("distance along the line", "расстояние вдоль линии"),
     ("distance {distance}, {edges}", "расстояние {distance}, {edges}"),
     ("document", "документ"),
@@ -674,10 +686,16 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("move the light in, or the eye out", "переместите источник внутрь или наблюдателя наружу"),
     ("name", "имя"),
     ("needed are x, y, z and radius", "нужны x, y, z и `radius`"),
+    ("no browser could be started: open the address in one", "не удалось запустить браузер: откройте адрес сами"),
     ("no extremes: the eye sees nothing of this side", "экстремумов нет: эта сторона не видна наблюдателю"),
     ("no extremes: this channel is no quantity", "экстремумов нет: канал — не одна величина"),
     ("no extremes: this channel is not one quantity a pixel", "экстремумов нет: в канале не одно число на пиксель"),
     ("no scene can be taken out of it: {reason}", "из этого файла не удаётся извлечь сцену: {reason}"),
+    (
+        "no scene is written in `{other}`; allowed: `toml`, `json`",
+        "сцен в формате `{other}` не бывает; допустимо: `toml`, `json`",
+    ),
+    ("no scene was loaded", "сцена не загружена"),
     ("no shape is made of the material \"{name}\"", "материал «{name}» не использован ни в одной фигуре"),
     ("no surface", "нет поверхности"),
     ("no surface is seen", "поверхности не видно"),
@@ -700,6 +718,10 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
         "not a text in UTF-8: byte 0x{byte} at offset {at}, line {line}",
         "это не текст в UTF-8: байт 0x{byte} по смещению {at}, строка {line}",
     ),
+    (
+        "not assured in {pixels} pixels by {samples} rays each",
+        "не гарантирован; таких пикселей: {pixels}; лучей на каждый: {samples}",
+    ),
     ("not valid JSON: {reason}", "нарушен синтаксис JSON: {reason}"),
     ("not valid TOML: {reason}", "нарушен синтаксис TOML: {reason}"),
     ("nothing known here", "неизвестный формат"),
@@ -707,6 +729,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("on the eye's side", "со стороны наблюдателя"),
     ("one parent, and no circle", "один родитель, без циклов"),
     ("one plot cannot show different units: {channels}", "на одном графике не может быть разных единиц: {channels}"),
+    ("one plot cannot show different units: {units}", "на одном графике не могут быть разные единицы: {units}"),
     ("orthographic (2.7), {edges}", "ортографическая (2.7), {edges}"),
     ("outside, the spot sends nothing", "снаружи этого угла источник не светит"),
     (
@@ -754,6 +777,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("resolution", "разрешение"),
     ("right", "вправо"),
     ("row of another element {number}", "строка другого элемента {number}"),
+    ("row {row}", "строка {row}"),
     (
         "row {row} runs at y = {y}, half a pixel {side} the middle of the image; --horizontal {middle} runs through it",
         "строка {row} проходит при y = {y}, на полпикселя {side} середины изображения; через неё проходит `--horizontal` {middle}",
@@ -792,7 +816,16 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("the JSON chunk", "блок JSON"),
     ("the accessor's elements", "элементы аксессора"),
     ("the announced contents", "объявленное содержимое"),
+    (
+        "the app is at this address as long as this program runs; Ctrl-C ends it",
+        "приложение доступно по этому адресу, пока работает эта программа; завершить её — Ctrl-C",
+    ),
+    (
+        "the app shows scenes whose shapes are in the scene itself; this one reads {file}",
+        "приложение показывает сцены, все фигуры которых описаны в самой сцене; эта читает файл {file}",
+    ),
     ("the buffer", "буфер"),
+    ("the centre of \"{shape}\" appears outside the image", "центр фигуры «{shape}» вне изображения"),
     (
         "the channel `{channel}` cannot be a picture: it is not one quantity a cell; put another --channel first",
         "канал `{channel}` нельзя показать картинкой: в нём не одно число на ячейку; поставьте первым другой `--channel`",
@@ -801,6 +834,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
         "the channel `{channel}` cannot be a picture: it is not one quantity a pixel; put another --channel first",
         "канал `{channel}` нельзя показать картинкой: в нём не одно число на пиксель; поставьте первым другой `--channel`",
     ),
+    ("the channel `{channel}` is not one number per pixel", "в канале `{channel}` не одно число на пиксель"),
     ("the determinant of its transform", "определитель преобразования"),
     ("the eye does not see the point of the maximum", "точка максимума не видна наблюдателю"),
     ("the eye does not see the point of the minimum", "точка минимума не видна наблюдателю"),
@@ -919,6 +953,10 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("the scene has {count} tables [[{key}]]", "таблиц `[[{key}]]` в сцене: {count}"),
     ("the scene is empty", "сцена пуста"),
     (
+        "the scene is too large to be handed to a browser; open its file in the app instead",
+        "сцена слишком велика, чтобы передать её браузеру; откройте её файл в самом приложении",
+    ),
+    (
         "the scene names the file ‘{file}’; none can be read here",
         "в сцене назван файл «{file}», но файлы здесь недоступны",
     ),
@@ -962,15 +1000,24 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
         "there is no channel `color`: no coefficient and no strength of the scene is written as [R, G, B]",
         "канала `color` нет: ни один коэффициент и ни один источник в сцене не задан тройкой [R, G, B]",
     ),
+    (
+        "there is no channel `sampling-error`: the scene has no tolerance; allowed with `sampling.tolerance`",
+        "канала `sampling-error` нет: в сцене не задан допуск; он есть при заданном `sampling.tolerance`",
+    ),
+    ("there is no channel `{channel}`", "канала `{channel}` нет"),
     ("there is no channel `{name}`; allowed: {names}", "канала `{name}` нет; допустимо: {names}"),
+    ("there is no colour map `{name}`; allowed: {allowed}", "палитры `{name}` нет; допустимо: {allowed}"),
     (
         "there is no column {column}: the image has columns 0 to {last}",
         "столбца {column} нет: в изображении столбцы от 0 до {last}",
     ),
     ("there is no command `{name}`", "команды `{name}` нет"),
     ("there is no file ‘{file}’ here", "файла «{file}» здесь нет"),
+    ("there is no grid \"{grid}\"", "сетки точек «{grid}» нет"),
     ("there is no grid \"{name}\"; {there_are}", "сетки точек «{name}» нет; {there_are}"),
+    ("there is no language `{name}`; allowed: {allowed}", "языка `{name}` нет; допустимо: {allowed}"),
     ("there is no material \"{name}\"", "материала «{name}» нет"),
+    ("there is no normalization `{name}`; allowed: {allowed}", "нормировки `{name}` нет; допустимо: {allowed}"),
     (
         "there is no part {part}: the shape has {parts}, counted from 0",
         "части {part} нет: всего частей {parts}, считая с 0",
@@ -978,6 +1025,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("there is no pixel at column {column}, row {row}", "пикселя в столбце {column}, строке {row} нет"),
     ("there is no row {row}: the image has rows 0 to {last}", "строки {row} нет: в изображении строки от 0 до {last}"),
     ("there is no shape \"{on}\"", "фигуры «{on}» нет"),
+    ("there is no starter scene `{name}`; allowed: {allowed}", "заготовки `{name}` нет; допустимо: {allowed}"),
     ("there is no such file", "такого файла нет"),
     (
         "they are kept up to a billion times the shape's size",
@@ -986,7 +1034,17 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("this file cannot be read: {reason}", "этот файл не удаётся прочитать: {reason}"),
     ("this file may not be read: permission denied", "этот файл нельзя прочитать: нет прав доступа"),
     ("this is a directory, not a scene file", "это каталог, а не файл сцены"),
+    (
+        "this program was built without the app: run `make app` in its source, then build it again; or open the file isophote.html of a release in a browser",
+        "эта программа собрана без приложения: выполните `make app` в её исходном коде и соберите её снова; или откройте в браузере файл `isophote.html` из выпуска",
+    ),
+    ("this question is not one: {error}", "запрос не разобран: {error}"),
+    (
+        "this scene has no channel `{name}` of single numbers",
+        "в этой сцене нет канала `{name}` с одним числом на пиксель",
+    ),
     ("title", "название"),
+    ("tolerance", "допуск"),
     ("triangle {number}", "треугольник {number}"),
     (
         "triangle {triangle} refers to {what}; there are {count}, counted from 0",
@@ -1189,6 +1247,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
         "готово частей: {done} из {shards}, они остаются: {way} с этого места",
     ),
     ("{emission}; switched off", "{emission}; выключен"),
+    ("{error}: {miss}", "{error}: {miss}"),
     ("{error}; -o NAME.zarr takes larger ones", "{error}; для больших есть `-o NAME.zarr`"),
     ("{eta} left", "осталось {eta}"),
     ("{expected}{comma}", "{expected}{comma}"),

@@ -6,13 +6,13 @@ mod server;
 use std::io::Write;
 use std::net::{Ipv4Addr, TcpListener};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use isophote::message;
 use isophote::scene::Scene;
 use isophote::text::Message;
 
 use crate::args::AppArguments;
-use crate::failure::{self, Usage};
+use crate::failure::{self, Failed, Usage};
 use crate::{load, progress};
 
 /// The page, packed by gzip, if the app was built before this program was.
@@ -36,8 +36,10 @@ pub fn run(arguments: &AppArguments) -> Result<String> {
         None => String::new(),
     };
     let port = arguments.port;
-    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))
-        .with_context(|| format!("cannot serve the app on port {port} of 127.0.0.1"))?;
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| {
+        let error = error.to_string();
+        Failed(message!("cannot serve the app on port {port} of 127.0.0.1: {error}", port, error))
+    })?;
     let address = format!("http://{}/", listener.local_addr()?);
     tell(&address);
     if !arguments.quiet {
