@@ -10,17 +10,17 @@ test.beforeEach(async ({ page }) => {
 
 test('mistakes of a scene are Russian, and follow the language of the page', async ({ page }) => {
   const lab = command('new', 'lab', '-o', '-');
-  const wrong = lab.replace(/^radius = 1\b/m, 'radius = -1').replace(/^diffuse = 0.7\b/m, 'diffuse = 7');
+  const wrong = lab.replace(/^radius = 1\b/m, 'radius = -1').replace('material = "clay"', 'material = "chalk"');
   await choose(page, 'wrong.toml', wrong, 'Открыть…');
   const mistakes = page.getByRole('status').getByRole('listitem');
   await expect(mistakes).toHaveText([
-    /`material\.clay\.diffuse` равно 7; допустимо: от 0 до 1/,
-    /`sphere\[0\]\.radius` равно -1; допустимо: больше 0/,
+    '`sphere[0].radius` равно -1; допустимо: больше 0 (от 1e-12 до 1e15 m)',
+    'sphere[0].material: материала «chalk» нет; допустимо: clay',
   ]);
   await page.getByRole('button', { name: 'English' }).click();
   await expect(mistakes).toHaveText([
-    /`material\.clay\.diffuse` is 7; allowed: 0 to 1/,
-    /`sphere\[0\]\.radius` is -1; allowed: above 0/,
+    '`sphere[0].radius` is -1; allowed: above 0 (1e-12 to 1e15 m)',
+    'sphere[0].material: there is no material "chalk"; allowed: clay',
   ]);
 });
 

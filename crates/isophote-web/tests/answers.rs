@@ -217,8 +217,8 @@ fn what_the_core_says_is_in_the_language_of_the_page() {
     assert_eq!(explained["blocks"][0]["title"], "Геометрия (2.2), длины в m");
     let requests = json!([{"name": "", "at": [0.0, 0.0, 3.0]}, {"name": "", "at": [0.0, 0.0, 6.0]}]);
     let probed = parsed(&core.probe(&requests.to_string()).unwrap());
-    let off = "точка (0, 0, 3) не лежит ни на одной поверхности";
-    assert!(probed[0]["error"].as_str().unwrap().starts_with(off), "{}", probed[0]);
+    let off = "точка не лежит ни на одной поверхности: она на 1 m снаружи от поверхности «ball»; ближайшая точка поверхности — [0, 0, 4]";
+    assert_eq!(probed[0]["error"], off);
     assert_eq!(probed[1]["reading"]["unseenBecause"], "её заслоняет «ball»");
     let style = json!({"colormap": "gray", "range": null, "normalization": "max", "isophotes": 3});
     let figure = json!({"kind": "figure-svg", "channel": "brightness", "style": style, "marks": true});

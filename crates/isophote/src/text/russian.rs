@@ -818,7 +818,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ("the announced contents", "объявленное содержимое"),
     (
         "the app is at this address as long as this program runs; Ctrl-C ends it",
-        "приложение доступно по этому адресу, пока работает эта программа; завершить её — Ctrl-C",
+        "приложение доступно по этому адресу, пока работает эта программа; завершить её — `Ctrl-C`",
     ),
     (
         "the app shows scenes whose shapes are in the scene itself; this one reads {file}",
