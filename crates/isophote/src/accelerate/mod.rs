@@ -12,7 +12,7 @@ mod query;
 mod tests;
 mod walk;
 
-pub(crate) use query::{Beam, Tube};
+pub(crate) use query::{Beam, Shaft, Tube};
 pub(crate) use walk::Walk;
 
 use self::node::Node;
@@ -64,6 +64,22 @@ impl Accelerator {
     /// The volume that a box, given by half its sides, sweeps along a ray; `None` if it misses all boxes.
     pub(crate) fn tube(&self, start: Vector, direction: Vector, radius: Vector) -> Option<Tube> {
         Tube::new(&self.unit, start, direction, radius)
+    }
+
+    /// The volume between two boxes: everything that segments from one to the other may hit; `None` if it misses all boxes.
+    pub(crate) fn shaft(&self, starts: &Bounds, ends: &Bounds) -> Option<Shaft> {
+        Shaft::new(&self.unit, starts, ends)
+    }
+
+    /// A distance from a place, in metres, beyond which there are no boxes.
+    pub(crate) fn farthest_from(&self, place: Vector) -> f64 {
+        // The scene is a cube whose half side is 1.
+        (self.unit.center - place).length() + 2.0 / self.unit.scale
+    }
+
+    /// The primitives that are in no box: every query begins with them.
+    pub(crate) fn unbounded(&self) -> &[u32] {
+        &self.unbounded
     }
 
     /// A beam of rays from a point, bounded by four directions in cyclic order.

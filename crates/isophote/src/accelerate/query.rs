@@ -1,8 +1,10 @@
-//! The queries of the tree: the boxes in a tube along a ray, and those in a beam of rays from a point.
+//! The queries of the tree: the boxes in a tube along a ray, those in a beam of rays from a point, and those in a shaft between
+//! two boxes.
 
 use super::Unit;
 use super::node::{Node, WIDTH};
 use crate::lanes::{Instructions, Lane, LaneJob};
+use crate::shape::Bounds;
 use crate::vector::Vector;
 
 /// A test of the boxes of a node.
@@ -193,5 +195,105 @@ impl Query for Beam {
         // −n·x is largest where the depth is smallest.
         let depth = (-highest::<V>(token, node, at, &self.forward)).max(zero);
         (depth, V::bits_not(inside.is_less(zero)))
+    }
+}
+
+/// Everything that segments from one box to another can hit: a box that moves from the first to the second, and changes its
+/// size on the way, sweeps their convex hull. Depths are fractions of the way.
+#[derive(Clone, Copy, Debug)]
+pub struct Shaft {
+    /// For each axis, when the moving box's lower side passes a box's upper one, and its upper side the lower one.
+    sides: [[Passage; 2]; 3],
+    /// The part of the way on which there is anything to hit.
+    part: [f64; 2],
+}
+
+/// When a coordinate that changes evenly passes another one.
+#[derive(Clone, Copy, Debug)]
+struct Passage {
+    /// The coordinate at the beginning.
+    start: f32,
+    /// One over its change.
+    inverse: f32,
+    /// Whether the boxes overlap after that, rather than before.
+    begins: bool,
+}
+
+impl Shaft {
+    /// A shaft in the unit frame; `None` if it misses all boxes.
+    pub(super) fn new(unit: &Unit, starts: &Bounds, ends: &Bounds) -> Option<Self> {
+        let place = |bounds: &Bounds| [unit.place(bounds.least), unit.place(bounds.greatest)];
+        let (starts, ends) = (place(starts), place(ends));
+        let middle = |[least, greatest]: [Vector; 2]| (least + greatest) * 0.5;
+        let half = |[least, greatest]: [Vector; 2]| ((greatest - least) * 0.5).length();
+        let (first, way) = (middle(starts), middle(ends) - middle(starts));
+        // Far from the scene, single precision would not be accurate enough, and there is nothing to hit.
+        let reach = FAR + half(starts).max(half(ends));
+        let (square, along) = (way.dot(way), first.dot(way));
+        let [enter, leave] = if square > 0.0 {
+            let nearest = first - way * (along / square);
+            let half = (reach * reach - nearest.dot(nearest)) / square;
+            if !(half >= 0.0) {
+                return None;
+            }
+            let (middle, half) = (-along / square, half.sqrt());
+            [(middle - half).max(0.0), (middle + half).min(1.0)]
+        } else {
+            [0.0, 1.0]
+        };
+        if !(enter < leave) {
+            return None;
+        }
+        let at = |part: f64| [0, 1].map(|side| starts[side] + (ends[side] - starts[side]) * part);
+        let ([low, high], [low_end, high_end]) = (at(enter), at(leave));
+        let largest = [low, high, low_end, high_end].map(Vector::length).into_iter().fold(0.0, f64::max);
+        let slack = unit.slack + 1e-6 * largest + 64.0 * f64::EPSILON * first.length().max((first + way).length());
+        let sides = [0, 1, 2].map(|axis| {
+            let [low, high, low_end, high_end] = [low, high, low_end, high_end].map(|corner| corner.to_array()[axis]);
+            [Passage::new(low - slack, low_end - low, false), Passage::new(high + slack, high_end - high, true)]
+        });
+        Some(Self { sides, part: [enter, leave - enter] })
+    }
+
+    /// The depth for a fraction of the whole way; rounded up.
+    #[must_use]
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
+    pub fn depth_of(&self, fraction: f64) -> f32 {
+        let [skipped, part] = self.part;
+        let depth = (fraction - skipped) / part;
+        (depth + 1e-6 * (depth.abs() + 1.0)) as f32
+    }
+}
+
+impl Passage {
+    /// A coordinate that starts here and changes by this much; it is an upper side or a lower one.
+    #[expect(clippy::cast_possible_truncation, reason = "the slack covers the rounding")]
+    fn new(start: f64, change: f64, is_upper: bool) -> Self {
+        // A smaller change stays within the slack.
+        const LEAST: f64 = 1e-7;
+        let change = if change.abs() < LEAST { LEAST.copysign(change) } else { change };
+        Self { start: start as f32, inverse: (1.0 / change) as f32, begins: is_upper == (change > 0.0) }
+    }
+}
+
+impl Query for Shaft {
+    #[inline(always)]
+    fn intersect_some<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node, at: usize) -> (V, u32) {
+        let mut near = V::splat(token, 0.0);
+        let mut far = V::splat(token, 1.0);
+        for (axis, passages) in self.sides.iter().enumerate() {
+            for (side, passage) in passages.iter().enumerate() {
+                // The lower side of the shaft against the upper side of the boxes, and the reverse.
+                let other = V::load(token, &node.sides[1 - side][axis][at..]);
+                let when = (other - V::splat(token, passage.start)) * V::splat(token, passage.inverse);
+                if passage.begins {
+                    near = near.max(when);
+                } else {
+                    far = far.min(when);
+                }
+            }
+        }
+        (near, V::bits_not(far.is_less(near)))
     }
 }

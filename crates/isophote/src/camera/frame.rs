@@ -115,6 +115,51 @@ impl<T: Scalar> CameraFrame<T> {
     }
 }
 
+/// Rays that differ only in what their column and their row add to the direction, or, if they are parallel, to the start.
+pub(crate) struct LinearRays<'f> {
+    frame: &'f CameraFrame<DoubleDouble>,
+    /// Whether the starts differ, and not the directions.
+    pub is_parallel: bool,
+    /// What all rays have in common: the eye, or the direction of parallel rays.
+    pub common: Vector<DoubleDouble>,
+    /// The rest of what differs.
+    center: Vector<DoubleDouble>,
+}
+
+impl CameraFrame<DoubleDouble> {
+    /// The rays of a perspective or orthographic camera; `None` for another one.
+    pub(crate) fn linear_rays(&self) -> Option<LinearRays<'_>> {
+        let (is_parallel, common, center) = match &self.projection {
+            Projection::Perspective(screen) => {
+                (false, self.eye, self.forward * DoubleDouble::from_f64(screen.distance))
+            }
+            Projection::Orthographic(_) => (true, self.forward, self.eye),
+            Projection::Fisheye(_) | Projection::Panorama(_) => return None,
+        };
+        Some(LinearRays { frame: self, is_parallel, common, center })
+    }
+}
+
+impl LinearRays<'_> {
+    /// What a column adds, counted from a first one.
+    pub fn of_column(&self, first: u32, index: usize) -> Vector<DoubleDouble> {
+        let [left, right] = self.frame.extent.x;
+        self.frame.right * self.at(left, right, first, index, 0, self.frame.resolution.width)
+    }
+
+    /// What a row adds, counted from a first one, and what all rays have.
+    pub fn of_row(&self, first: u32, index: usize) -> Vector<DoubleDouble> {
+        let [bottom, top] = self.frame.extent.y;
+        self.center + self.frame.up * self.at(top, bottom, first, index, 1, self.frame.resolution.height)
+    }
+
+    fn at(&self, low: f64, high: f64, first: u32, index: usize, axis: usize, count: u32) -> DoubleDouble {
+        #[expect(clippy::cast_precision_loss, reason = "a few pixels")]
+        let pixel = f64::from(first) + index as f64;
+        between(low, high, pixel + (self.frame.place[axis] - 0.5), count)
+    }
+}
+
 impl CameraFrame {
     /// x and y of a screen position, in metres or degrees.
     #[must_use]

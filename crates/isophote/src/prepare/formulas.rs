@@ -34,8 +34,13 @@ pub(super) fn formulas(scene: &Scene) -> Vec<PreparedFormula> {
 
 impl PreparedScene {
     pub(super) fn prepared_formula(&self, primitive: Primitive) -> &PreparedFormula {
+        &self.formulas[self.formula_index(primitive)]
+    }
+
+    /// Tells the materials of primitives apart.
+    pub(crate) fn formula_index(&self, primitive: Primitive) -> usize {
         let shape = &self.shapes[primitive.shape];
-        &self.formulas[shape.geometry.material_of(primitive.part).unwrap_or(shape.formula)]
+        shape.geometry.material_of(primitive.part).unwrap_or(shape.formula)
     }
 
     /// The convention applied to a primitive's material.

@@ -2,7 +2,7 @@
 
 use crate::double_double::DoubleDouble;
 use crate::scalar::Scalar;
-use crate::shape::{Primitive, SurfacePoint};
+use crate::shape::{Primitive, ShapeHit, SurfacePoint};
 use crate::vector::Vector;
 
 /// The first thing that a ray from the eye hits.
@@ -18,6 +18,14 @@ pub struct Hit<T = f64> {
     pub from_inside: bool,
     /// [`ShapeHit::shadow_ray_offset`](crate::shape::ShapeHit::shadow_ray_offset), shorter where something stands that close.
     pub shadow_ray_offset: Vector<T>,
+}
+
+impl<T> Hit<T> {
+    /// A hit on a primitive.
+    pub(crate) fn of(primitive: Primitive, hit: ShapeHit<T>) -> Self {
+        let ShapeHit { distance, point, from_inside, shadow_ray_offset } = hit;
+        Self { primitive, distance, point, from_inside, shadow_ray_offset }
+    }
 }
 
 impl<T: Scalar> Hit<T> {

@@ -21,6 +21,7 @@ pub(crate) use obstruction::AmbientShare;
 use obstruction::Hemisphere;
 pub(crate) use tracing::ERROR_OF_DISTANCE;
 pub use visibility::Blocking;
+pub(crate) use visibility::Blocks;
 
 use crate::accelerate::Accelerator;
 use crate::camera::CameraFrame;
@@ -198,6 +199,11 @@ impl PreparedScene {
     pub(crate) fn primitive(&self, number: u32) -> Primitive {
         let shape = self.first_primitives.partition_point(|first| *first <= number) - 1;
         Primitive { shape, part: number - self.first_primitives[shape] }
+    }
+
+    /// The number of a primitive.
+    pub(crate) fn number_of(&self, primitive: Primitive) -> u32 {
+        self.first_primitives[primitive.shape] + primitive.part
     }
 
     /// The form of a shape.

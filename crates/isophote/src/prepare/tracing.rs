@@ -6,7 +6,7 @@ use crate::double_double::DoubleDouble;
 use crate::map::Pixel;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
-use crate::shape::{Primitive, ShapeHit};
+use crate::shape::{Accuracy, Intersection, Primitive};
 use crate::vector::Vector;
 
 impl PreparedScene {
@@ -24,6 +24,26 @@ impl PreparedScene {
     #[must_use]
     pub fn trace_precisely(&self, position: ScreenPosition) -> Option<Hit<DoubleDouble>> {
         self.nearest(&self.precise_frame.ray(position)?).hit
+    }
+
+    /// Where a ray hits a primitive; `None` if a double is not enough, or if it misses.
+    pub(crate) fn hit_on(&self, primitive: Primitive, ray: &Ray) -> Option<Hit> {
+        let geometry = &self.shapes[primitive.shape].geometry;
+        let Intersection { hit, doubtful_from } = geometry.intersect(primitive.part, ray, self.accuracy(primitive));
+        hit.filter(|hit| doubtful_from.is_none_or(|from| hit.distance < from)).map(|hit| Hit::of(primitive, hit))
+    }
+
+    /// Where the ray through a screen position hits a primitive, with 32 digits.
+    pub(crate) fn precise_hit_on(&self, primitive: Primitive, position: ScreenPosition) -> Option<Hit> {
+        let geometry = &self.shapes[primitive.shape].geometry;
+        let ray = self.precise_frame.ray(position)?;
+        let hit = geometry.intersect(primitive.part, &ray, Accuracy::OF_VISIBILITY).hit?;
+        Some(Hit::of(primitive, hit).rounded())
+    }
+
+    /// Whether a primitive has a highlight that is sharper than this.
+    pub(crate) fn has_sharper_highlight(&self, primitive: Primitive, shininess: f64) -> bool {
+        self.prepared_formula(primitive).formula.sharpness().is_some_and(|n| n > shininess)
     }
 
     /// What a pixel of the full image sees.
@@ -55,7 +75,7 @@ impl PreparedScene {
     /// Visits the primitives that a ray may hit, roughly from near to far; `test` returns the distance up to which the
     /// search goes on. With only a handful of primitives, all of them are visited.
     pub(super) fn along_ray<T: Scalar>(&self, ray: &Ray<T>, limit: f64, mut test: impl FnMut(Primitive) -> f64) {
-        if self.primitive_count() <= self.linear_search_max {
+        if self.tries_all_primitives() {
             self.primitives().for_each(|primitive| {
                 test(primitive);
             });
@@ -64,6 +84,16 @@ impl PreparedScene {
         let vector = |vector: Vector<T>| vector.map(T::rounded);
         let start = vector(ray.anchor) + vector(ray.offset);
         self.accelerator().along_ray(start, vector(ray.direction), limit, |number| test(self.primitive(number)));
+    }
+
+    /// Whether rays try each primitive, without a tree.
+    pub(crate) fn tries_all_primitives(&self) -> bool {
+        self.primitive_count() <= self.linear_search_max
+    }
+
+    /// How accurate a hit of a ray from the eye must be.
+    pub(crate) fn accuracy(&self, primitive: Primitive) -> Accuracy {
+        self.prepared_formula(primitive).accuracy
     }
 
     /// All primitives.
@@ -102,7 +132,7 @@ impl<'s, T: Scalar> Search<'s, T> {
 
     /// Tests a primitive; returns the distance beyond which nothing matters any more.
     fn test(&mut self, primitive: Primitive) -> f64 {
-        let accuracy = self.scene.prepared_formula(primitive).accuracy;
+        let accuracy = self.scene.accuracy(primitive);
         let intersection = self.scene.shapes[primitive.shape].geometry.intersect(primitive.part, self.ray, accuracy);
         self.doubtful_from = least(self.doubtful_from, intersection.doubtful_from);
         if let Some(hit) = intersection.hit {
@@ -118,8 +148,7 @@ impl<'s, T: Scalar> Search<'s, T> {
                     || !by.is_less(T::zero()) && (primitive.shape, primitive.part) < (other.shape, other.part)
             };
             if ahead_by.is_none_or(is_nearer) {
-                let ShapeHit { distance, point, from_inside, shadow_ray_offset } = hit;
-                self.nearest = Some(Hit { primitive, distance, point, from_inside, shadow_ray_offset });
+                self.nearest = Some(Hit::of(primitive, hit));
             }
         }
         self.reach()

@@ -2,9 +2,10 @@
 
 use super::tracing::least;
 use super::{ERROR_OF_DISTANCE, Hit, PreparedScene};
+use crate::light::Emitter;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
-use crate::shape::{Accuracy, Primitive, SurfacePoint};
+use crate::shape::{Accuracy, Intersection, Primitive, SurfacePoint};
 use crate::vector::Vector;
 
 /// What stands between a surface point and a light.
@@ -20,6 +21,17 @@ impl Blocking {
     pub(super) const NONE: Self = Self { blocker: None, is_doubtful: false };
 }
 
+/// Whether a primitive blocks a light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Blocks {
+    /// It does.
+    Surely,
+    /// More digits are needed to tell.
+    Maybe,
+    /// It does not.
+    Not,
+}
+
 impl PreparedScene {
     /// What stands between a hit and an emitter; if anything does, v of (3.1) is 0.
     ///
@@ -29,10 +41,7 @@ impl PreparedScene {
     pub fn blocking<T: Scalar>(&self, hit: &Hit<T>, emitter: usize) -> Blocking {
         let source = &self.emitters.all()[emitter];
         let own = hit.primitive;
-        let geometry = &self.shapes[own.shape].geometry;
-        // A parallel light is outside every shape.
-        let is_enclosed = source.place().is_some_and(|place| geometry.part_encloses(own.part, place));
-        if hit.from_inside && !is_enclosed {
+        if hit.from_inside && !self.encloses(own, source) {
             return Blocking { blocker: Some(own), is_doubtful: false };
         }
         if !self.scene.casts_shadows(own.shape, source.light) {
@@ -49,10 +58,22 @@ impl PreparedScene {
         shadow_ray_offset: Vector<T>,
         emitter: usize,
     ) -> Blocking {
+        self.shadow_ray(point, shadow_ray_offset, emitter)
+            .map_or(Blocking::NONE, |(ray, distance)| self.nearest_blocker(own, &ray, distance))
+    }
+
+    /// The ray from a point to an emitter, and its length unless the emitter is a parallel one; `None` if the emitter is below
+    /// the horizon.
+    pub(crate) fn shadow_ray<T: Scalar>(
+        &self,
+        point: &SurfacePoint<T>,
+        shadow_ray_offset: Vector<T>,
+        emitter: usize,
+    ) -> Option<(Ray<T>, Option<T>)> {
         let source = &self.emitters.all()[emitter];
         let from_point = source.from_place(point.anchor, point.offset);
         if !T::zero().is_less(point.normal.dot(from_point)) {
-            return Blocking::NONE;
+            return None;
         }
         // Not beyond a light that is closer than the offset is long.
         let (reach, offset) = (from_point.dot(from_point), shadow_ray_offset.dot(shadow_ray_offset));
@@ -63,7 +84,29 @@ impl PreparedScene {
         let distance = to_light.length();
         let direction = to_light * (T::from_f64(1.0) / distance);
         let ray = Ray { anchor: Vector::from_f64(point.anchor), offset: start, direction };
-        self.nearest_blocker(own, &ray, source.place().map(|_| distance))
+        Some((ray, source.place().map(|_| distance)))
+    }
+
+    /// Whether an emitter is inside a primitive. A parallel light is outside every shape.
+    pub(crate) fn encloses(&self, primitive: Primitive, emitter: &Emitter) -> bool {
+        let geometry = &self.shapes[primitive.shape].geometry;
+        emitter.place().is_some_and(|place| geometry.part_encloses(primitive.part, place))
+    }
+
+    /// Whether a primitive blocks the light of a ray that does not start on it; the light is at this distance, if at any.
+    pub(crate) fn blocks(&self, primitive: Primitive, ray: &Ray, distance: Option<f64>) -> Blocks {
+        let geometry = &self.shapes[primitive.shape].geometry;
+        let Intersection { hit, doubtful_from } = geometry.intersect(primitive.part, ray, Accuracy::OF_VISIBILITY);
+        let is_before = |at: f64, part: f64| distance.is_none_or(|distance| at < distance * part);
+        let at = hit.map(|hit| hit.distance);
+        let is_certain = |at: f64| doubtful_from.is_none_or(|from| at < from);
+        if at.is_some_and(|at| is_before(at, 1.0 - ERROR_OF_DISTANCE) && is_certain(at)) {
+            Blocks::Surely
+        } else if at.into_iter().chain(doubtful_from).any(|at| is_before(at, 1.0 + ERROR_OF_DISTANCE)) {
+            Blocks::Maybe
+        } else {
+            Blocks::Not
+        }
     }
 
     /// What stands between the start of a ray, on its `own` primitives, and a light at this distance; without a distance (a
@@ -75,7 +118,7 @@ impl PreparedScene {
 
     /// The offset of a hit's shadow rays, shortened where something is in the way: their start must not be beyond what stands
     /// close to the surface. Also whether more digits could change it.
-    pub(super) fn clear_shadow_ray_offset<T: Scalar>(&self, hit: &Hit<T>) -> (Vector<T>, bool) {
+    pub(crate) fn clear_shadow_ray_offset<T: Scalar>(&self, hit: &Hit<T>) -> (Vector<T>, bool) {
         let offset = hit.shadow_ray_offset;
         let length = offset.length();
         if !T::zero().is_less(length) || !self.casts_shadows_between_shapes() {

@@ -350,7 +350,59 @@ pub fn asked_for(map: &Map, scene: &PreparedScene) -> Vec<usize> {
     map.channels.iter().filter_map(light).collect()
 }
 
+/// Pixels of the full image that are rendered together.
+#[derive(Clone, Copy, Debug)]
+pub struct Tile {
+    /// The top left pixel.
+    pub first: Pixel,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+/// Marks a pixel that sees nothing.
+pub const NOTHING: u32 = u32::MAX;
+
 impl Band<'_> {
+    /// Cuts the band into tiles of up to this many columns and rows: their edges are the same for any region of the image.
+    pub fn tiles(&self, width: u32, height: u32) -> Vec<Tile> {
+        let parts = |first: u32, count: u32, size: u32| {
+            let end = first + count;
+            let mut start = first;
+            std::iter::from_fn(move || {
+                let next = ((start / size + 1) * size).min(end);
+                let part = (start < end).then_some((start, next - start));
+                start = next;
+                part
+            })
+        };
+        let row = |(row, height)| {
+            let tile = move |(column, width)| Tile { first: Pixel { column, row }, width, height };
+            parts(self.first.column, self.size.width, width).map(tile)
+        };
+        parts(self.first.row, self.size.height, height).flat_map(row).collect()
+    }
+
+    /// The runs of the band, from the shapes that its pixels see, or [`NOTHING`].
+    pub fn runs(&self, seen: &[u32]) -> Vec<Run> {
+        let mut runs = Vec::new();
+        let width = self.size.width as usize;
+        for (row, seen) in seen.chunks_exact(width).enumerate() {
+            let mut start = 0;
+            while start < width {
+                let shape = seen[start];
+                let length = seen[start..].iter().take_while(|other| **other == shape).count();
+                if shape != NOTHING {
+                    let start = self.start + row * width + start;
+                    runs.push(Run { start, end: start + length, shape });
+                }
+                start += length;
+            }
+        }
+        runs
+    }
+
     /// Whether depth, position or normal are requested.
     pub fn has_geometry(&self) -> bool {
         let is_geometry = |channel: &BandChannel<'_>| {

@@ -5,6 +5,7 @@ mod derived;
 mod fan_out;
 pub(crate) mod hits;
 pub(crate) mod layers;
+mod packets;
 mod points;
 mod provenance;
 mod rays;

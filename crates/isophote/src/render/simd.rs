@@ -4,6 +4,7 @@
 use std::num::NonZeroUsize;
 
 use super::band::{self, Band, Sheet};
+use super::packets::{self, Packets};
 use super::rows::{Candidate, RowsJob};
 use super::sampling::{self, Renders};
 use super::shading::emitters::Lighting;
@@ -104,7 +105,7 @@ impl SimdRenderer {
         } else {
             threads.start()?;
             let parts = u32::try_from(threads.count()).unwrap_or(u32::MAX).saturating_mul(BANDS_A_THREAD);
-            let rows = if uses_tiles { tiles::HEIGHT } else { height.div_ceil(parts) };
+            let rows = if uses_tiles { tiles::HEIGHT } else { height.div_ceil(parts).next_multiple_of(packets::SIDE) };
             threads.map::<_, _, Result<_, _>>(band::split(&mut layers, rows), fill)?
         };
         band::finish(&mut layers, runs.into_iter().flatten().collect());
@@ -122,6 +123,9 @@ impl SimdRenderer {
             Some(candidates) => {
                 let job = RowsJob { scene, band, candidates, lighting, asked_for, precision, observer };
                 self.instructions.run(job)
+            }
+            None if packets::supports(scene) => {
+                Packets { scene, lighting, asked_for, instructions, observer }.fill(band)
             }
             None => rays::fill(&mut band, scene, asked_for, observer),
         }

@@ -16,6 +16,16 @@ pub struct Cuboid {
 }
 
 impl Cuboid {
+    /// Its axes.
+    pub(crate) fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
+    /// a, b and c, in metres.
+    pub(crate) fn half_sides(&self) -> Vector {
+        self.half
+    }
+
     /// A box with these sides (in metres, positive) around a centre.
     #[must_use]
     pub fn new(center: Vector, size: Vector, rotation: Rotation) -> Self {

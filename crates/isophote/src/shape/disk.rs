@@ -15,6 +15,11 @@ pub struct Disk {
 }
 
 impl Disk {
+    /// Its axes: the third is normal to it.
+    pub(crate) fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
     /// A disk with a radius (in metres, positive) around a centre, perpendicular to a direction (of any nonzero length).
     #[must_use]
     pub fn new(center: Vector, normal: Vector, radius: f64) -> Self {

@@ -13,6 +13,11 @@ pub struct Plane {
 }
 
 impl Plane {
+    /// Its axes: the third is normal to it.
+    pub(crate) fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
     /// The plane through a point, perpendicular to a direction (of any nonzero length).
     #[must_use]
     pub fn new(point: Vector, normal: Vector) -> Self {

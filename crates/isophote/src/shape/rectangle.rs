@@ -17,6 +17,11 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
+    /// Its axes: the third is normal to it.
+    pub(crate) fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
     /// A rectangle of this width and height (in metres, positive) around a centre. Its height runs along `up` as far as its
     /// normal allows; the two are not parallel.
     #[must_use]

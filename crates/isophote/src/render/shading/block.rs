@@ -2,6 +2,7 @@
 
 use crate::lanes::{Element, Lane, LaneJob};
 use crate::outline::{Ellipse, PlaceInRow, PointInRow};
+use crate::prepare::Hit;
 use crate::shape::{Primitive, SurfacePoint};
 use crate::vector::Vector;
 
@@ -22,6 +23,8 @@ pub struct SurfaceBlock<E> {
     pub anchor: Vector,
     /// The unit of lengths, in metres.
     pub unit: f64,
+    /// From the anchor to an anchor of each point, if the points have their own.
+    pub anchors: Option<Box<[[E; SIZE]; 3]>>,
     /// From the anchor to the points.
     pub offset: [[E; SIZE]; 3],
     /// N.
@@ -76,6 +79,7 @@ impl<E: Element> SurfaceBlock<E> {
             primitive: Primitive { shape: 0, part: 0 },
             anchor: Vector::default(),
             unit: 1.0,
+            anchors: None,
             offset: [zeros; 3],
             normal: [zeros; 3],
             view: [zeros; 3],
@@ -120,6 +124,15 @@ impl<E: Element> SurfaceBlock<E> {
         point.cos_theta_o.store(&mut self.cos_theta_o[at..]);
     }
 
+    /// The anchors of a vector of points, if they have their own.
+    #[inline(always)]
+    pub fn anchors_at<V: Lane<Element = E>>(&self, token: V::Token, at: usize) -> Option<Vector<V>> {
+        self.anchors.as_deref().map(
+            #[inline(always)]
+            |anchors| load(token, at, anchors),
+        )
+    }
+
     /// N of a vector of points.
     #[inline(always)]
     pub fn normal_at<V: Lane<Element = E>>(&self, token: V::Token, at: usize) -> Vector<V> {
@@ -146,10 +159,46 @@ impl<E: Element> SurfaceBlock<E> {
 }
 
 impl SurfaceBlock<f64> {
+    /// Room for points that have anchors of their own, in metres.
+    #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
+    pub fn anchored() -> Box<Self> {
+        let mut block = Self::new();
+        block.anchors = Some(Box::new([[0.0; SIZE]; 3]));
+        block
+    }
+
+    /// Writes a point of an [anchored](Self::anchored) block.
+    pub fn set(&mut self, at: usize, hit: &Hit) {
+        let point = &hit.point;
+        let vectors =
+            [(&mut self.offset, point.offset), (&mut self.normal, point.normal), (&mut self.view, point.view)];
+        let anchors = self.anchors.as_deref_mut().map(|anchors| (anchors, point.anchor));
+        for (numbers, vector) in vectors.into_iter().chain(anchors) {
+            for (numbers, component) in numbers.iter_mut().zip(vector.to_array()) {
+                numbers[at] = component;
+            }
+        }
+        (self.cos_theta_o[at], self.distance[at]) = (point.cos_theta_o, hit.distance);
+    }
+
+    /// Fills the last vector up with copies of the last point.
+    pub fn repeat_last(&mut self) {
+        let Some(last) = self.count.checked_sub(1) else { return };
+        let end = self.count.next_multiple_of(16);
+        let vectors =
+            [&mut self.offset, &mut self.normal, &mut self.view].into_iter().chain(self.anchors.as_deref_mut());
+        for numbers in vectors.flatten().chain([&mut self.cos_theta_o, &mut self.distance, &mut self.ambient]) {
+            let number = numbers[last];
+            numbers[self.count..end].fill(number);
+        }
+    }
+
     /// The position of a point, in metres.
     pub fn position_of(&self, index: usize) -> Vector {
         let [x, y, z] = &self.offset;
-        self.anchor + Vector::new(x[index], y[index], z[index]) * self.unit
+        let offset = Vector::new(x[index], y[index], z[index]) * self.unit;
+        let anchor = self.anchors.as_deref().map(|[x, y, z]| Vector::new(x[index], y[index], z[index]));
+        self.anchor + anchor.unwrap_or_default() + offset
     }
 }
 

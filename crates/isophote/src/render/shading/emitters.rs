@@ -82,6 +82,11 @@ impl Lighting {
         Self { order: by_place(scene.emitters()), asked_for: places }
     }
 
+    /// The order in which emitters are summed, as indices among the scene's.
+    pub fn order(&self) -> &[usize] {
+        &self.order
+    }
+
     /// Computes the emitters as seen from a sphere.
     pub fn place(&self, scene: &PreparedScene, sphere: &Sphere, emitters: &mut ShapeEmitters) {
         let ShapeEmitters { placed, indices, blocks } = emitters;

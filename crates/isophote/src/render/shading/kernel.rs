@@ -7,10 +7,12 @@ use super::block::{SIZE, ShadedBlock, SurfaceBlock};
 use super::emitters::Selection;
 use super::lobe::{NoLobe, Power};
 use crate::lanes::{Element, Lane, LaneJob, SimdToken};
+use crate::light::PlacedEmitter;
 use crate::reflectance::{BrightnessFormula, Lobe};
 use crate::shade::{Shading, light_term};
 use crate::shape::SurfacePoint;
 use crate::sum::Sum;
+use crate::vector::Vector;
 
 /// Where a kernel's points come from: from a block, or straight from the outline that they lie in.
 pub trait Points<V: Lane> {
@@ -19,6 +21,12 @@ pub trait Points<V: Lane> {
 
     /// E_a of these points.
     fn ambient(&self, token: V::Token, at: usize) -> V;
+
+    /// Their own anchors, if emitters are given relative to another place.
+    #[inline(always)]
+    fn anchors(&self, _: V::Token, _: usize) -> Option<Vector<V>> {
+        None
+    }
 }
 
 impl<V: Lane> Points<V> for SurfaceBlock<V::Element> {
@@ -30,6 +38,11 @@ impl<V: Lane> Points<V> for SurfaceBlock<V::Element> {
     #[inline(always)]
     fn ambient(&self, token: V::Token, at: usize) -> V {
         V::load(token, &self.ambient[at..])
+    }
+
+    #[inline(always)]
+    fn anchors(&self, token: V::Token, at: usize) -> Option<Vector<V>> {
+        self.anchors_at(token, at)
     }
 }
 
@@ -175,6 +188,7 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
     where
         V: Lane<Element = E>,
         L: Lobe<V>,
+        P: Points<V>,
         S: Visibility<V>,
     {
         let zero = point.cos_theta_o.splat_like(0.0);
@@ -205,15 +219,14 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
     where
         V: Lane<Element = E>,
         L: Lobe<V>,
+        P: Points<V>,
         S: Visibility<V>,
     {
         let zero = point.cos_theta_o.splat_like(0.0);
         let (mut irradiance, mut lobes) = (zero, zero);
+        let anchors = self.points.anchors(token, at);
         for (emitter, index) in self.selection.emitters[emitters.clone()].iter().zip(emitters) {
-            let emitter = emitter.map(
-                #[inline(always)]
-                |element| V::splat(token, element),
-            );
+            let emitter = placed(token, emitter, anchors);
             let term = light_term(point, &emitter, self.visibility.of(token, index, at), lobe);
             irradiance = irradiance + term.irradiance;
             lobes = term.lobe_irradiance.mul_add(term.lobe, lobes);
@@ -235,15 +248,31 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
                 point.cos_theta_o.splat_like(0.0).store(&mut out[at..]);
             }
             for (place, index) in self.selection.asked_for {
-                let emitter = self.selection.emitters[*index].map(
-                    #[inline(always)]
-                    |element| V::splat(token, element),
-                );
+                let emitter = placed(token, &self.selection.emitters[*index], self.points.anchors(token, at));
                 let visibility = self.visibility.of(token, *index, at);
                 let irradiance = light_term(&point, &emitter, visibility, &NoLobe).irradiance;
                 let out = &mut shaded.by_light[*place][at..];
                 (V::load(token, out) + irradiance).store(out);
             }
         }
+    }
+}
+
+/// An emitter as seen from the anchors of some points, or, if they have none of their own, from that of their block.
+#[inline(always)]
+fn placed<V: Lane>(
+    token: V::Token,
+    emitter: &PlacedEmitter<V::Element>,
+    anchors: Option<Vector<V>>,
+) -> PlacedEmitter<V> {
+    let emitter = emitter.map(
+        #[inline(always)]
+        |element| V::splat(token, element),
+    );
+    match anchors {
+        Some(anchors) if !emitter.pattern.is_parallel() => {
+            PlacedEmitter { position: emitter.position - anchors, ..emitter }
+        }
+        _ => emitter,
     }
 }

@@ -1,10 +1,11 @@
 //! The depth buffer of a tile.
 
 use super::outlines::{Block, Outlines, View};
-use super::{HEIGHT, Tile, WIDTH};
+use super::{HEIGHT, WIDTH};
 use crate::lanes::{Lane, LaneJob};
 use crate::map::Pixel;
 use crate::prepare::ERROR_OF_DISTANCE;
+use crate::render::band::Tile;
 
 /// The length of a row in memory: vectors may extend beyond the tile's edge.
 const STRIDE: usize = WIDTH as usize + 16;

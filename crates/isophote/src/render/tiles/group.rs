@@ -1,10 +1,11 @@
 //! The pixels of a tile that see the same sphere.
 
+use super::WIDTH;
 use super::canvas::Canvas;
 use super::outlines::Seen;
-use super::{Tile, WIDTH};
 use crate::accelerate::Walk;
 use crate::map::Pixel;
+use crate::render::band::Tile;
 use crate::shape::Primitive;
 
 /// The most pixels that are shaded together.

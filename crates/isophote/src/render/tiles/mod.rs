@@ -21,7 +21,7 @@ use crate::camera::Projection;
 use crate::lanes::{Instructions, Precision};
 use crate::map::{Pixel, Run};
 use crate::prepare::PreparedScene;
-use crate::render::band::{self, Band};
+use crate::render::band::{self, Band, NOTHING, Tile};
 use crate::render::hits::HitBlock;
 use crate::render::shading::emitters::Lighting;
 use crate::render::{Observer, RenderError, rays};
@@ -66,17 +66,6 @@ pub struct Tiles<'a> {
     pub observer: Option<&'a dyn Observer>,
 }
 
-/// Pixels of the full image that are drawn together.
-#[derive(Clone, Copy, Debug)]
-pub struct Tile {
-    /// The top left pixel.
-    pub first: Pixel,
-    /// Columns, up to [`WIDTH`].
-    pub width: u32,
-    /// Rows, up to [`HEIGHT`].
-    pub height: u32,
-}
-
 impl Tiles<'_> {
     /// Fills a band, and returns what its pixels see.
     pub fn fill(&self, mut band: Band<'_>) -> Result<Vec<Run>, RenderError> {
@@ -97,36 +86,14 @@ impl Tiles<'_> {
             doubtful: Vec::new(),
             hits: HitBlock::new(self.scene, self.asked_for),
         };
-        for tile in tiles(&band) {
+        for tile in band.tiles(WIDTH, HEIGHT) {
             work.tile(tile, &mut band)?;
             band::advance(self.observer, u64::from(tile.width) * u64::from(tile.height))?;
         }
         work.hits.put(&mut band)?;
-        Ok(runs(&band, &work.seen))
+        Ok(band.runs(&work.seen))
     }
 }
-
-/// The tiles of a band: their edges are the same for any region of the image.
-fn tiles(band: &Band<'_>) -> Vec<Tile> {
-    let parts = |first: u32, count: u32, size: u32| {
-        let end = first + count;
-        let mut start = first;
-        std::iter::from_fn(move || {
-            let next = ((start / size + 1) * size).min(end);
-            let part = (start < end).then_some((start, next - start));
-            start = next;
-            part
-        })
-    };
-    let row = |(row, height)| {
-        let tile = move |(column, width)| Tile { first: Pixel { column, row }, width, height };
-        parts(band.first.column, band.size.width, WIDTH).map(tile)
-    };
-    parts(band.first.row, band.size.height, HEIGHT).flat_map(row).collect()
-}
-
-/// Marks a pixel that sees nothing.
-const NOTHING: u32 = u32::MAX;
 
 /// The scratch memory of a thread, reused from tile to tile.
 struct Work<'a> {
@@ -208,23 +175,4 @@ impl Work<'_> {
         }
         Ok(())
     }
-}
-
-/// The runs of a band, from the shapes that its pixels see.
-fn runs(band: &Band<'_>, seen: &[u32]) -> Vec<Run> {
-    let mut runs = Vec::new();
-    let width = band.size.width as usize;
-    for (row, seen) in seen.chunks_exact(width).enumerate() {
-        let mut start = 0;
-        while start < width {
-            let shape = seen[start];
-            let length = seen[start..].iter().take_while(|other| **other == shape).count();
-            if shape != NOTHING {
-                let start = band.start + row * width + start;
-                runs.push(Run { start, end: start + length, shape });
-            }
-            start += length;
-        }
-    }
-    runs
 }

@@ -1,6 +1,5 @@
 //! The outlines of the spheres in a beam, eight at a time in pairs of doubles.
 
-use super::Tile;
 use crate::accelerate::{Accelerator, Beam, Walk};
 use crate::camera::Screen;
 use crate::double_double::DoubleDouble;
@@ -8,6 +7,7 @@ use crate::lanes::{Lane, LaneJob, SimdToken};
 use crate::map::Resolution;
 use crate::outline::{BEFORE_THE_EYE, Ellipse, PixelGrid};
 use crate::prepare::PreparedScene;
+use crate::render::band::Tile;
 use crate::shape::Sphere;
 use crate::vector::Vector;
 

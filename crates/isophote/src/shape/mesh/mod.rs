@@ -35,10 +35,15 @@ impl Mesh {
         self.triangle(part).intersect(ray, accuracy, self.size())
     }
 
+    /// The corners of one of its triangles, in metres, and the normals there, if it has any: unit vectors, or zero.
+    pub(crate) fn corners_and_normals(&self, part: u32) -> ([Vector; 3], Option<[Vector; 3]>) {
+        let Triangle { corners, normals } = self.triangle(part);
+        (corners, normals)
+    }
+
     fn triangle(&self, part: u32) -> Triangle {
-        let part = part as usize;
+        let (corners, part) = (self.corners(part), part as usize);
         let vector = |list: &[[f64; 3]], index: u32| Vector::from(list[index as usize]);
-        let corners = self.triangles[part].map(|index| vector(&self.vertices, index));
         let normals = self.normals.as_ref();
         let normals = normals.map(|normals| normals.corners[part].map(|index| vector(&normals.vectors, index)));
         Triangle { corners, normals }
@@ -85,13 +90,13 @@ impl Mesh {
     /// The corners of one of its triangles, in metres.
     #[must_use]
     pub fn corners(&self, part: u32) -> [Vector; 3] {
-        self.triangle(part).corners
+        self.triangles[part as usize].map(|index| Vector::from(self.vertices[index as usize]))
     }
 
     /// The bounding box of one of its triangles.
     #[must_use]
     pub fn part_bounds(&self, part: u32) -> Bounds {
-        let corners = self.triangle(part).corners;
+        let corners = self.corners(part);
         corners
             .map(|corner| Bounds { least: corner, greatest: corner })
             .into_iter()

@@ -1,0 +1,125 @@
+//! The primitives that the rays of a packet may meet.
+
+use super::rays::{OCTET, RAYS, RayPacket, splat};
+use crate::accelerate::{Shaft, Walk};
+use crate::lanes::Lane;
+use crate::prepare::PreparedScene;
+use crate::shape::{Bounds, Geometry, Primitive};
+use crate::vector::Vector;
+
+/// A search for what the rays of a packet meet.
+pub trait Search {
+    /// Tests a triangle.
+    fn test_triangle<V: Lane<Element = f64>>(&mut self, token: V::Token, packet: &RayPacket, found: &Candidate<'_>);
+
+    /// Tests another primitive for some of the rays, one by one.
+    fn test_rays(&mut self, found: &Candidate<'_>, rays: u64);
+
+    /// The t up to which the search goes on; `None` if it is over.
+    fn limit(&mut self) -> Option<f64>;
+}
+
+/// A primitive that may be met.
+pub struct Candidate<'s> {
+    /// Its number in the scene.
+    pub number: u32,
+    /// It.
+    pub primitive: Primitive,
+    /// The shape that it is a part of.
+    pub geometry: &'s Geometry,
+}
+
+/// Finds the primitives that rays of a packet may meet, and lets the search test each of them. Without an end of t, the
+/// packet's rays are followed until they have left the scene.
+#[inline(always)]
+pub fn search<S, D>(
+    token: S::Token,
+    scene: &PreparedScene,
+    packet: &RayPacket,
+    walk: &mut Walk,
+    search: &mut impl Search,
+) where
+    S: Lane<Element = f32>,
+    D: Lane<Element = f64, Token = S::Token>,
+{
+    if scene.tries_all_primitives() {
+        for number in 0..scene.primitive_count() {
+            test::<D>(token, scene, packet, search, number);
+        }
+        return;
+    }
+    let tree = scene.accelerator();
+    for number in tree.unbounded() {
+        test::<D>(token, scene, packet, search, *number);
+    }
+    let farthest = || (tree.farthest_from(packet.origin) + packet.reach) / packet.lengths[0];
+    let end = if packet.range[1].is_finite() { packet.range[1] } else { farthest() };
+    let [starts, ends] = packet.ends(end);
+    let Some(shaft) = tree.shaft(&starts, &ends) else { return };
+    walk.start(tree);
+    let depth = |shaft: &Shaft, limit: f64| shaft.depth_of(if limit < end { limit / end } else { 1.0 });
+    while let Some(limit) = search.limit()
+        && let Some(number) = walk.next::<S>(token, tree, &shaft, depth(&shaft, limit))
+    {
+        test::<D>(token, scene, packet, search, number);
+    }
+}
+
+#[inline(always)]
+fn test<V: Lane<Element = f64>>(
+    token: V::Token,
+    scene: &PreparedScene,
+    packet: &RayPacket,
+    search: &mut impl Search,
+    number: u32,
+) {
+    let primitive = scene.primitive(number);
+    let geometry = scene.geometry(primitive.shape);
+    let found = Candidate { number, primitive, geometry };
+    if let Geometry::Mesh(_) = geometry {
+        search.test_triangle::<V>(token, packet, &found);
+        return;
+    }
+    let rays = geometry.bounds(primitive.part).map_or(u64::MAX, |bounds| through::<V>(token, packet, &bounds));
+    if rays & packet.in_use != 0 {
+        search.test_rays(&found, rays & packet.in_use);
+    }
+}
+
+/// The rays that may pass through a box with t in the packet's range, as bits.
+#[inline(always)]
+fn through<V: Lane<Element = f64>>(token: V::Token, packet: &RayPacket, bounds: &Bounds) -> u64 {
+    let [least, greatest] = [bounds.least, bounds.greatest].map(|corner| corner - packet.origin);
+    // A component smaller than this is taken for it, which moves the ray by less than the slack.
+    const SMALLEST: f64 = 1e-10;
+    let reach = least.length() + greatest.length() + packet.reach;
+    let slack = 4.0 * SMALLEST * reach;
+    let slack = Vector::new(slack, slack, slack);
+    let (least, greatest) = (splat::<V>(token, least - slack), splat::<V>(token, greatest + slack));
+    let smallest = V::splat(token, SMALLEST * packet.lengths[1]);
+    let zero = V::splat(token, 0.0);
+    let one = V::splat(token, 1.0);
+    let mut bits = 0;
+    for at in (0..RAYS).step_by(V::COUNT) {
+        if packet.in_use >> (at / OCTET * OCTET) & 0xff == 0 {
+            continue;
+        }
+        let [start, direction] = packet.rays::<V>(token, at);
+        let mut near = V::splat(token, packet.range[0]);
+        let mut far = V::splat(token, packet.range[1]);
+        let axes = [
+            (start.x, direction.x, least.x, greatest.x),
+            (start.y, direction.y, least.y, greatest.y),
+            (start.z, direction.z, least.z, greatest.z),
+        ];
+        for (start, direction, least, greatest) in axes {
+            let size = direction.max(-direction).max(smallest);
+            let inverse = one / V::select(direction.is_less(zero), -size, size);
+            let (first, last) = ((least - start) * inverse, (greatest - start) * inverse);
+            near = near.max(first.min(last));
+            far = far.min(first.max(last));
+        }
+        bits |= u64::from(V::bits_not(far.is_less(near))) << at;
+    }
+    bits
+}

@@ -1,0 +1,325 @@
+//! Any shapes, seen by any camera: rays are traced in packets, tile by tile.
+//!
+//! The rays of a tile, and later those from its surface points to each light, go through the tree together, and the primitives
+//! that they may meet are tested for several rays at a time. That decides which primitive each ray hits, and which points see
+//! a light; the points themselves come from [`Geometry::intersect`](crate::shape::Geometry::intersect), and the kernel shades
+//! them. What is too close to call is traced ray by ray. Since each decision is made per ray, neither tiles nor packets change
+//! a bit.
+
+mod blocked;
+mod candidates;
+mod nearest;
+mod points;
+mod rays;
+mod shading;
+mod triangle;
+
+use self::blocked::Blocked;
+use self::nearest::{Nearest, Seen};
+use self::points::{Combine, FindPoints, Points, PreciseRays};
+use self::rays::{OCTET, RAYS, RayPacket};
+use self::shading::Shader;
+use crate::accelerate::Walk;
+use crate::camera::ScreenPosition;
+use crate::lanes::{Instructions, Lane, LaneJob};
+use crate::map::{Pixel, Run};
+use crate::prepare::{Hit, PreparedScene};
+use crate::ray::Ray;
+use crate::render::band::{self, Band, Tile};
+use crate::render::hits::HitBlock;
+use crate::render::shading::emitters::Lighting;
+use crate::render::{Observer, RenderError};
+use crate::shape::Primitive;
+
+/// Columns and rows of a tile.
+pub const SIDE: u32 = 8;
+
+/// The settings for filling bands.
+#[derive(Clone, Copy)]
+pub struct Packets<'a> {
+    /// The scene.
+    pub scene: &'a PreparedScene,
+    /// Its lights.
+    pub lighting: &'a Lighting,
+    /// The lights whose own irradiance is requested.
+    pub asked_for: &'a [usize],
+    /// The instruction set to use.
+    pub instructions: Instructions,
+    /// Receives progress reports.
+    pub observer: Option<&'a dyn Observer>,
+}
+
+/// Whether a scene is rendered by packets: the visibility of each light at each point of a tile is stored, so there must not
+/// be too many lights.
+pub fn supports(scene: &PreparedScene) -> bool {
+    scene.emitters().all().len() <= MOST_LIGHTS
+}
+
+const MOST_LIGHTS: usize = 8192;
+
+/// A sharper highlight would show that normals in lanes are rounded more than once.
+const SHARPEST: f64 = 1000.0;
+
+/// What each ray of a tile hits.
+type Hits = [Option<Hit>; RAYS];
+
+impl<'a> Packets<'a> {
+    /// Fills a band, and returns what its pixels see.
+    pub fn fill(&self, mut band: Band<'_>) -> Result<Vec<Run>, RenderError> {
+        let mut work = Work {
+            packets: *self,
+            packet: RayPacket::new(),
+            precise: PreciseRays::new(),
+            nearest: Nearest::new(),
+            points: Points::new(),
+            walk: Walk::default(),
+            hits: Box::new([None; RAYS]),
+            shader: Shader::new(self),
+            one_by_one: HitBlock::new(self.scene, self.asked_for),
+            seen: vec![band::NOTHING; band.size.pixels()],
+        };
+        for tile in band.tiles(SIDE, SIDE) {
+            work.tile(tile, &mut band)?;
+            band::advance(self.observer, u64::from(tile.width) * u64::from(tile.height))?;
+        }
+        work.one_by_one.put(&mut band)?;
+        Ok(band.runs(&work.seen))
+    }
+}
+
+/// The scratch memory of a thread, reused from tile to tile.
+struct Work<'a> {
+    packets: Packets<'a>,
+    packet: Box<RayPacket>,
+    /// The same rays with 32 digits.
+    precise: Box<PreciseRays>,
+    nearest: Box<Nearest>,
+    points: Box<Points>,
+    walk: Walk,
+    hits: Box<Hits>,
+    shader: Shader<'a>,
+    /// Points that are traced and shaded one by one.
+    one_by_one: HitBlock<'a>,
+    /// The shape that each pixel of the band sees.
+    seen: Vec<u32>,
+}
+
+impl Work<'_> {
+    fn tile(&mut self, tile: Tile, band: &mut Band<'_>) -> Result<(), RenderError> {
+        let scene = self.packets.scene;
+        let is_precise = self.aim(tile);
+        if self.packet.in_use == 0 {
+            return Ok(());
+        }
+        let Self { packets: Packets { instructions, .. }, packet, nearest, walk, .. } = self;
+        instructions.run(FindNearest { scene, packet, walk, nearest });
+        let mut doubtful = self.find_points(tile, is_precise);
+        doubtful |= self.clear_offsets();
+        for ray in set_bits(doubtful) {
+            let pixel = pixel_of(tile, ray);
+            let position = ScreenPosition::PixelCenter(pixel);
+            if let Some(hit) = scene.trace(position) {
+                self.one_by_one.push(band.index(pixel), &hit, Some(position));
+                self.seen[band.index(pixel)] = shape_of(&hit);
+                if self.one_by_one.is_full() {
+                    self.one_by_one.put(band)?;
+                }
+            }
+            self.hits[ray] = None;
+        }
+        for (ray, hit) in self.hits.iter().enumerate() {
+            if let Some(hit) = hit {
+                self.seen[band.index(pixel_of(tile, ray))] = shape_of(hit);
+            }
+        }
+        self.shader.shade(&self.hits, tile, &mut self.packet, &mut self.walk, band)
+    }
+
+    /// Sets the rays of a tile; returns whether they are known with 32 digits.
+    fn aim(&mut self, tile: Tile) -> bool {
+        let Self { packets: Packets { scene, instructions, .. }, packet, precise, nearest, .. } = self;
+        let is_in_tile = |index: usize| {
+            let (column, row) = place_of(index);
+            column < tile.width && row < tile.height
+        };
+        let is_precise = precise.aim(scene, &std::array::from_fn(|index| pixel_of(tile, index)));
+        if is_precise {
+            instructions.run(Combine { rays: precise });
+        }
+        let ray = |index: usize| {
+            if is_precise {
+                Some(precise.ray(index))
+            } else {
+                scene.frame().ray(ScreenPosition::PixelCenter(pixel_of(tile, index)))
+            }
+        };
+        let rays: [Option<Ray>; RAYS] = std::array::from_fn(|index| if is_in_tile(index) { ray(index) } else { None });
+        packet.in_use = bits(rays.iter().map(Option::is_some));
+        packet.range = [0.0, f64::INFINITY];
+        let Some(first) = rays.iter().flatten().next().copied() else { return is_precise };
+        packet.origin = first.anchor;
+        for (index, ray) in rays.iter().enumerate() {
+            if let Some(ray) = ray {
+                packet.set(index, ray.start_from(first.anchor), ray.direction);
+            }
+        }
+        nearest.start(packet.in_use, rays.iter().map(|ray| ray.unwrap_or(first)));
+        is_precise
+    }
+
+    /// The points that the rays hit; returns the rays for which a double is not enough, as bits.
+    fn find_points(&mut self, tile: Tile, is_precise: bool) -> u64 {
+        let Self { packets: Packets { scene, instructions, .. }, packet, precise, nearest, points, hits, .. } = self;
+        let mut doubtful = 0;
+        let mut left = 0_u64;
+        let mut primitives = [Primitive { shape: 0, part: 0 }; RAYS];
+        hits.fill(None);
+        for index in set_bits(packet.in_use) {
+            match nearest.seen(index) {
+                Seen::Nothing => {}
+                Seen::Doubtful => doubtful |= 1 << index,
+                Seen::Primitive(number) => {
+                    primitives[index] = scene.primitive(number);
+                    left |= 1 << index;
+                }
+            }
+        }
+        points.clear();
+        while left != 0 {
+            let Primitive { shape, .. } = primitives[left.trailing_zeros() as usize];
+            let on_shape = set_bits(left).filter(|ray| primitives[*ray].shape == shape);
+            let on_shape = on_shape.fold(0, |bits, ray| bits | 1 << ray);
+            left &= !on_shape;
+            let geometry = scene.geometry(shape);
+            let in_lanes = is_precise
+                && points::finds_points(geometry)
+                && !scene.has_sharper_highlight(primitives[on_shape.trailing_zeros() as usize], SHARPEST);
+            if in_lanes {
+                let parts = primitives.map(|primitive| primitive.part);
+                instructions.run(FindPoints { rays: precise, on_shape, geometry, parts: &parts, points });
+            }
+            for index in set_bits(on_shape) {
+                let primitive = primitives[index];
+                hits[index] = if in_lanes {
+                    points.hit(index, primitive, points::anchor_of(geometry, primitive.part), precise)
+                } else {
+                    let position = ScreenPosition::PixelCenter(pixel_of(tile, index));
+                    let hit = scene.hit_on(primitive, nearest.ray(index));
+                    hit.or_else(|| scene.precise_hit_on(primitive, position))
+                };
+                doubtful |= u64::from(hits[index].is_none()) << index;
+            }
+        }
+        doubtful
+    }
+
+    /// Shortens the offsets of shadow rays that have something in their way; returns the rays for which a double is not enough
+    /// to tell, as bits.
+    fn clear_offsets(&mut self) -> u64 {
+        let Self { packets: Packets { scene, instructions, .. }, packet, walk, hits, .. } = self;
+        let has_offset = |hit: &Hit| hit.shadow_ray_offset.dot(hit.shadow_ray_offset) > 0.0;
+        let in_use = bits(hits.iter().map(|hit| hit.as_ref().is_some_and(has_offset)));
+        if in_use == 0 || !scene.casts_shadows_between_shapes() {
+            return 0;
+        }
+        let mut own = [0; RAYS];
+        (packet.in_use, packet.range) = (in_use, [0.0, 1.0]);
+        packet.origin = hits[in_use.trailing_zeros() as usize].map(|hit| hit.point.anchor).unwrap_or_default();
+        for index in set_bits(in_use) {
+            let Some(hit) = &hits[index] else { continue };
+            own[index] = scene.number_of(hit.primitive);
+            packet.set(index, (hit.point.anchor - packet.origin) + hit.point.offset, hit.shadow_ray_offset);
+        }
+        let ray = |index: usize| {
+            let hit = hits[index].as_ref()?;
+            let length = hit.shadow_ray_offset.length();
+            let direction = hit.shadow_ray_offset * (1.0 / length);
+            Some((Ray { anchor: hit.point.anchor, offset: hit.point.offset, direction }, Some(length)))
+        };
+        let mut blocked = Blocked { scene, own: &own, ray: &ray, in_use, surely: 0, maybe: 0 };
+        instructions.run(FindBlocked { scene, packet, walk, blocked: &mut blocked });
+        let mut doubtful = 0;
+        for index in set_bits(blocked.surely | blocked.maybe) {
+            if let Some(hit) = &mut hits[index] {
+                let (clear, is_doubtful) = scene.clear_shadow_ray_offset(hit);
+                hit.shadow_ray_offset = clear;
+                doubtful |= u64::from(is_doubtful) << index;
+            }
+        }
+        doubtful
+    }
+}
+
+/// Finds what the rays of a packet hit first.
+struct FindNearest<'f> {
+    scene: &'f PreparedScene,
+    packet: &'f mut RayPacket,
+    walk: &'f mut Walk,
+    nearest: &'f mut Nearest,
+}
+
+impl LaneJob for FindNearest<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S, D>(self, token: S::Token)
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Token = S::Token>,
+    {
+        self.packet.finish::<D::Narrow>(token);
+        candidates::search::<S::Narrow, D::Narrow>(token, self.scene, self.packet, self.walk, self.nearest);
+    }
+}
+
+/// Finds which rays of a packet are blocked.
+struct FindBlocked<'f, 'b> {
+    scene: &'f PreparedScene,
+    packet: &'f mut RayPacket,
+    walk: &'f mut Walk,
+    blocked: &'f mut Blocked<'b>,
+}
+
+impl LaneJob for FindBlocked<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S, D>(self, token: S::Token)
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Token = S::Token>,
+    {
+        self.packet.finish::<D::Narrow>(token);
+        candidates::search::<S::Narrow, D::Narrow>(token, self.scene, self.packet, self.walk, self.blocked);
+    }
+}
+
+/// Column and row of a ray in its tile: an octet is four columns wide and two rows high.
+#[expect(clippy::cast_possible_truncation, reason = "below 8")]
+fn place_of(ray: usize) -> (u32, u32) {
+    let (octet, lane) = (ray / OCTET, ray % OCTET);
+    ((octet % 2 * 4 + lane % 4) as u32, (octet / 2 * 2 + lane / 4) as u32)
+}
+
+fn pixel_of(tile: Tile, ray: usize) -> Pixel {
+    let (column, row) = place_of(ray);
+    Pixel { column: tile.first.column + column, row: tile.first.row + row }
+}
+
+fn shape_of(hit: &Hit) -> u32 {
+    u32::try_from(hit.primitive.shape).unwrap_or(band::NOTHING)
+}
+
+/// The positions of the bits that are set.
+fn set_bits(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let next = (bits != 0).then(|| bits.trailing_zeros() as usize)?;
+        bits &= bits - 1;
+        Some(next)
+    })
+}
+
+/// A bit for each answer.
+fn bits(answers: impl Iterator<Item = bool>) -> u64 {
+    answers.enumerate().fold(0, |bits, (index, answer)| bits | u64::from(answer) << index)
+}

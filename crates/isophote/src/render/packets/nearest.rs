@@ -1,0 +1,197 @@
+//! What the rays of a packet hit first.
+
+use super::candidates::{Candidate, Search};
+use super::rays::{OCTET, RAYS, RayPacket};
+use super::triangle::{Met, PacketTriangle};
+use crate::lanes::Lane;
+use crate::prepare::ERROR_OF_DISTANCE;
+use crate::ray::Ray;
+use crate::shape::{Accuracy, Geometry};
+
+/// The nearest hits so far.
+pub struct Nearest {
+    /// The rays that are still in use.
+    in_use: u64,
+    /// t of the nearest hit, its possible error, and the number of the primitive, −1 for none.
+    distance: [f64; RAYS],
+    error: [f64; RAYS],
+    number: [f64; RAYS],
+    /// The least t at which a double may have decided wrongly.
+    doubtful_from: [f64; RAYS],
+    /// The rays themselves.
+    rays: Vec<Ray>,
+    /// The largest distance of a ray, unless it has to be found again.
+    farthest: Option<f64>,
+}
+
+/// What a ray of a packet hits.
+pub enum Seen {
+    /// Nothing.
+    Nothing,
+    /// A primitive, by its number.
+    Primitive(u32),
+    /// It takes more than a double to tell.
+    Doubtful,
+}
+
+impl Nearest {
+    /// Nothing found yet.
+    #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
+    pub fn new() -> Box<Self> {
+        Box::new(Self {
+            in_use: 0,
+            distance: [0.0; RAYS],
+            error: [0.0; RAYS],
+            number: [0.0; RAYS],
+            doubtful_from: [0.0; RAYS],
+            rays: Vec::with_capacity(RAYS),
+            farthest: None,
+        })
+    }
+
+    /// Starts again, with other rays.
+    pub fn start(&mut self, in_use: u64, rays: impl Iterator<Item = Ray>) {
+        self.in_use = in_use;
+        self.rays.clear();
+        self.rays.extend(rays);
+        self.distance.fill(f64::INFINITY);
+        self.error.fill(0.0);
+        self.number.fill(-1.0);
+        self.doubtful_from.fill(f64::INFINITY);
+        self.farthest = None;
+    }
+
+    /// A ray.
+    pub fn ray(&self, index: usize) -> &Ray {
+        &self.rays[index]
+    }
+
+    /// What a ray hits.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a primitive's number, or −1")]
+    pub fn seen(&self, ray: usize) -> Seen {
+        let doubtful_from = self.doubtful_from[ray];
+        if doubtful_from < f64::INFINITY && !(self.distance[ray] + self.error[ray] < doubtful_from) {
+            return Seen::Doubtful;
+        }
+        if self.number[ray] < 0.0 {
+            return Seen::Nothing;
+        }
+        Seen::Primitive(self.number[ray] as u32)
+    }
+
+    fn doubt(&mut self, ray: usize, from: f64) {
+        // Written so that NaN counts as doubtful from the start.
+        let from = if from > 0.0 { from } else { 0.0 };
+        self.doubtful_from[ray] = self.doubtful_from[ray].min(from);
+    }
+
+    /// Tests the rays of an octet.
+    #[inline(always)]
+    fn test_octet<V: Lane<Element = f64>>(
+        &mut self,
+        token: V::Token,
+        packet: &RayPacket,
+        triangle: &PacketTriangle,
+        octet: usize,
+        number: u32,
+    ) {
+        for at in (octet * OCTET..(octet + 1) * OCTET).step_by(V::COUNT) {
+            let crossing = triangle.cross::<V>(token, packet, at);
+            let Met { surely, maybe } = triangle.met(token, &crossing, packet.range, 0.0);
+            if maybe != 0 {
+                self.doubt_some(at, maybe, crossing.t - crossing.error);
+            }
+            if surely == 0 {
+                continue;
+            }
+            // Those that certainly hit, as far as they are concerned.
+            let never = V::splat(token, f64::INFINITY);
+            let mut mask = [0.0; 16];
+            for (lane, mask) in mask[..V::COUNT].iter_mut().enumerate() {
+                *mask = f64::from(surely >> lane & 1);
+            }
+            let is_hit = V::splat(token, 0.5).is_less(V::load(token, &mask));
+            let t = V::select(is_hit, crossing.t, never);
+            let (before, error) = (V::load(token, &self.distance[at..]), V::load(token, &self.error[at..]));
+            let gap = (t - before).max(before - t);
+            // Where surfaces cross, the order of their distances is as uncertain as the distances themselves.
+            let uncertain = V::splat(token, ERROR_OF_DISTANCE).mul_add(t, error + crossing.error);
+            let close = V::bits(gap.is_less(uncertain)) & surely;
+            if close != 0 {
+                self.doubt_some(at, close, t.min(before) - uncertain);
+            }
+            let is_nearer = t.is_less(before);
+            V::select(is_nearer, t, before).store(&mut self.distance[at..]);
+            V::select(is_nearer, crossing.error, error).store(&mut self.error[at..]);
+            let numbers = V::load(token, &self.number[at..]);
+            V::select(is_nearer, V::splat(token, f64::from(number)), numbers).store(&mut self.number[at..]);
+            self.farthest = None;
+        }
+    }
+
+    #[inline(never)]
+    fn doubt_some<V: Lane<Element = f64>>(&mut self, at: usize, rays: u32, from: V) {
+        let mut all = [0.0; 16];
+        from.store(&mut all);
+        for (lane, from) in all[..V::COUNT].iter().enumerate().filter(|(lane, _)| rays >> lane & 1 == 1) {
+            self.doubt(at + lane, *from);
+        }
+    }
+}
+
+impl Search for Nearest {
+    #[inline(always)]
+    fn test_triangle<V: Lane<Element = f64>>(&mut self, token: V::Token, packet: &RayPacket, found: &Candidate<'_>) {
+        let Geometry::Mesh(mesh) = found.geometry else { return };
+        let triangle = PacketTriangle::new(&mesh.corners(found.primitive.part), packet);
+        let mut octets = triangle.octets::<V>(token, packet);
+        while octets != 0 {
+            let octet = octets.trailing_zeros() as usize;
+            octets &= octets - 1;
+            if packet.in_use >> (octet * OCTET) & 0xff != 0 {
+                self.test_octet::<V>(token, packet, &triangle, octet, found.number);
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn test_rays(&mut self, found: &Candidate<'_>, mut rays: u64) {
+        while rays != 0 {
+            let index = rays.trailing_zeros() as usize;
+            rays &= rays - 1;
+            let intersection =
+                found.geometry.intersect(found.primitive.part, &self.rays[index], Accuracy::OF_VISIBILITY);
+            if let Some(from) = intersection.doubtful_from {
+                self.doubt(index, from);
+            }
+            let Some(hit) = intersection.hit else { continue };
+            let (t, before) = (hit.distance, self.distance[index]);
+            let uncertain = self.error[index] + ERROR_OF_DISTANCE * t;
+            if (t - before).abs() < uncertain {
+                self.doubt(index, t.min(before) - uncertain);
+            }
+            if t < before {
+                (self.distance[index], self.error[index]) = (t, 0.0);
+                self.number[index] = f64::from(found.number);
+                self.farthest = None;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn limit(&mut self) -> Option<f64> {
+        if let Some(farthest) = self.farthest {
+            return Some(farthest);
+        }
+        let mut farthest = 0.0_f64;
+        for (ray, (distance, error)) in self.distance.iter().zip(&self.error).enumerate() {
+            if self.in_use >> ray & 1 == 1 {
+                farthest = farthest.max(distance + error);
+            }
+        }
+        // What is doubtful may be a little farther.
+        let farthest = farthest * (1.0 + 1e-9);
+        self.farthest = Some(farthest);
+        Some(farthest)
+    }
+}

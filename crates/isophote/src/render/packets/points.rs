@@ -1,0 +1,549 @@
+//! The points that rays hit, once it is known which primitive each of them hits.
+//!
+//! Where a ray meets a triangle, a flat shape or the face of a box is computed in lanes of 32 digits, so that the accuracy of a
+//! double, which the result has, is enough for any highlight that the kernel can shade.
+
+use super::rays::{OCTET, RAYS, Vectors, get, load, put, store};
+use super::set_bits;
+use crate::double_double::DoubleDouble;
+use crate::lanes::{Lane, LaneJob};
+use crate::map::Pixel;
+use crate::prepare::{Hit, PreparedScene};
+use crate::ray::Ray;
+use crate::real::Real;
+use crate::shape::{Cuboid, Geometry, Placement, Primitive, SurfacePoint};
+use crate::vector::Vector;
+
+/// The rays of a tile with 32 digits: a ray's direction, or its start if all rays are parallel, is the sum of what its column
+/// and its row contribute.
+pub struct PreciseRays {
+    is_parallel: bool,
+    /// The eye; the direction of parallel rays.
+    common: Vector<DoubleDouble>,
+    /// The upper and the lower halves of what columns and rows contribute.
+    columns: [Vectors; 2],
+    rows: [Vectors; 2],
+    /// The upper and the lower halves of the sums.
+    sums: [Vectors; 2],
+    /// Unit vectors along the rays.
+    directions: Vectors,
+}
+
+/// The points of some rays, by axis.
+pub struct Points {
+    offset: Vectors,
+    normal: Vectors,
+    cos_theta_o: [f64; RAYS],
+    distance: [f64; RAYS],
+    shadow_ray_offset: Vectors,
+    from_inside: u64,
+    /// The rays for which a double is not enough.
+    doubtful: u64,
+    corners: [Vectors; 3],
+    normals: [Vectors; 3],
+}
+
+/// How some rays run, in lanes.
+struct Way<V> {
+    start: Vector<DoubleDouble<V>>,
+    /// Of any length.
+    along: Vector<DoubleDouble<V>>,
+    direction: Vector<V>,
+}
+
+impl PreciseRays {
+    /// No rays.
+    #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
+    pub fn new() -> Box<Self> {
+        let zeros = [[0.0; RAYS]; 3];
+        Box::new(Self {
+            is_parallel: false,
+            common: Vector::zero(),
+            columns: [zeros; 2],
+            rows: [zeros; 2],
+            sums: [zeros; 2],
+            directions: zeros,
+        })
+    }
+
+    /// The rays through the centres of pixels; false for a camera whose rays are not linear in columns and rows.
+    pub fn aim(&mut self, scene: &PreparedScene, pixels: &[Pixel; RAYS]) -> bool {
+        let frame = scene.precise_frame();
+        let Some(parts) = frame.linear_rays() else { return false };
+        (self.is_parallel, self.common) = (parts.is_parallel, parts.common);
+        let first = pixels[0];
+        let halves = |vector: Vector<DoubleDouble>| {
+            let high = vector.map(DoubleDouble::rounded);
+            [high, (vector - Vector::from_f64(high)).map(DoubleDouble::rounded)]
+        };
+        // A tile has eight columns and eight rows.
+        let columns: [_; 8] = std::array::from_fn(|index| halves(parts.of_column(first.column, index)));
+        let rows: [_; 8] = std::array::from_fn(|index| halves(parts.of_row(first.row, index)));
+        for (ray, pixel) in pixels.iter().enumerate() {
+            let column = columns[(pixel.column - first.column) as usize];
+            let row = rows[(pixel.row - first.row) as usize];
+            for half in 0..2 {
+                put(&mut self.columns[half], ray, column[half]);
+                put(&mut self.rows[half], ray, row[half]);
+            }
+        }
+        true
+    }
+
+    /// A ray.
+    pub fn ray(&self, index: usize) -> Ray {
+        let direction = get(&self.directions, index);
+        let common = self.common.map(DoubleDouble::rounded);
+        if self.is_parallel {
+            Ray { anchor: get(&self.sums[0], index), offset: get(&self.sums[1], index), direction }
+        } else {
+            Ray { anchor: common, offset: Vector::default(), direction }
+        }
+    }
+
+    #[inline(always)]
+    fn way<V: Lane<Element = f64>>(&self, token: V::Token, at: usize) -> Way<V> {
+        let sum = pairs::<V>(token, &self.sums, at);
+        let common = exact::<V>(token, self.common);
+        let direction = load::<V>(token, &self.directions, at);
+        if self.is_parallel {
+            Way { start: sum, along: common, direction }
+        } else {
+            Way { start: common, along: sum, direction }
+        }
+    }
+}
+
+/// Adds what columns and rows contribute.
+pub struct Combine<'c> {
+    /// The rays.
+    pub rays: &'c mut PreciseRays,
+}
+
+impl LaneJob for Combine<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S, D>(self, token: S::Token)
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Token = S::Token>,
+    {
+        self.combine::<D::Narrow>(token);
+    }
+}
+
+impl Combine<'_> {
+    #[inline(always)]
+    fn combine<V: Lane<Element = f64>>(self, token: V::Token) {
+        let PreciseRays { is_parallel, common, columns, rows, sums, directions } = self.rays;
+        let parallel = exact::<V>(token, *common).map(DoubleDouble::nearest);
+        for at in (0..RAYS).step_by(V::COUNT) {
+            let sum = pairs::<V>(token, columns, at) + pairs(token, rows, at);
+            let high = sum.map(DoubleDouble::nearest);
+            store(&mut sums[0], at, high);
+            let low = sum + -high.map(DoubleDouble::exactly);
+            store(&mut sums[1], at, low.map(DoubleDouble::nearest));
+            store(directions, at, if *is_parallel { parallel } else { high.normalized() });
+        }
+    }
+}
+
+#[inline(always)]
+fn pairs<V: Lane<Element = f64>>(token: V::Token, [high, low]: &[Vectors; 2], at: usize) -> Vector<DoubleDouble<V>> {
+    let (high, low) = (load::<V>(token, high, at), load::<V>(token, low, at));
+    Vector::new(
+        DoubleDouble::sum_of(high.x, low.x),
+        DoubleDouble::sum_of(high.y, low.y),
+        DoubleDouble::sum_of(high.z, low.z),
+    )
+}
+
+#[inline(always)]
+fn exact<V: Lane<Element = f64>>(token: V::Token, vector: Vector<DoubleDouble>) -> Vector<DoubleDouble<V>> {
+    vector.map(
+        #[inline(always)]
+        |number| {
+            number.map(
+                #[inline(always)]
+                |half| V::splat(token, half),
+            )
+        },
+    )
+}
+
+impl Points {
+    /// No points.
+    #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
+    pub fn new() -> Box<Self> {
+        let zeros = [[0.0; RAYS]; 3];
+        Box::new(Self {
+            offset: zeros,
+            normal: zeros,
+            cos_theta_o: [0.0; RAYS],
+            distance: [0.0; RAYS],
+            shadow_ray_offset: zeros,
+            from_inside: 0,
+            doubtful: 0,
+            corners: [zeros; 3],
+            normals: [zeros; 3],
+        })
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        (self.from_inside, self.doubtful) = (0, 0);
+    }
+
+    /// The point of a ray on a primitive; `None` if it takes more than a double.
+    pub fn hit(&self, ray: usize, primitive: Primitive, anchor: Vector, rays: &PreciseRays) -> Option<Hit> {
+        if self.doubtful >> ray & 1 == 1 {
+            return None;
+        }
+        let point = SurfacePoint {
+            anchor,
+            offset: get(&self.offset, ray),
+            normal: get(&self.normal, ray),
+            view: -get(&rays.directions, ray),
+            cos_theta_o: self.cos_theta_o[ray],
+        };
+        Some(Hit {
+            primitive,
+            distance: self.distance[ray],
+            point,
+            from_inside: self.from_inside >> ray & 1 == 1,
+            shadow_ray_offset: get(&self.shadow_ray_offset, ray),
+        })
+    }
+}
+
+/// Computes the points of some rays, all on one shape.
+pub struct FindPoints<'f> {
+    /// The rays.
+    pub rays: &'f PreciseRays,
+    /// Those on the shape, as bits.
+    pub on_shape: u64,
+    /// The shape.
+    pub geometry: &'f Geometry,
+    /// The part of the shape that each of them hits.
+    pub parts: &'f [u32; RAYS],
+    /// Where the points go.
+    pub points: &'f mut Points,
+}
+
+/// Whether [`FindPoints`] can do it.
+pub fn finds_points(geometry: &Geometry) -> bool {
+    matches!(geometry, Geometry::Mesh(_) | Geometry::Cuboid(_)) || flat(geometry).is_some()
+}
+
+/// The place of a flat shape.
+fn flat(geometry: &Geometry) -> Option<&Placement> {
+    match geometry {
+        Geometry::Plane(plane) => Some(plane.placement()),
+        Geometry::Rectangle(rectangle) => Some(rectangle.placement()),
+        Geometry::Disk(disk) => Some(disk.placement()),
+        _ => None,
+    }
+}
+
+/// The anchor of the points on a part of a shape.
+pub fn anchor_of(geometry: &Geometry, part: u32) -> Vector {
+    match geometry {
+        Geometry::Mesh(mesh) => mesh.corners(part)[0],
+        Geometry::Cuboid(cuboid) => cuboid.placement().origin,
+        _ => flat(geometry).map(|placement| placement.origin).unwrap_or_default(),
+    }
+}
+
+impl LaneJob for FindPoints<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S, D>(mut self, token: S::Token)
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Token = S::Token>,
+    {
+        let is_smooth = self.gather();
+        for at in (0..RAYS).step_by(D::Narrow::COUNT) {
+            let lanes = self.on_shape >> at & ((1 << D::Narrow::COUNT) - 1);
+            if lanes == 0 {
+                continue;
+            }
+            match self.geometry {
+                Geometry::Mesh(_) => self.on_triangles::<D::Narrow>(token, at, lanes, is_smooth),
+                Geometry::Cuboid(cuboid) => self.on_box::<D::Narrow>(token, at, lanes, cuboid),
+                geometry => {
+                    if let Some(placement) = flat(geometry) {
+                        self.on_plane::<D::Narrow>(token, at, lanes, placement);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// In lanes, the points of some rays.
+struct Found<V> {
+    offset: Vector<V>,
+    normal: Vector<V>,
+    cos_theta_o: V,
+    distance: V,
+    shadow_ray_offset: Vector<V>,
+}
+
+impl FindPoints<'_> {
+    /// Looks the corners of triangles up; returns whether they have normals.
+    fn gather(&mut self) -> bool {
+        let Geometry::Mesh(mesh) = self.geometry else { return false };
+        let mut is_smooth = false;
+        for ray in set_bits(self.on_shape) {
+            let (corners, normals) = mesh.corners_and_normals(self.parts[ray]);
+            for (out, corner) in self.points.corners.iter_mut().zip(corners) {
+                put(out, ray, corner);
+            }
+            for (out, normal) in self.points.normals.iter_mut().zip(normals.into_iter().flatten()) {
+                put(out, ray, normal);
+                is_smooth = true;
+            }
+        }
+        // The other lanes of a vector compute something too.
+        let any = self.on_shape.trailing_zeros() as usize;
+        for octet in (0..RAYS).step_by(OCTET).filter(|octet| self.on_shape >> octet & 0xff != 0) {
+            for ray in (octet..octet + OCTET).filter(|ray| self.on_shape >> ray & 1 == 0) {
+                for vectors in self.points.corners.iter_mut().chain(&mut self.points.normals) {
+                    let vector = get(vectors, any);
+                    put(vectors, ray, vector);
+                }
+            }
+        }
+        is_smooth
+    }
+
+    /// Keeps the points of some lanes.
+    #[inline(always)]
+    fn keep<V: Lane<Element = f64>>(&mut self, at: usize, lanes: u64, found: &Found<V>, doubtful: u32) {
+        let Points { offset, normal, cos_theta_o, distance, shadow_ray_offset, doubtful: all, .. } = self.points;
+        *all |= (u64::from(doubtful) & lanes) << at;
+        let whole = (1 << V::COUNT) - 1;
+        let numbers = [(found.cos_theta_o, &mut *cos_theta_o), (found.distance, distance)];
+        let [x, y, z] = offset;
+        let [nx, ny, nz] = normal;
+        let [sx, sy, sz] = shadow_ray_offset;
+        let vectors = [
+            (found.offset.x, x),
+            (found.offset.y, y),
+            (found.offset.z, z),
+            (found.normal.x, nx),
+            (found.normal.y, ny),
+            (found.normal.z, nz),
+            (found.shadow_ray_offset.x, sx),
+            (found.shadow_ray_offset.y, sy),
+            (found.shadow_ray_offset.z, sz),
+        ];
+        for (number, out) in numbers.into_iter().chain(vectors) {
+            let out = &mut out[at..at + V::COUNT];
+            if lanes == whole {
+                number.store(out);
+                continue;
+            }
+            let mut all = [0.0; 16];
+            number.store(&mut all);
+            for (lane, out) in out.iter_mut().enumerate().filter(|(lane, _)| lanes >> lane & 1 == 1) {
+                *out = all[lane];
+            }
+        }
+    }
+
+    /// The points of triangles (2.5).
+    #[inline(always)]
+    fn on_triangles<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64, is_smooth: bool) {
+        let Way { start, along, direction } = self.rays.way::<V>(token, at);
+        let corners = self.points.corners.each_ref().map(
+            #[inline(always)]
+            |corner| load::<V>(token, corner, at),
+        );
+        let wide = corners.map(
+            #[inline(always)]
+            |corner| corner.map(DoubleDouble::exactly),
+        );
+        let seen = wide.map(
+            #[inline(always)]
+            |corner| corner + -start,
+        );
+        let edges =
+            [along.dot(seen[1].cross(seen[2])), along.dot(seen[2].cross(seen[0])), along.dot(seen[0].cross(seen[1]))];
+        let whole = edges[0] + edges[1] + edges[2];
+        let inverse = whole.splat_like(1.0) / whole;
+        let weights = edges.map(
+            #[inline(always)]
+            |edge| (edge * inverse).nearest(),
+        );
+        let sides = [corners[1] + -corners[0], corners[2] + -corners[0]];
+        let offset = sides[0] * weights[1] + sides[1] * weights[2];
+        let across = (wide[1] + -wide[0]).cross(wide[2] + -wide[0]);
+        let face = across.map(DoubleDouble::nearest).normalized();
+        let zero = V::splat(token, 0.0);
+        let negligible = V::splat(token, 1e-14);
+        let slope = face.dot(direction);
+        let towards_eye = V::select(zero.is_less(slope), V::splat(token, -1.0), V::splat(token, 1.0));
+        let none = Vector::new(zero, zero, zero);
+        let (normal, shadow_ray_offset, mut doubtful) = if is_smooth {
+            let given = self.points.normals.each_ref().map(
+                #[inline(always)]
+                |normal| load::<V>(token, normal, at),
+            );
+            let filled = given.map(
+                #[inline(always)]
+                |normal| {
+                    let has_one = zero.is_less(normal.dot(normal));
+                    Vector::new(
+                        V::select(has_one, normal.x, face.x),
+                        V::select(has_one, normal.y, face.y),
+                        V::select(has_one, normal.z, face.z),
+                    )
+                },
+            );
+            let mixed = filled[0] * weights[0] + filled[1] * weights[1] + filled[2] * weights[2];
+            let square = mixed.dot(mixed);
+            let side = mixed.dot(face);
+            // The normals determine which side is the front; then all of them are turned to the viewer's side together.
+            let turn = V::select(side.is_less(zero), -towards_eye, towards_eye);
+            let normal = mixed * (turn / square.sqrt());
+            let mut shadow_ray_offset = none;
+            for ((corner, normal), weight) in [none, sides[0], sides[1]].into_iter().zip(filled).zip(weights) {
+                let normal = normal * turn;
+                let below = (-(offset + -corner).dot(normal)).max_zero();
+                shadow_ray_offset = shadow_ray_offset + normal * (below * weight);
+            }
+            let doubtful =
+                V::bits(square.is_less(V::splat(token, 1e-6))) | V::bits_not(negligible.is_less(side.max(-side)));
+            (normal, shadow_ray_offset, doubtful)
+        } else {
+            (face * towards_eye, none, 0)
+        };
+        let cos_theta_o = -normal.dot(direction);
+        doubtful |= V::bits_not(negligible.is_less(cos_theta_o.max(-cos_theta_o)));
+        doubtful |= V::bits_not(negligible.is_less(slope.max(-slope)));
+        let distance = (seen[0].map(DoubleDouble::nearest) + offset).dot(direction);
+        let found = Found { offset, normal, cos_theta_o, distance, shadow_ray_offset };
+        self.keep(at, lanes, &found, doubtful);
+    }
+
+    /// The points of a flat shape, which the third axis of its placement is normal to.
+    #[inline(always)]
+    fn on_plane<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64, placement: &Placement) {
+        let Way { start, along, direction } = self.rays.way::<V>(token, at);
+        let start = start + -exact::<V>(token, Vector::from_f64(placement.origin));
+        let axes = placement.axes::<DoubleDouble>();
+        let [first, second, third] = axes.map(
+            #[inline(always)]
+            |axis| exact::<V>(token, axis),
+        );
+        let (height, slope) = (start.dot(third), along.dot(third));
+        let parameter = -(height / slope);
+        let place = along.mul_add(parameter, start);
+        let [x, y] = [place.dot(first).nearest(), place.dot(second).nearest()];
+        let [first, second, third] = [first, second, third].map(
+            #[inline(always)]
+            |axis| axis.map(DoubleDouble::nearest),
+        );
+        let found = self.facing::<V>(token, at, direction, first * x + second * y, third, parameter.nearest());
+        self.keep(at, lanes, &found, 0);
+    }
+
+    /// The points of a box.
+    #[inline(always)]
+    fn on_box<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64, cuboid: &Cuboid) {
+        let Way { start, along, direction } = self.rays.way::<V>(token, at);
+        let placement = cuboid.placement();
+        let start = start + -exact::<V>(token, Vector::from_f64(placement.origin));
+        let axes = placement.axes::<DoubleDouble>().map(
+            #[inline(always)]
+            |axis| exact::<V>(token, axis),
+        );
+        let local = axes.map(
+            #[inline(always)]
+            |axis| (start.dot(axis), along.dot(axis)),
+        );
+        let half = cuboid.half_sides().to_array();
+        let zero = V::splat(token, 0.0);
+        // The face through which the ray enters, and the one through which it leaves.
+        let mut enter = (V::splat(token, f64::NEG_INFINITY), zero, zero);
+        let mut leave = (V::splat(token, f64::INFINITY), zero, zero);
+        for (axis, ((start, along), half)) in local.iter().zip(half).enumerate() {
+            let (start, along) = (start.nearest(), along.nearest());
+            let side = V::select(along.is_less(zero), V::splat(token, half), V::splat(token, -half));
+            let number = V::splat(token, f64::from(u8::try_from(axis).unwrap_or(0)));
+            let inverse = V::splat(token, 1.0) / along;
+            let (first, last) = ((side - start) * inverse, (-side - start) * inverse);
+            let is_later = enter.0.is_less(first);
+            enter = (
+                V::select(is_later, first, enter.0),
+                V::select(is_later, number, enter.1),
+                V::select(is_later, side, enter.2),
+            );
+            let is_sooner = last.is_less(leave.0);
+            leave = (
+                V::select(is_sooner, last, leave.0),
+                V::select(is_sooner, number, leave.1),
+                V::select(is_sooner, -side, leave.2),
+            );
+        }
+        let is_outside = zero.is_less(enter.0);
+        self.points.from_inside |= (u64::from(V::bits_not(is_outside)) & lanes) << at;
+        let face = V::select(is_outside, enter.1, leave.1);
+        let side = V::select(is_outside, enter.2, leave.2);
+        let of_face = |numbers: [V; 3]| {
+            let [x, y, z] = numbers;
+            let beyond_first = V::select(V::splat(token, 0.5).is_less(face), y, x);
+            V::select(V::splat(token, 1.5).is_less(face), z, beyond_first)
+        };
+        let chosen = |pick: fn(&(DoubleDouble<V>, DoubleDouble<V>)) -> DoubleDouble<V>| {
+            let [x, y, z] = [pick(&local[0]), pick(&local[1]), pick(&local[2])];
+            let beyond_first = DoubleDouble::select(V::splat(token, 0.5).is_less(face), y, x);
+            DoubleDouble::select(V::splat(token, 1.5).is_less(face), z, beyond_first)
+        };
+        let parameter = (DoubleDouble::exactly(side) + -chosen(|(start, _)| *start)) / chosen(|(_, along)| *along);
+        let rounded = axes.map(
+            #[inline(always)]
+            |axis| axis.map(DoubleDouble::nearest),
+        );
+        let mut offset = Vector::new(zero, zero, zero);
+        for (axis, ((start, along), unit)) in local.iter().zip(rounded).enumerate() {
+            let place = along.mul_add(parameter, *start).nearest();
+            let number = f64::from(u8::try_from(axis).unwrap_or(0));
+            let from_face = face - V::splat(token, number);
+            let is_face = (from_face * from_face).is_less(V::splat(token, 0.25));
+            offset = unit.mul_add(V::select(is_face, side, place), offset);
+        }
+        let [x, y, z] = rounded;
+        let normal = Vector::new(of_face([x.x, y.x, z.x]), of_face([x.y, y.y, z.y]), of_face([x.z, y.z, z.z]));
+        let found = self.facing::<V>(token, at, direction, offset, normal, parameter.nearest());
+        self.keep(at, lanes, &found, 0);
+    }
+
+    /// Points at a place of a plane, whose normal is turned to the eye.
+    #[inline(always)]
+    fn facing<V: Lane<Element = f64>>(
+        &self,
+        token: V::Token,
+        at: usize,
+        direction: Vector<V>,
+        offset: Vector<V>,
+        normal: Vector<V>,
+        parameter: V,
+    ) -> Found<V> {
+        let zero = V::splat(token, 0.0);
+        let slope = normal.dot(direction);
+        let normal = normal * V::select(zero.is_less(slope), V::splat(token, -1.0), V::splat(token, 1.0));
+        let along = self.rays.way::<V>(token, at).along.map(DoubleDouble::nearest);
+        Found {
+            offset,
+            normal,
+            cos_theta_o: -normal.dot(direction),
+            distance: parameter * along.length(),
+            shadow_ray_offset: Vector::new(zero, zero, zero),
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! The light that reaches the points of a tile, and their brightness.
+
+use super::rays::{RAYS, RayPacket, Vectors, load, put, splat, store};
+use super::{Blocked, FindBlocked, Hits, Packets, bits, pixel_of, set_bits};
+use crate::accelerate::Walk;
+use crate::camera::ScreenPosition;
+use crate::lanes::{Lane, LaneJob, Precision};
+use crate::light::Emitter;
+use crate::prepare::{AmbientIrradiance, AmbientShare, PreparedScene};
+use crate::ray::Ray;
+use crate::render::RenderError;
+use crate::render::band::{Band, Tile};
+use crate::render::fan_out::{Pixels, Shaded};
+use crate::render::shading::block::{ShadedBlock, SurfaceBlock};
+use crate::render::shading::emitters::{BLOCK, Chosen};
+use crate::render::shading::kernel::{PerPoint, ShadeBlock};
+use crate::render::shading::lobe::Power;
+use crate::vector::Vector;
+
+/// Shades the points of tiles, one tile after another.
+pub struct Shader<'a> {
+    packets: Packets<'a>,
+    layers: Vec<&'a PreparedScene>,
+    /// The emitters that light anything, in the order in which they are summed: their positions in that order, and their
+    /// indices among the scene's.
+    order: Vec<(usize, usize)>,
+    /// The points by ray: where they are, their normals, and the offsets of their shadow rays.
+    anchor: Vectors,
+    offset: Vectors,
+    normal: Vectors,
+    shadow_ray_offset: Vectors,
+    /// The number of each ray's primitive.
+    own: [u32; RAYS],
+    /// The emitters that are above the horizon of any point.
+    chosen: Vec<(usize, usize)>,
+    /// v of every ray for each of them.
+    visible: Vec<f64>,
+    /// The points of one material.
+    points: Box<SurfaceBlock<f64>>,
+    indices: Vec<usize>,
+    /// v of these points.
+    visible_there: Vec<f64>,
+    ambient: Vec<AmbientShare>,
+    emitters: Chosen<f64>,
+    shaded: Box<ShadedBlock<f64>>,
+}
+
+impl<'a> Shader<'a> {
+    /// For the lights of a scene.
+    pub fn new(packets: &Packets<'a>) -> Self {
+        let zeros = [[0.0; RAYS]; 3];
+        let scene = packets.scene;
+        let lights_anything = |index: &usize| scene.emitters().all()[*index].intensity > 0.0;
+        Self {
+            packets: *packets,
+            layers: scene.layers(),
+            order: packets.lighting.order().iter().copied().filter(lights_anything).enumerate().collect(),
+            anchor: zeros,
+            offset: zeros,
+            normal: zeros,
+            shadow_ray_offset: zeros,
+            own: [0; RAYS],
+            chosen: Vec::new(),
+            visible: Vec::new(),
+            points: SurfaceBlock::anchored(),
+            indices: Vec::with_capacity(RAYS),
+            visible_there: Vec::new(),
+            ambient: Vec::with_capacity(RAYS),
+            emitters: Chosen::default(),
+            shaded: ShadedBlock::new(packets.asked_for.len()),
+        }
+    }
+
+    /// Shades what the rays of a tile hit.
+    pub fn shade(
+        &mut self,
+        hits: &Hits,
+        tile: Tile,
+        packet: &mut RayPacket,
+        walk: &mut Walk,
+        band: &mut Band<'_>,
+    ) -> Result<(), RenderError> {
+        let mut left = bits(hits.iter().map(Option::is_some));
+        if left == 0 {
+            return Ok(());
+        }
+        self.spread_out(hits);
+        self.see_lights(hits, left, tile, packet, walk);
+        // The points of one material after those of another.
+        let scene = self.packets.scene;
+        while left != 0 {
+            let Some(first) = &hits[left.trailing_zeros() as usize] else { break };
+            let formula = scene.formula_index(first.primitive);
+            let has_formula =
+                |ray: &usize| hits[*ray].as_ref().is_some_and(|hit| scene.formula_index(hit.primitive) == formula);
+            let rays: Vec<usize> = set_bits(left).filter(has_formula).collect();
+            rays.iter().for_each(|ray| left &= !(1 << ray));
+            self.shade_some(hits, &rays, tile, band)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the points by axis.
+    fn spread_out(&mut self, hits: &Hits) {
+        for (ray, hit) in hits.iter().enumerate() {
+            let Some(hit) = hit else {
+                // It faces no light.
+                put(&mut self.normal, ray, Vector::default());
+                continue;
+            };
+            put(&mut self.anchor, ray, hit.point.anchor);
+            put(&mut self.offset, ray, hit.point.offset);
+            put(&mut self.normal, ray, hit.point.normal);
+            put(&mut self.shadow_ray_offset, ray, hit.shadow_ray_offset);
+            self.own[ray] = self.packets.scene.number_of(hit.primitive);
+        }
+    }
+
+    /// Finds which lights the points see.
+    fn see_lights(&mut self, hits: &Hits, present: u64, tile: Tile, packet: &mut RayPacket, walk: &mut Walk) {
+        let Packets { scene, instructions, .. } = self.packets;
+        let from_inside = bits(hits.iter().map(|hit| hit.as_ref().is_some_and(|hit| hit.from_inside)));
+        self.chosen.clear();
+        self.visible.clear();
+        for at in 0..self.order.len() {
+            let (place, index) = self.order[at];
+            let emitter = &scene.emitters().all()[index];
+            let Lit { lit, close } = instructions.run(Aim { shader: self, emitter, packet });
+            let lit = lit & present;
+            if lit == 0 {
+                continue;
+            }
+            let casts_shadow = |ray: &usize| {
+                hits[*ray].as_ref().is_some_and(|hit| scene.scene().casts_shadows(hit.primitive.shape, emitter.light))
+            };
+            let mut dark = 0;
+            for ray in set_bits(lit & from_inside) {
+                let own = hits[ray].map(|hit| hit.primitive);
+                dark |= u64::from(own.is_some_and(|own| !scene.encloses(own, emitter))) << ray;
+            }
+            let in_use = if scene.scene().shadows() {
+                set_bits(lit & !dark).filter(casts_shadow).fold(0, |bits, ray| bits | 1 << ray)
+            } else {
+                0
+            };
+            let mut maybe = 0;
+            if in_use != 0 {
+                let ray = |ray: usize| -> Option<(Ray, Option<f64>)> {
+                    let hit = hits[ray].as_ref()?;
+                    scene.shadow_ray(&hit.point, hit.shadow_ray_offset, index)
+                };
+                packet.in_use = in_use;
+                let mut blocked = Blocked { scene, own: &self.own, ray: &ray, in_use, surely: 0, maybe: 0 };
+                instructions.run(FindBlocked { scene, packet, walk, blocked: &mut blocked });
+                let surely = blocked.surely & !close;
+                dark |= surely;
+                maybe = (blocked.maybe | close & in_use) & !surely;
+            }
+            let start = self.visible.len();
+            self.visible.extend((0..RAYS).map(|ray| if dark >> ray & 1 == 1 { 0.0 } else { 1.0 }));
+            for ray in set_bits(maybe) {
+                let Some(hit) = &hits[ray] else { continue };
+                let position = ScreenPosition::PixelCenter(pixel_of(tile, ray));
+                self.visible[start + ray] = scene.visibility(hit, Some(position))(index);
+            }
+            self.chosen.push((place, index));
+        }
+    }
+
+    /// Shades some of the points, all of one material.
+    fn shade_some(&mut self, hits: &Hits, rays: &[usize], tile: Tile, band: &mut Band<'_>) -> Result<(), RenderError> {
+        let Packets { scene, lighting, instructions, .. } = self.packets;
+        let Self { layers, chosen, visible, points, indices, visible_there, ambient, emitters, shaded, .. } = self;
+        indices.clear();
+        ambient.clear();
+        points.count = rays.len();
+        let mut primitive = None;
+        for (at, ray) in rays.iter().enumerate() {
+            let Some(hit) = &hits[*ray] else { continue };
+            primitive = Some(hit.primitive);
+            points.set(at, hit);
+            indices.push(band.index(pixel_of(tile, *ray)));
+            ambient.push(scene.ambient_share(hit));
+        }
+        let (Some(primitive), Some(last)) = (primitive, rays.last()) else { return Ok(()) };
+        points.repeat_last();
+        let stride = rays.len().next_multiple_of(16);
+        visible_there.clear();
+        for visible in visible.chunks_exact(RAYS) {
+            visible_there.extend(rays.iter().chain(std::iter::repeat(last)).take(stride).map(|ray| visible[*ray]));
+        }
+        for (number, layer) in layers.iter().enumerate() {
+            for (at, share) in ambient.iter().enumerate() {
+                let AmbientIrradiance { irradiance, standard_error } = share.of(layer.scene().ambient());
+                (points.ambient[at], shaded.ambient_error[at]) = (irradiance, standard_error);
+            }
+            // Blocks are those of all emitters, whichever are above the horizon.
+            let mut block = 0;
+            emitters.clear();
+            for (place, index) in &*chosen {
+                if place / BLOCK != block {
+                    block = place / BLOCK;
+                    emitters.end_block();
+                }
+                emitters.push(layer, lighting, *index, &layer.emitters().all()[*index].seen_from(Vector::default()));
+            }
+            emitters.end_block();
+            let formula = layer.formula(primitive);
+            instructions.run(ShadeBlock {
+                points,
+                formula,
+                power: &Power::of(formula, Precision::Double),
+                selection: emitters.selection(),
+                visibility: PerPoint { visible: visible_there, stride },
+                shaded,
+            });
+            band.put(number, Pixels::At(indices), Shaded::Double(shaded))?;
+        }
+        if band.has_geometry() {
+            band.put_geometry(Pixels::At(indices), points);
+        }
+        Ok(())
+    }
+}
+
+/// The points that face a light, as bits.
+struct Lit {
+    lit: u64,
+    /// Those that it is so close to that their shadow rays start elsewhere.
+    close: u64,
+}
+
+/// Directs a packet's rays at the points from an emitter; from the points, if it is a parallel one.
+struct Aim<'f, 'a> {
+    shader: &'f Shader<'a>,
+    emitter: &'f Emitter,
+    packet: &'f mut RayPacket,
+}
+
+impl LaneJob for Aim<'_, '_> {
+    type Output = Lit;
+
+    #[inline(always)]
+    fn run<S, D>(self, token: S::Token) -> Lit
+    where
+        S: Lane<Element = f32>,
+        D: Lane<Element = f64, Token = S::Token>,
+    {
+        self.aim::<D::Narrow>(token)
+    }
+}
+
+impl Aim<'_, '_> {
+    #[inline(always)]
+    fn aim<V: Lane<Element = f64>>(self, token: V::Token) -> Lit {
+        let Self { shader: Shader { anchor, offset, normal, shadow_ray_offset, .. }, emitter, packet } = self;
+        let position = splat::<V>(token, emitter.position);
+        let is_parallel = emitter.place().is_none();
+        let (mut lit, mut close) = (0, 0);
+        (packet.origin, packet.range) = match emitter.place() {
+            Some(place) => (place, [0.0, 1.0]),
+            None => (Vector::new(anchor[0][0], anchor[1][0], anchor[2][0]), [0.0, f64::INFINITY]),
+        };
+        let origin = splat::<V>(token, packet.origin);
+        let zero = V::splat(token, 0.0);
+        for at in (0..RAYS).step_by(V::COUNT) {
+            let [anchor, offset, normal, spare] = [anchor, offset, normal, shadow_ray_offset].map(
+                #[inline(always)]
+                |vectors| load::<V>(token, vectors, at),
+            );
+            if is_parallel {
+                lit |= u64::from(V::bits(zero.is_less(normal.dot(position)))) << at;
+                store(&mut packet.start, at, (anchor - origin) + (offset + spare));
+                store(&mut packet.direction, at, position);
+                continue;
+            }
+            let to_light = (position - anchor) - offset;
+            lit |= u64::from(V::bits(zero.is_less(normal.dot(to_light)))) << at;
+            let longest = spare.dot(spare) * V::splat(token, 4.0);
+            close |= u64::from(V::bits(to_light.dot(to_light).is_less(longest))) << at;
+            store(&mut packet.start, at, Vector::new(zero, zero, zero));
+            store(&mut packet.direction, at, spare - to_light);
+        }
+        Lit { lit, close }
+    }
+}
