@@ -219,7 +219,7 @@ fn what_the_core_says_is_in_the_language_of_the_page() {
     let probed = parsed(&core.probe(&requests.to_string()).unwrap());
     let off = "точка не лежит ни на одной поверхности: она на 1 m снаружи от поверхности «ball»; ближайшая точка поверхности — [0, 0, 4]";
     assert_eq!(probed[0]["error"], off);
-    assert_eq!(probed[1]["reading"]["unseenBecause"], "её заслоняет «ball»");
+    assert_eq!(probed[1]["reading"]["unseenBecause"], "поверхность там обращена от наблюдателя (θ_o ≥ 90°)");
     let style = json!({"colormap": "gray", "range": null, "normalization": "max", "isophotes": 3});
     let figure = json!({"kind": "figure-svg", "channel": "brightness", "style": style, "marks": true});
     let figure = String::from_utf8(core.export(&figure.to_string()).unwrap()).unwrap();
