@@ -1,5 +1,6 @@
 //! The cone, pointed or truncated, with its flat ends (2.4).
 
+use super::body::{Body, Form};
 use super::placement::{LocalRay, Placement};
 use super::span::{Crossing, NEVER, Span, pass};
 use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, PLACE_ERROR, ShapeHit, SurfacePoint, TracingError};
@@ -50,6 +51,13 @@ struct Found<T> {
 const NORMAL_ERROR: f64 = 0.2;
 
 impl Cone {
+    /// It in its own axes.
+    pub(super) fn body(&self) -> Body {
+        let [radius, _] = self.radii;
+        let form = Form::Cone { radius, slope: self.slope::<f64>(), height: self.height.rounded() };
+        Body::placed(&self.placement, form, self.size())
+    }
+
     /// A cone from the middle of its base to its apex, two distinct points, with the radii at both (in metres, not negative,
     /// not both zero).
     #[must_use]

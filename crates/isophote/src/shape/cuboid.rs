@@ -1,5 +1,6 @@
 //! The box (2.4).
 
+use super::body::{Body, Form};
 use super::placement::{Placement, Rotation};
 use super::span::{Span, pass};
 use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, PLACE_ERROR, ShapeHit, SurfacePoint};
@@ -16,6 +17,11 @@ pub struct Cuboid {
 }
 
 impl Cuboid {
+    /// It in its own axes.
+    pub(super) fn body(&self) -> Body {
+        Body::placed(&self.placement, Form::Box(self.half), self.size())
+    }
+
     /// Its axes.
     pub(crate) fn placement(&self) -> &Placement {
         &self.placement

@@ -1,5 +1,6 @@
 //! The cylinder with both its ends (2.4).
 
+use super::body::Body;
 use super::{Accuracy, Bounds, Cone, Intersection, Measure, NearestPoint};
 use crate::ray::Ray;
 use crate::scalar::Scalar;
@@ -12,6 +13,11 @@ pub struct Cylinder {
 }
 
 impl Cylinder {
+    /// It in its own axes.
+    pub(super) fn body(&self) -> Body {
+        self.body.body()
+    }
+
     /// A cylinder between two distinct points, with a radius in metres, positive.
     #[must_use]
     pub fn new(from: Vector, to: Vector, radius: f64) -> Self {

@@ -1,5 +1,6 @@
 //! The disk (2.4).
 
+use super::body::{Body, Form};
 use super::placement::Placement;
 use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, flat};
 use crate::ray::Ray;
@@ -15,6 +16,11 @@ pub struct Disk {
 }
 
 impl Disk {
+    /// It in its own axes.
+    pub(super) fn body(&self) -> Body {
+        Body::placed(&self.placement, Form::Disk(self.radius), self.radius)
+    }
+
     /// Its axes: the third is normal to it.
     pub(crate) fn placement(&self) -> &Placement {
         &self.placement

@@ -1,5 +1,6 @@
 //! The ellipsoid (2.4).
 
+use super::body::Body;
 use super::placement::{Placement, Rotation};
 use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, ShapeHit, SurfacePoint, TracingError};
 use crate::ray::Ray;
@@ -15,6 +16,11 @@ pub struct Ellipsoid {
 }
 
 impl Ellipsoid {
+    /// It in its own axes.
+    pub(super) fn body(&self) -> Body {
+        Body::ball(self.placement.origin, self.placement.axes(), self.radii.to_array())
+    }
+
     /// An ellipsoid with these radii (in metres, positive) around a centre.
     #[must_use]
     pub fn new(center: Vector, radii: Vector, rotation: Rotation) -> Self {

@@ -1,5 +1,6 @@
 //! Shapes: what a ray can hit.
 
+mod body;
 mod box_tree;
 mod center_lines;
 mod cone;
@@ -21,6 +22,7 @@ mod spheres;
 
 use std::sync::Arc;
 
+pub(crate) use body::{Body, Form};
 pub use box_tree::BoxTree;
 pub use center_lines::CenterLine;
 pub use cone::Cone;

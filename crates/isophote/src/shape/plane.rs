@@ -1,5 +1,6 @@
 //! The unbounded plane (2.4).
 
+use super::body::{Body, Form};
 use super::placement::Placement;
 use super::{Accuracy, Intersection, Measure, NearestPoint, flat};
 use crate::ray::Ray;
@@ -13,6 +14,11 @@ pub struct Plane {
 }
 
 impl Plane {
+    /// It in its own axes.
+    pub(super) fn body(&self) -> Body {
+        Body::placed(&self.placement, Form::Plane, 0.0)
+    }
+
     /// Its axes: the third is normal to it.
     pub(crate) fn placement(&self) -> &Placement {
         &self.placement

@@ -1,5 +1,6 @@
 //! The rectangle (2.4).
 
+use super::body::{Body, Form};
 use super::placement::Placement;
 use super::{Accuracy, Bounds, Intersection, Measure, NearestPoint, flat};
 use crate::ray::Ray;
@@ -17,6 +18,11 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
+    /// It in its own axes.
+    pub(super) fn body(&self) -> Body {
+        Body::placed(&self.placement, Form::Rectangle([self.half_width, self.half_height]), self.size())
+    }
+
     /// Its axes: the third is normal to it.
     pub(crate) fn placement(&self) -> &Placement {
         &self.placement

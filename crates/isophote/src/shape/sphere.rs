@@ -1,5 +1,6 @@
 //! The sphere (2.2).
 
+use super::body::Body;
 use super::{Accuracy, Bounds, Intersection, NearestPoint, ShapeHit, SurfacePoint, TracingError};
 use crate::ray::Ray;
 use crate::scalar::Scalar;
@@ -15,6 +16,11 @@ pub struct Sphere {
 }
 
 impl Sphere {
+    /// It in its own axes.
+    pub(super) fn body(&self) -> Body {
+        Body::ball(self.center, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Vector::from), [self.radius; 3])
+    }
+
     /// The nearest root of ‖O + tD − C‖² = R² with t > 0: the near one from outside, the far one from inside, with N turned
     /// towards the viewer (2.2).
     ///

@@ -1,7 +1,9 @@
 //! Which rays of a packet are blocked on their way.
 
+use super::body::PacketBody;
 use super::candidates::{Candidate, Search};
 use super::rays::{OCTET, RAYS, RayPacket};
+use super::set_bits;
 use super::triangle::{Met, PacketTriangle};
 use crate::lanes::Lane;
 use crate::prepare::{Blocks, ERROR_OF_DISTANCE, PreparedScene};
@@ -68,18 +70,47 @@ impl Search for Blocked<'_> {
         }
     }
 
-    #[inline(never)]
-    fn test_rays(&mut self, found: &Candidate<'_>, rays: u64) {
+    #[inline(always)]
+    fn test_body<V: Lane<Element = f64>>(
+        &mut self,
+        token: V::Token,
+        packet: &RayPacket,
+        found: &Candidate<'_>,
+        body: &PacketBody,
+        rays: u64,
+    ) {
         let mut rays = rays & self.open();
         if rays == 0 || !self.casts_shadow(found) {
             return;
         }
-        while rays != 0 {
-            let index = rays.trailing_zeros() as usize;
-            rays &= rays - 1;
-            if self.own[index] == found.number {
-                continue;
+        for (ray, own) in self.own.iter().enumerate() {
+            rays &= !(u64::from(*own == found.number) << ray);
+        }
+        let mut doubtful = 0;
+        for at in (0..RAYS).step_by(V::COUNT) {
+            let here = rays >> at & ((1 << V::COUNT) - 1);
+            if here != 0 {
+                let Met { surely, maybe } = body.met::<V>(token, packet, at, packet.range, ERROR_OF_DISTANCE);
+                self.surely |= (u64::from(surely) & here) << at;
+                doubtful |= (u64::from(maybe) & here) << at;
             }
+        }
+        if doubtful != 0 {
+            self.test_rays(found, doubtful);
+        }
+    }
+
+    #[inline(always)]
+    fn limit(&mut self) -> Option<f64> {
+        (self.open() != 0).then_some(f64::INFINITY)
+    }
+}
+
+impl Blocked<'_> {
+    /// Tests rays one by one.
+    #[inline(never)]
+    fn test_rays(&mut self, found: &Candidate<'_>, rays: u64) {
+        for index in set_bits(rays) {
             let Some((ray, distance)) = (self.ray)(index) else { continue };
             match self.scene.blocks(found.primitive, &ray, distance) {
                 Blocks::Surely => self.surely |= 1 << index,
@@ -87,10 +118,5 @@ impl Search for Blocked<'_> {
                 Blocks::Not => {}
             }
         }
-    }
-
-    #[inline(always)]
-    fn limit(&mut self) -> Option<f64> {
-        (self.open() != 0).then_some(f64::INFINITY)
     }
 }

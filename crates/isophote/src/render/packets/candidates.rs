@@ -1,5 +1,6 @@
 //! The primitives that the rays of a packet may meet.
 
+use super::body::PacketBody;
 use super::rays::{OCTET, RAYS, RayPacket, splat};
 use crate::accelerate::{Shaft, Walk};
 use crate::lanes::Lane;
@@ -12,8 +13,15 @@ pub trait Search {
     /// Tests a triangle.
     fn test_triangle<V: Lane<Element = f64>>(&mut self, token: V::Token, packet: &RayPacket, found: &Candidate<'_>);
 
-    /// Tests another primitive for some of the rays, one by one.
-    fn test_rays(&mut self, found: &Candidate<'_>, rays: u64);
+    /// Tests another primitive for some of the rays.
+    fn test_body<V: Lane<Element = f64>>(
+        &mut self,
+        token: V::Token,
+        packet: &RayPacket,
+        found: &Candidate<'_>,
+        body: &PacketBody,
+        rays: u64,
+    );
 
     /// The t up to which the search goes on; `None` if it is over.
     fn limit(&mut self) -> Option<f64>;
@@ -54,7 +62,7 @@ pub fn search<S, D>(
     }
     let farthest = || (tree.farthest_from(packet.origin) + packet.reach) / packet.lengths[0];
     let end = if packet.range[1].is_finite() { packet.range[1] } else { farthest() };
-    let [starts, ends] = packet.ends(end);
+    let [starts, ends] = packet.ends::<D>(token, end);
     let Some(shaft) = tree.shaft(&starts, &ends) else { return };
     walk.start(tree);
     let depth = |shaft: &Shaft, limit: f64| shaft.depth_of(if limit < end { limit / end } else { 1.0 });
@@ -76,20 +84,20 @@ fn test<V: Lane<Element = f64>>(
     let primitive = scene.primitive(number);
     let geometry = scene.geometry(primitive.shape);
     let found = Candidate { number, primitive, geometry };
-    if let Geometry::Mesh(_) = geometry {
+    let Some(body) = geometry.body(primitive.part) else {
         search.test_triangle::<V>(token, packet, &found);
         return;
-    }
+    };
     let rays = geometry.bounds(primitive.part).map_or(u64::MAX, |bounds| through::<V>(token, packet, &bounds));
     if rays & packet.in_use != 0 {
-        search.test_rays(&found, rays & packet.in_use);
+        search.test_body::<V>(token, packet, &found, &PacketBody::new(body, packet), rays & packet.in_use);
     }
 }
 
 /// The rays that may pass through a box with t in the packet's range, as bits.
 #[inline(always)]
 fn through<V: Lane<Element = f64>>(token: V::Token, packet: &RayPacket, bounds: &Bounds) -> u64 {
-    let [least, greatest] = [bounds.least, bounds.greatest].map(|corner| corner - packet.origin);
+    let (least, greatest) = (bounds.least - packet.origin, bounds.greatest - packet.origin);
     // A component smaller than this is taken for it, which moves the ray by less than the slack.
     const SMALLEST: f64 = 1e-10;
     let reach = least.length() + greatest.length() + packet.reach;
@@ -107,19 +115,29 @@ fn through<V: Lane<Element = f64>>(token: V::Token, packet: &RayPacket, bounds: 
         let [start, direction] = packet.rays::<V>(token, at);
         let mut near = V::splat(token, packet.range[0]);
         let mut far = V::splat(token, packet.range[1]);
-        let axes = [
-            (start.x, direction.x, least.x, greatest.x),
-            (start.y, direction.y, least.y, greatest.y),
-            (start.z, direction.z, least.z, greatest.z),
-        ];
-        for (start, direction, least, greatest) in axes {
-            let size = direction.max(-direction).max(smallest);
-            let inverse = one / V::select(direction.is_less(zero), -size, size);
-            let (first, last) = ((least - start) * inverse, (greatest - start) * inverse);
-            near = near.max(first.min(last));
-            far = far.min(first.max(last));
-        }
+        let slab = Slab { zero, one, smallest };
+        (near, far) = slab.cut(near, far, start.x, direction.x, [least.x, greatest.x]);
+        (near, far) = slab.cut(near, far, start.y, direction.y, [least.y, greatest.y]);
+        (near, far) = slab.cut(near, far, start.z, direction.z, [least.z, greatest.z]);
         bits |= u64::from(V::bits_not(far.is_less(near))) << at;
     }
     bits
+}
+
+/// The part of some rays between two planes.
+struct Slab<V> {
+    zero: V,
+    one: V,
+    /// The smallest component of a direction.
+    smallest: V,
+}
+
+impl<V: Lane<Element = f64>> Slab<V> {
+    #[inline(always)]
+    fn cut(&self, near: V, far: V, start: V, direction: V, [least, greatest]: [V; 2]) -> (V, V) {
+        let size = direction.max(-direction).max(self.smallest);
+        let inverse = self.one / V::select(direction.is_less(self.zero), -size, size);
+        let (first, last) = ((least - start) * inverse, (greatest - start) * inverse);
+        (near.max(first.min(last)), far.min(first.max(last)))
+    }
 }

@@ -7,6 +7,7 @@
 //! a bit.
 
 mod blocked;
+mod body;
 mod candidates;
 mod nearest;
 mod points;

@@ -1,5 +1,6 @@
 //! What the rays of a packet hit first.
 
+use super::body::{First, PacketBody};
 use super::candidates::{Candidate, Search};
 use super::rays::{OCTET, RAYS, RayPacket};
 use super::triangle::{Met, PacketTriangle};
@@ -101,32 +102,35 @@ impl Nearest {
             if maybe != 0 {
                 self.doubt_some(at, maybe, crossing.t - crossing.error);
             }
-            if surely == 0 {
-                continue;
+            if surely != 0 {
+                self.take(token, at, surely, crossing.t, crossing.error, number);
             }
-            // Those that certainly hit, as far as they are concerned.
-            let never = V::splat(token, f64::INFINITY);
-            let mut mask = [0.0; 16];
-            for (lane, mask) in mask[..V::COUNT].iter_mut().enumerate() {
-                *mask = f64::from(surely >> lane & 1);
-            }
-            let is_hit = V::splat(token, 0.5).is_less(V::load(token, &mask));
-            let t = V::select(is_hit, crossing.t, never);
-            let (before, error) = (V::load(token, &self.distance[at..]), V::load(token, &self.error[at..]));
-            let gap = (t - before).max(before - t);
-            // Where surfaces cross, the order of their distances is as uncertain as the distances themselves.
-            let uncertain = V::splat(token, ERROR_OF_DISTANCE).mul_add(t, error + crossing.error);
-            let close = V::bits(gap.is_less(uncertain)) & surely;
-            if close != 0 {
-                self.doubt_some(at, close, t.min(before) - uncertain);
-            }
-            let is_nearer = t.is_less(before);
-            V::select(is_nearer, t, before).store(&mut self.distance[at..]);
-            V::select(is_nearer, crossing.error, error).store(&mut self.error[at..]);
-            let numbers = V::load(token, &self.number[at..]);
-            V::select(is_nearer, V::splat(token, f64::from(number)), numbers).store(&mut self.number[at..]);
-            self.farthest = None;
         }
+    }
+
+    /// Takes hits of some of the rays.
+    #[inline(always)]
+    fn take<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, rays: u32, t: V, error: V, number: u32) {
+        let mut mask = [0.0; 16];
+        for (lane, mask) in mask[..V::COUNT].iter_mut().enumerate() {
+            *mask = f64::from(rays >> lane & 1);
+        }
+        let is_hit = V::splat(token, 0.5).is_less(V::load(token, &mask));
+        let t = V::select(is_hit, t, V::splat(token, f64::INFINITY));
+        let (before, error_before) = (V::load(token, &self.distance[at..]), V::load(token, &self.error[at..]));
+        let gap = (t - before).max(before - t);
+        // Where surfaces cross, the order of their distances is as uncertain as the distances themselves.
+        let uncertain = V::splat(token, ERROR_OF_DISTANCE).mul_add(t, error_before + error);
+        let close = V::bits(gap.is_less(uncertain)) & rays;
+        if close != 0 {
+            self.doubt_some(at, close, t.min(before) - uncertain);
+        }
+        let is_nearer = t.is_less(before);
+        V::select(is_nearer, t, before).store(&mut self.distance[at..]);
+        V::select(is_nearer, error, error_before).store(&mut self.error[at..]);
+        let numbers = V::load(token, &self.number[at..]);
+        V::select(is_nearer, V::splat(token, f64::from(number)), numbers).store(&mut self.number[at..]);
+        self.farthest = None;
     }
 
     #[inline(never)]
@@ -154,6 +158,54 @@ impl Search for Nearest {
         }
     }
 
+    #[inline(always)]
+    fn test_body<V: Lane<Element = f64>>(
+        &mut self,
+        token: V::Token,
+        packet: &RayPacket,
+        found: &Candidate<'_>,
+        body: &PacketBody,
+        rays: u64,
+    ) {
+        let mut doubtful = 0;
+        for at in (0..RAYS).step_by(V::COUNT) {
+            let here = rays >> at & ((1 << V::COUNT) - 1);
+            if here == 0 {
+                continue;
+            }
+            let First { t, error, met: Met { surely, maybe } } = body.first::<V>(token, packet, at);
+            doubtful |= (u64::from(maybe) & here) << at;
+            #[expect(clippy::cast_possible_truncation, reason = "the bits of a vector")]
+            let surely = surely & here as u32;
+            if surely != 0 {
+                self.take(token, at, surely, t, error, found.number);
+            }
+        }
+        if doubtful != 0 {
+            self.test_rays(found, doubtful);
+        }
+    }
+
+    #[inline(always)]
+    fn limit(&mut self) -> Option<f64> {
+        if let Some(farthest) = self.farthest {
+            return Some(farthest);
+        }
+        let mut farthest = 0.0_f64;
+        for (ray, (distance, error)) in self.distance.iter().zip(&self.error).enumerate() {
+            if self.in_use >> ray & 1 == 1 {
+                farthest = farthest.max(distance + error);
+            }
+        }
+        // What is doubtful may be a little farther.
+        let farthest = farthest * (1.0 + 1e-9);
+        self.farthest = Some(farthest);
+        Some(farthest)
+    }
+}
+
+impl Nearest {
+    /// Tests rays one by one.
     #[inline(never)]
     fn test_rays(&mut self, found: &Candidate<'_>, mut rays: u64) {
         while rays != 0 {
@@ -176,22 +228,5 @@ impl Search for Nearest {
                 self.farthest = None;
             }
         }
-    }
-
-    #[inline(always)]
-    fn limit(&mut self) -> Option<f64> {
-        if let Some(farthest) = self.farthest {
-            return Some(farthest);
-        }
-        let mut farthest = 0.0_f64;
-        for (ray, (distance, error)) in self.distance.iter().zip(&self.error).enumerate() {
-            if self.in_use >> ray & 1 == 1 {
-                farthest = farthest.max(distance + error);
-            }
-        }
-        // What is doubtful may be a little farther.
-        let farthest = farthest * (1.0 + 1e-9);
-        self.farthest = Some(farthest);
-        Some(farthest)
     }
 }

@@ -137,13 +137,13 @@ impl Combine<'_> {
     #[inline(always)]
     fn combine<V: Lane<Element = f64>>(self, token: V::Token) {
         let PreciseRays { is_parallel, common, columns, rows, sums, directions } = self.rays;
-        let parallel = exact::<V>(token, *common).map(DoubleDouble::nearest);
+        let parallel = nearest(exact::<V>(token, *common));
         for at in (0..RAYS).step_by(V::COUNT) {
             let sum = pairs::<V>(token, columns, at) + pairs(token, rows, at);
-            let high = sum.map(DoubleDouble::nearest);
+            let high = nearest(sum);
             store(&mut sums[0], at, high);
-            let low = sum + -high.map(DoubleDouble::exactly);
-            store(&mut sums[1], at, low.map(DoubleDouble::nearest));
+            let low = sum + -exactly(high);
+            store(&mut sums[1], at, nearest(low));
             store(directions, at, if *is_parallel { parallel } else { high.normalized() });
         }
     }
@@ -283,6 +283,9 @@ impl LaneJob for FindPoints<'_> {
     }
 }
 
+/// The numbers of a box's axes, in lanes.
+const AXES: [f64; 3] = [0.0, 1.0, 2.0];
+
 /// In lanes, the points of some rays.
 struct Found<V> {
     offset: Vector<V>,
@@ -325,96 +328,54 @@ impl FindPoints<'_> {
     fn keep<V: Lane<Element = f64>>(&mut self, at: usize, lanes: u64, found: &Found<V>, doubtful: u32) {
         let Points { offset, normal, cos_theta_o, distance, shadow_ray_offset, doubtful: all, .. } = self.points;
         *all |= (u64::from(doubtful) & lanes) << at;
-        let whole = (1 << V::COUNT) - 1;
-        let numbers = [(found.cos_theta_o, &mut *cos_theta_o), (found.distance, distance)];
-        let [x, y, z] = offset;
-        let [nx, ny, nz] = normal;
-        let [sx, sy, sz] = shadow_ray_offset;
-        let vectors = [
-            (found.offset.x, x),
-            (found.offset.y, y),
-            (found.offset.z, z),
-            (found.normal.x, nx),
-            (found.normal.y, ny),
-            (found.normal.z, nz),
-            (found.shadow_ray_offset.x, sx),
-            (found.shadow_ray_offset.y, sy),
-            (found.shadow_ray_offset.z, sz),
-        ];
-        for (number, out) in numbers.into_iter().chain(vectors) {
-            let out = &mut out[at..at + V::COUNT];
-            if lanes == whole {
-                number.store(out);
-                continue;
-            }
-            let mut all = [0.0; 16];
-            number.store(&mut all);
-            for (lane, out) in out.iter_mut().enumerate().filter(|(lane, _)| lanes >> lane & 1 == 1) {
-                *out = all[lane];
-            }
-        }
+        keep(at, lanes, found.cos_theta_o, cos_theta_o);
+        keep(at, lanes, found.distance, distance);
+        keep_vectors(at, lanes, found.offset, offset);
+        keep_vectors(at, lanes, found.normal, normal);
+        keep_vectors(at, lanes, found.shadow_ray_offset, shadow_ray_offset);
     }
 
     /// The points of triangles (2.5).
     #[inline(always)]
     fn on_triangles<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64, is_smooth: bool) {
         let Way { start, along, direction } = self.rays.way::<V>(token, at);
-        let corners = self.points.corners.each_ref().map(
-            #[inline(always)]
-            |corner| load::<V>(token, corner, at),
-        );
-        let wide = corners.map(
-            #[inline(always)]
-            |corner| corner.map(DoubleDouble::exactly),
-        );
-        let seen = wide.map(
-            #[inline(always)]
-            |corner| corner + -start,
-        );
+        let [a, b, c] = &self.points.corners;
+        let corners = [load::<V>(token, a, at), load::<V>(token, b, at), load::<V>(token, c, at)];
+        let wide = [exactly(corners[0]), exactly(corners[1]), exactly(corners[2])];
+        let seen = [wide[0] + -start, wide[1] + -start, wide[2] + -start];
         let edges =
             [along.dot(seen[1].cross(seen[2])), along.dot(seen[2].cross(seen[0])), along.dot(seen[0].cross(seen[1]))];
         let whole = edges[0] + edges[1] + edges[2];
         let inverse = whole.splat_like(1.0) / whole;
-        let weights = edges.map(
-            #[inline(always)]
-            |edge| (edge * inverse).nearest(),
-        );
+        let weights = [(edges[0] * inverse).nearest(), (edges[1] * inverse).nearest(), (edges[2] * inverse).nearest()];
         let sides = [corners[1] + -corners[0], corners[2] + -corners[0]];
         let offset = sides[0] * weights[1] + sides[1] * weights[2];
         let across = (wide[1] + -wide[0]).cross(wide[2] + -wide[0]);
-        let face = across.map(DoubleDouble::nearest).normalized();
+        let face = nearest(across).normalized();
         let zero = V::splat(token, 0.0);
         let negligible = V::splat(token, 1e-14);
         let slope = face.dot(direction);
         let towards_eye = V::select(zero.is_less(slope), V::splat(token, -1.0), V::splat(token, 1.0));
         let none = Vector::new(zero, zero, zero);
         let (normal, shadow_ray_offset, mut doubtful) = if is_smooth {
-            let given = self.points.normals.each_ref().map(
-                #[inline(always)]
-                |normal| load::<V>(token, normal, at),
-            );
-            let filled = given.map(
-                #[inline(always)]
-                |normal| {
-                    let has_one = zero.is_less(normal.dot(normal));
-                    Vector::new(
-                        V::select(has_one, normal.x, face.x),
-                        V::select(has_one, normal.y, face.y),
-                        V::select(has_one, normal.z, face.z),
-                    )
-                },
-            );
+            let [a, b, c] = &self.points.normals;
+            let filled = [
+                or_else(load::<V>(token, a, at), face),
+                or_else(load::<V>(token, b, at), face),
+                or_else(load::<V>(token, c, at), face),
+            ];
             let mixed = filled[0] * weights[0] + filled[1] * weights[1] + filled[2] * weights[2];
             let square = mixed.dot(mixed);
             let side = mixed.dot(face);
             // The normals determine which side is the front; then all of them are turned to the viewer's side together.
             let turn = V::select(side.is_less(zero), -towards_eye, towards_eye);
             let normal = mixed * (turn / square.sqrt());
+            let corners = [none, sides[0], sides[1]];
             let mut shadow_ray_offset = none;
-            for ((corner, normal), weight) in [none, sides[0], sides[1]].into_iter().zip(filled).zip(weights) {
-                let normal = normal * turn;
-                let below = (-(offset + -corner).dot(normal)).max_zero();
-                shadow_ray_offset = shadow_ray_offset + normal * (below * weight);
+            for corner in 0..3 {
+                let normal = filled[corner] * turn;
+                let below = (-(offset + -corners[corner]).dot(normal)).max_zero();
+                shadow_ray_offset = shadow_ray_offset + normal * (below * weights[corner]);
             }
             let doubtful =
                 V::bits(square.is_less(V::splat(token, 1e-6))) | V::bits_not(negligible.is_less(side.max(-side)));
@@ -425,7 +386,7 @@ impl FindPoints<'_> {
         let cos_theta_o = -normal.dot(direction);
         doubtful |= V::bits_not(negligible.is_less(cos_theta_o.max(-cos_theta_o)));
         doubtful |= V::bits_not(negligible.is_less(slope.max(-slope)));
-        let distance = (seen[0].map(DoubleDouble::nearest) + offset).dot(direction);
+        let distance = (nearest(seen[0]) + offset).dot(direction);
         let found = Found { offset, normal, cos_theta_o, distance, shadow_ray_offset };
         self.keep(at, lanes, &found, doubtful);
     }
@@ -435,20 +396,15 @@ impl FindPoints<'_> {
     fn on_plane<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64, placement: &Placement) {
         let Way { start, along, direction } = self.rays.way::<V>(token, at);
         let start = start + -exact::<V>(token, Vector::from_f64(placement.origin));
-        let axes = placement.axes::<DoubleDouble>();
-        let [first, second, third] = axes.map(
-            #[inline(always)]
-            |axis| exact::<V>(token, axis),
-        );
+        let [first, second, third] = placement.axes::<DoubleDouble>();
+        let (first, second) = (exact::<V>(token, first), exact::<V>(token, second));
+        let third = exact::<V>(token, third);
         let (height, slope) = (start.dot(third), along.dot(third));
         let parameter = -(height / slope);
         let place = along.mul_add(parameter, start);
         let [x, y] = [place.dot(first).nearest(), place.dot(second).nearest()];
-        let [first, second, third] = [first, second, third].map(
-            #[inline(always)]
-            |axis| axis.map(DoubleDouble::nearest),
-        );
-        let found = self.facing::<V>(token, at, direction, first * x + second * y, third, parameter.nearest());
+        let offset = nearest(first) * x + nearest(second) * y;
+        let found = self.facing::<V>(token, at, direction, offset, nearest(third), parameter.nearest());
         self.keep(at, lanes, &found, 0);
     }
 
@@ -458,23 +414,18 @@ impl FindPoints<'_> {
         let Way { start, along, direction } = self.rays.way::<V>(token, at);
         let placement = cuboid.placement();
         let start = start + -exact::<V>(token, Vector::from_f64(placement.origin));
-        let axes = placement.axes::<DoubleDouble>().map(
-            #[inline(always)]
-            |axis| exact::<V>(token, axis),
-        );
-        let local = axes.map(
-            #[inline(always)]
-            |axis| (start.dot(axis), along.dot(axis)),
-        );
+        let [x, y, z] = placement.axes::<DoubleDouble>();
+        let (x, y, z) = (exact::<V>(token, x), exact::<V>(token, y), exact::<V>(token, z));
+        let local = [(start.dot(x), along.dot(x)), (start.dot(y), along.dot(y)), (start.dot(z), along.dot(z))];
         let half = cuboid.half_sides().to_array();
         let zero = V::splat(token, 0.0);
         // The face through which the ray enters, and the one through which it leaves.
         let mut enter = (V::splat(token, f64::NEG_INFINITY), zero, zero);
         let mut leave = (V::splat(token, f64::INFINITY), zero, zero);
-        for (axis, ((start, along), half)) in local.iter().zip(half).enumerate() {
-            let (start, along) = (start.nearest(), along.nearest());
-            let side = V::select(along.is_less(zero), V::splat(token, half), V::splat(token, -half));
-            let number = V::splat(token, f64::from(u8::try_from(axis).unwrap_or(0)));
+        for axis in 0..3 {
+            let (start, along) = (local[axis].0.nearest(), local[axis].1.nearest());
+            let side = V::select(along.is_less(zero), V::splat(token, half[axis]), V::splat(token, -half[axis]));
+            let number = V::splat(token, AXES[axis]);
             let inverse = V::splat(token, 1.0) / along;
             let (first, last) = ((side - start) * inverse, (-side - start) * inverse);
             let is_later = enter.0.is_less(first);
@@ -494,31 +445,25 @@ impl FindPoints<'_> {
         self.points.from_inside |= (u64::from(V::bits_not(is_outside)) & lanes) << at;
         let face = V::select(is_outside, enter.1, leave.1);
         let side = V::select(is_outside, enter.2, leave.2);
-        let of_face = |numbers: [V; 3]| {
-            let [x, y, z] = numbers;
-            let beyond_first = V::select(V::splat(token, 0.5).is_less(face), y, x);
-            V::select(V::splat(token, 1.5).is_less(face), z, beyond_first)
-        };
-        let chosen = |pick: fn(&(DoubleDouble<V>, DoubleDouble<V>)) -> DoubleDouble<V>| {
-            let [x, y, z] = [pick(&local[0]), pick(&local[1]), pick(&local[2])];
-            let beyond_first = DoubleDouble::select(V::splat(token, 0.5).is_less(face), y, x);
-            DoubleDouble::select(V::splat(token, 1.5).is_less(face), z, beyond_first)
-        };
-        let parameter = (DoubleDouble::exactly(side) + -chosen(|(start, _)| *start)) / chosen(|(_, along)| *along);
-        let rounded = axes.map(
-            #[inline(always)]
-            |axis| axis.map(DoubleDouble::nearest),
-        );
+        let (is_second, is_third) = (V::splat(token, 0.5).is_less(face), V::splat(token, 1.5).is_less(face));
+        let (starts, ways) = ([local[0].0, local[1].0, local[2].0], [local[0].1, local[1].1, local[2].1]);
+        let start = DoubleDouble::select(is_third, starts[2], DoubleDouble::select(is_second, starts[1], starts[0]));
+        let way = DoubleDouble::select(is_third, ways[2], DoubleDouble::select(is_second, ways[1], ways[0]));
+        let parameter = (DoubleDouble::exactly(side) + -start) / way;
+        let units = [nearest(x), nearest(y), nearest(z)];
         let mut offset = Vector::new(zero, zero, zero);
-        for (axis, ((start, along), unit)) in local.iter().zip(rounded).enumerate() {
-            let place = along.mul_add(parameter, *start).nearest();
-            let number = f64::from(u8::try_from(axis).unwrap_or(0));
-            let from_face = face - V::splat(token, number);
+        let mut normal = units[0];
+        for axis in 0..3 {
+            let place = ways[axis].mul_add(parameter, starts[axis]).nearest();
+            let from_face = face - V::splat(token, AXES[axis]);
             let is_face = (from_face * from_face).is_less(V::splat(token, 0.25));
-            offset = unit.mul_add(V::select(is_face, side, place), offset);
+            offset = units[axis].mul_add(V::select(is_face, side, place), offset);
+            normal = Vector::new(
+                V::select(is_face, units[axis].x, normal.x),
+                V::select(is_face, units[axis].y, normal.y),
+                V::select(is_face, units[axis].z, normal.z),
+            );
         }
-        let [x, y, z] = rounded;
-        let normal = Vector::new(of_face([x.x, y.x, z.x]), of_face([x.y, y.y, z.y]), of_face([x.z, y.z, z.z]));
         let found = self.facing::<V>(token, at, direction, offset, normal, parameter.nearest());
         self.keep(at, lanes, &found, 0);
     }
@@ -537,7 +482,7 @@ impl FindPoints<'_> {
         let zero = V::splat(token, 0.0);
         let slope = normal.dot(direction);
         let normal = normal * V::select(zero.is_less(slope), V::splat(token, -1.0), V::splat(token, 1.0));
-        let along = self.rays.way::<V>(token, at).along.map(DoubleDouble::nearest);
+        let along = nearest(self.rays.way::<V>(token, at).along);
         Found {
             offset,
             normal,
@@ -546,4 +491,49 @@ impl FindPoints<'_> {
             shadow_ray_offset: Vector::new(zero, zero, zero),
         }
     }
+}
+
+#[inline(always)]
+fn exactly<V: Lane<Element = f64>>(vector: Vector<V>) -> Vector<DoubleDouble<V>> {
+    Vector::new(DoubleDouble::exactly(vector.x), DoubleDouble::exactly(vector.y), DoubleDouble::exactly(vector.z))
+}
+
+#[inline(always)]
+fn nearest<V: Lane<Element = f64>>(vector: Vector<DoubleDouble<V>>) -> Vector<V> {
+    Vector::new(vector.x.nearest(), vector.y.nearest(), vector.z.nearest())
+}
+
+/// A vector, or another one where it is zero.
+#[inline(always)]
+fn or_else<V: Lane<Element = f64>>(vector: Vector<V>, other: Vector<V>) -> Vector<V> {
+    let is_there = vector.x.splat_like(0.0).is_less(vector.dot(vector));
+    Vector::new(
+        V::select(is_there, vector.x, other.x),
+        V::select(is_there, vector.y, other.y),
+        V::select(is_there, vector.z, other.z),
+    )
+}
+
+/// Writes some lanes.
+#[inline(always)]
+fn keep<V: Lane<Element = f64>>(at: usize, lanes: u64, numbers: V, out: &mut [f64; RAYS]) {
+    let out = &mut out[at..at + V::COUNT];
+    if lanes == (1 << V::COUNT) - 1 {
+        numbers.store(out);
+        return;
+    }
+    let mut all = [0.0; 16];
+    numbers.store(&mut all);
+    for (lane, out) in out.iter_mut().enumerate() {
+        if lanes >> lane & 1 == 1 {
+            *out = all[lane];
+        }
+    }
+}
+
+#[inline(always)]
+fn keep_vectors<V: Lane<Element = f64>>(at: usize, lanes: u64, vectors: Vector<V>, [x, y, z]: &mut Vectors) {
+    keep(at, lanes, vectors.x, x);
+    keep(at, lanes, vectors.y, y);
+    keep(at, lanes, vectors.z, z);
 }

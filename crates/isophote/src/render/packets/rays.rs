@@ -132,20 +132,16 @@ impl RayPacket {
     }
 
     /// The boxes of the starts and of the points at this t.
-    pub fn ends(&self, t: f64) -> [Bounds; 2] {
-        let (mut least, mut greatest) = ([[f64::INFINITY; 3]; 2], [[f64::NEG_INFINITY; 3]; 2]);
-        for axis in 0..3 {
-            for (start, direction) in self.start[axis].iter().zip(&self.direction[axis]) {
-                for (end, at) in [*start, t.mul_add(*direction, *start)].into_iter().enumerate() {
-                    least[end][axis] = least[end][axis].min(at);
-                    greatest[end][axis] = greatest[end][axis].max(at);
-                }
-            }
+    #[inline(always)]
+    pub fn ends<V: Lane<Element = f64>>(&self, token: V::Token, t: f64) -> [Bounds; 2] {
+        let t = V::splat(token, t);
+        let (mut starts, mut ends) = (Range::none(token), Range::none(token));
+        for at in (0..RAYS).step_by(V::COUNT) {
+            let start = load::<V>(token, &self.start, at);
+            starts.widen(start);
+            ends.widen(load::<V>(token, &self.direction, at).mul_add(t, start));
         }
-        [0, 1].map(|end| Bounds {
-            least: self.origin + Vector::from(least[end]),
-            greatest: self.origin + Vector::from(greatest[end]),
-        })
+        [starts.bounds(self.origin), ends.bounds(self.origin)]
     }
 
     /// S and D of some rays.
@@ -167,22 +163,52 @@ impl RayPacket {
     /// The range of that function over each octet: of some octets, its middle and half its width.
     #[inline(always)]
     pub fn side_of_octets<V: Lane<Element = f64>>(&self, token: V::Token, at: usize, edge: &EdgeSide) -> [V; 2] {
-        let [direction, moment] = self.middle.each_ref().map(
-            #[inline(always)]
-            |[x, y, z]| Vector::new(V::load(token, &x[at..]), V::load(token, &y[at..]), V::load(token, &z[at..])),
-        );
-        let [of_direction, of_moment] = self.spread.each_ref().map(
-            #[inline(always)]
-            |spread| V::load(token, &spread[at..]),
-        );
+        let direction = of_octets::<V>(token, &self.middle[0], at);
+        let of_direction = V::load(token, &self.spread[0][at..]);
         let middle = direction.dot(splat(token, edge.across));
         let half = of_direction * V::splat(token, edge.across.length());
         if self.is_central() {
             return [middle, half];
         }
+        let moment = of_octets::<V>(token, &self.middle[1], at);
+        let of_moment = V::load(token, &self.spread[1][at..]);
         let middle = middle - moment.dot(splat(token, edge.along));
         [middle, of_moment.mul_add(V::splat(token, edge.along.length()), half)]
     }
+}
+
+/// The ranges of coordinates, lane by lane.
+struct Range<V> {
+    least: Vector<V>,
+    greatest: Vector<V>,
+}
+
+impl<V: Lane<Element = f64>> Range<V> {
+    #[inline(always)]
+    fn none(token: V::Token) -> Self {
+        let (most, least) = (V::splat(token, f64::MAX), V::splat(token, f64::MIN));
+        Self { least: Vector::new(most, most, most), greatest: Vector::new(least, least, least) }
+    }
+
+    #[inline(always)]
+    fn widen(&mut self, point: Vector<V>) {
+        let Self { least, greatest } = self;
+        *least = Vector::new(least.x.min(point.x), least.y.min(point.y), least.z.min(point.z));
+        *greatest = Vector::new(greatest.x.max(point.x), greatest.y.max(point.y), greatest.z.max(point.z));
+    }
+
+    #[inline(always)]
+    fn bounds(self, origin: Vector) -> Bounds {
+        let Self { least, greatest } = self;
+        let least = Vector::new(-largest(-least.x), -largest(-least.y), -largest(-least.z));
+        let greatest = Vector::new(largest(greatest.x), largest(greatest.y), largest(greatest.z));
+        Bounds { least: origin + least, greatest: origin + greatest }
+    }
+}
+
+#[inline(always)]
+fn of_octets<V: Lane<Element = f64>>(token: V::Token, [x, y, z]: &[[f64; OCTETS]; 3], at: usize) -> Vector<V> {
+    Vector::new(V::load(token, &x[at..]), V::load(token, &y[at..]), V::load(token, &z[at..]))
 }
 
 /// Writes a vector.
@@ -222,5 +248,9 @@ pub fn splat<V: Lane<Element = f64>>(token: V::Token, vector: Vector) -> Vector<
 fn largest<V: Lane<Element = f64>>(numbers: V) -> f64 {
     let mut all = [f64::NEG_INFINITY; 16];
     numbers.store(&mut all);
-    all[..V::COUNT].iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    let mut largest = all[0];
+    for number in &all[1..V::COUNT] {
+        largest = if *number > largest { *number } else { largest };
+    }
+    largest
 }

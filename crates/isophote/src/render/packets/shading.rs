@@ -264,10 +264,8 @@ impl Aim<'_, '_> {
         let origin = splat::<V>(token, packet.origin);
         let zero = V::splat(token, 0.0);
         for at in (0..RAYS).step_by(V::COUNT) {
-            let [anchor, offset, normal, spare] = [anchor, offset, normal, shadow_ray_offset].map(
-                #[inline(always)]
-                |vectors| load::<V>(token, vectors, at),
-            );
+            let (anchor, offset) = (load::<V>(token, anchor, at), load::<V>(token, offset, at));
+            let (normal, spare) = (load::<V>(token, normal, at), load::<V>(token, shadow_ray_offset, at));
             if is_parallel {
                 lit |= u64::from(V::bits(zero.is_less(normal.dot(position)))) << at;
                 store(&mut packet.start, at, (anchor - origin) + (offset + spare));

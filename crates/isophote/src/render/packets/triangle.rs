@@ -45,7 +45,7 @@ impl PacketTriangle {
     /// From its corners, in metres.
     #[inline(always)]
     pub fn new(corners: &[Vector; 3], packet: &RayPacket) -> Self {
-        let [a, b, c] = corners.map(|corner| corner - packet.origin);
+        let (a, b, c) = (corners[0] - packet.origin, corners[1] - packet.origin, corners[2] - packet.origin);
         let sides = [corners[2] - corners[1], corners[0] - corners[2], corners[1] - corners[0]];
         let edges = [
             EdgeSide { across: b.cross(c), along: sides[0] },
@@ -71,23 +71,13 @@ impl PacketTriangle {
         let error = V::splat(token, self.edge_error);
         let mut bits = 0;
         for at in (0..OCTET).step_by(V::COUNT) {
-            let [low, high] = self
-                .edges
-                .each_ref()
-                .map(
-                    #[inline(always)]
-                    |edge| packet.side_of_octets::<V>(token, at, edge),
-                )
-                .map(
-                    #[inline(always)]
-                    |[middle, half]| [middle - half, middle + half],
-                )
-                .into_iter()
-                .reduce(
-                    #[inline(always)]
-                    |[low, high], [other_low, other_high]| [low.max(other_low), high.min(other_high)],
-                )
-                .unwrap_or([error, error]);
+            let [first, second, third] = &self.edges;
+            let [middle, half] = packet.side_of_octets::<V>(token, at, first);
+            let (mut low, mut high) = (middle - half, middle + half);
+            let [middle, half] = packet.side_of_octets::<V>(token, at, second);
+            (low, high) = (low.max(middle - half), high.min(middle + half));
+            let [middle, half] = packet.side_of_octets::<V>(token, at, third);
+            (low, high) = (low.max(middle - half), high.min(middle + half));
             // Inside, all three functions have one sign: the smallest upper bound is positive, or the largest lower bound
             // negative.
             let possible = high.max(-low) + error;
@@ -99,10 +89,9 @@ impl PacketTriangle {
     /// Where some rays meet its plane.
     #[inline(always)]
     pub fn cross<V: Lane<Element = f64>>(&self, token: V::Token, packet: &RayPacket, at: usize) -> Crossing<V> {
-        let [first, second, third] = self.edges.each_ref().map(
-            #[inline(always)]
-            |edge| packet.side::<V>(token, at, edge),
-        );
+        let first = packet.side::<V>(token, at, &self.edges[0]);
+        let second = packet.side::<V>(token, at, &self.edges[1]);
+        let third = packet.side::<V>(token, at, &self.edges[2]);
         let least = first.min(second).min(third);
         let greatest = first.max(second).max(third);
         let face = splat::<V>(token, self.face);
@@ -128,11 +117,8 @@ impl PacketTriangle {
         margin: f64,
     ) -> Met {
         let Crossing { inside, t, error } = *crossing;
-        let [first, last, margin, edge] = [first, last, margin, self.edge_error].map(
-            #[inline(always)]
-            |number| V::splat(token, number),
-        );
-        let margin = margin + error;
+        let (first, last, edge) = (V::splat(token, first), V::splat(token, last), V::splat(token, self.edge_error));
+        let margin = V::splat(token, margin) + error;
         let is_inside = V::bits(edge.is_less(inside));
         let may_be_inside = V::bits_not(inside.is_less(-edge));
         let is_within = V::bits((first + margin).is_less(t)) & V::bits(t.is_less(last - margin));
