@@ -101,7 +101,8 @@ pub fn problems<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Vec<Boun
     let problem = |problem: &Problem| {
         let place = problem.place.as_ref().map(|place| (place.line, place.column, place.text.as_str()));
         let Problem { kind, path, message, help, .. } = problem;
-        class.call1((kind.name(), path.as_str(), message.as_str(), help.as_deref(), place))
+        let (message, help) = (message.to_string(), help.as_ref().map(ToString::to_string));
+        class.call1((kind.name(), path.as_str(), message, help, place))
     };
     problems.iter().map(problem).collect()
 }

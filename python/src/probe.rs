@@ -8,6 +8,7 @@ use isophote::prepare::Hit;
 use isophote::render::{Observer, PointKernel, PointValues};
 use isophote::scene::{Scene as CoreScene, limits};
 use isophote::shade::Shading;
+use isophote::text::Language;
 use isophote::units::{Keyword, LengthUnit};
 use isophote::vector::Vector;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
@@ -237,7 +238,7 @@ pub fn explain(
     let name = name.to_owned();
     let explained = job::run(py, &Progress::none(), move |_| {
         let prepared = content.prepared();
-        prepared.probe(&place).map(|reading| reading.explain(&prepared, &name))
+        prepared.probe(&place).map(|reading| reading.explain(&prepared, &name, Language::English))
     })?;
     explained.map_err(|error| refused(py, scene.core(), &[(index, error)], 1))
 }

@@ -4,8 +4,9 @@ import { mkdirSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import AxeBuilder from '@axe-core/playwright';
+import type { Page } from '@playwright/test';
 import { unzipSync } from 'fflate';
-import { command, expect, folder, open, picture, saved, test } from './page';
+import { choose, command, expect, folder, open, picture, saved, test } from './page';
 
 test('the language is the browser’s, can be changed, and is kept', async ({ page }) => {
   await open(page);
@@ -64,18 +65,11 @@ test('the command opens the page with a scene', async ({ page }) => {
 
 test('files are opened, and bad ones are refused in words', async ({ page }) => {
   await open(page);
-  const choose = async (name: string, content: string) => {
-    const [chooser] = await Promise.all([
-      page.waitForEvent('filechooser'),
-      page.getByRole('button', { name: 'Open…' }).click(),
-    ]);
-    await chooser.setFiles({ name, mimeType: 'text/plain', buffer: Buffer.from(content) });
-  };
   const before = (await saved(page, 'Scene (TOML)')).toString();
-  await choose('nonsense.toml', 'this is = not [a scene');
+  await choose(page, 'nonsense.toml', 'this is = not [a scene');
   await expect(page.getByRole('status').getByText('This file holds no scene')).toBeVisible();
   expect((await saved(page, 'Scene (TOML)')).toString()).toBe(before);
-  await choose('two-lights.toml', command('new', 'two-lights', '-o', '-'));
+  await choose(page, 'two-lights.toml', command('new', 'two-lights', '-o', '-'));
   await picture(page);
   expect((await saved(page, 'Scene (TOML)')).toString()).not.toBe(before);
   await page.getByRole('button', { name: 'Undo' }).click();
@@ -122,24 +116,81 @@ test('reports hold the numbers of the scene', async ({ page }) => {
   expect(Object.keys(parts).filter((name) => name.startsWith('word/media/')).length).toBe(2);
 });
 
-for (const [width, height] of [
-  [390, 844],
-  [1366, 768],
-] as const) {
-  test.describe(`at ${width} × ${height}`, () => {
-    test.use({ viewport: { width, height } });
-    for (const tab of ['Values', 'Why', 'Sections', 'More']) {
-      test(`axe finds nothing in ${tab}, and nothing is wider than the page`, async ({ page }) => {
+/** What axe finds on the page as it is. */
+async function violations(page: Page): Promise<string[]> {
+  const { violations } = await new AxeBuilder({ page }).analyze();
+  return violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(' ')}`);
+}
+
+/** The page in both languages and both themes, with the names of what is clicked. */
+const VERSIONS = [
+  {
+    locale: 'en-GB',
+    colorScheme: 'light',
+    tabs: ['Values', 'Why', 'Sections', 'More'],
+    open: 'Open…',
+    report: 'Report',
+    warnings: 'Worth knowing',
+    mistakes: 'This scene cannot be computed',
+  },
+  {
+    locale: 'ru-RU',
+    colorScheme: 'dark',
+    tabs: ['Значения', 'Почему', 'Сечения', 'Ещё'],
+    open: 'Открыть…',
+    report: 'Отчёт',
+    warnings: 'Полезно знать',
+    mistakes: 'Такую сцену рассчитать нельзя',
+  },
+] as const;
+
+for (const { locale, colorScheme, tabs, ...names } of VERSIONS) {
+  for (const [width, height] of [
+    [390, 844],
+    [1366, 768],
+  ] as const) {
+    test.describe(`${locale}, ${colorScheme}, at ${width} × ${height}`, () => {
+      test.use({ locale, colorScheme, viewport: { width, height } });
+      for (const [index, tab] of tabs.entries()) {
+        test(`axe finds nothing in ${tab}, and nothing is wider than the page`, async ({ page }) => {
+          await open(page);
+          await page.getByRole('tab', { name: tab }).click();
+          if (index === 1) await page.getByRole('tabpanel').getByRole('combobox').selectOption('P1');
+          if (index === 2) await page.getByRole('tabpanel').getByRole('button', { name: 'ball' }).first().click();
+          await picture(page);
+          expect(await violations(page)).toEqual([]);
+          expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+        });
+      }
+
+      test('axe finds nothing in warnings, in mistakes and in the form of a report', async ({ page }) => {
+        const lab = command('new', 'lab', '-o', '-');
         await open(page);
-        await page.getByRole('tab', { name: tab }).click();
+        await choose(page, 'odd.toml', `${lab}\n[material.spare]\ndiffuse = 0.5\n`, names.open);
         await picture(page);
-        const { violations } = await new AxeBuilder({ page }).analyze();
-        expect(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(' ')}`)).toEqual([]);
+        await page.getByText(names.warnings).click();
+        expect(await violations(page)).toEqual([]);
+        await page.getByRole('button', { name: names.report, exact: true }).click();
+        expect(await violations(page)).toEqual([]);
+        await page.keyboard.press('Escape');
+        await choose(page, 'wrong.toml', lab.replace(/^radius = 1\b/m, 'radius = -1'), names.open);
+        await expect(page.getByRole('status').getByText(names.mistakes)).toBeVisible();
+        expect(await violations(page)).toEqual([]);
         expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
       });
-    }
-  });
+    });
+  }
 }
+
+test('the theme can be chosen by hand', async ({ page }) => {
+  await open(page);
+  const theme = page.getByRole('combobox', { name: 'Theme' });
+  const background = () => page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+  await theme.selectOption('dark');
+  expect(await background()).toBe('rgb(20, 23, 26)');
+  await theme.selectOption('light');
+  expect(await background()).toBe('rgb(246, 247, 248)');
+});
 
 test('screenshots for the documentation', async ({ page }) => {
   test.skip(!process.env['ISOPHOTE_SCREENSHOTS'], 'made by make app-screenshots');

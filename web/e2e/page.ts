@@ -36,10 +36,19 @@ export async function picture(page: Page): Promise<void> {
 }
 
 /** Saves by an entry of the menu, and returns the file's bytes. */
-export async function saved(page: Page, entry: string): Promise<Buffer> {
-  await page.getByRole('button', { name: 'Save', exact: true }).click();
+export async function saved(page: Page, entry: string, save = 'Save'): Promise<Buffer> {
+  await page.getByRole('button', { name: save, exact: true }).click();
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: entry }).click()]);
   return readFileSync(await download.path());
+}
+
+/** Opens a file with this content. */
+export async function choose(page: Page, name: string, content: string, button = 'Open…'): Promise<void> {
+  const [chooser] = await Promise.all([
+    page.waitForEvent('filechooser'),
+    page.getByRole('button', { name: button }).click(),
+  ]);
+  await chooser.setFiles({ name, mimeType: 'text/plain', buffer: Buffer.from(content) });
 }
 
 /** A folder of its own for a test's files. */

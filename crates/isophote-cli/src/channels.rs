@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use isophote::map::Quantity;
+use isophote::message;
 use isophote::render::RenderError;
 use isophote::scene::Scene;
 
@@ -14,10 +15,10 @@ pub fn named(names: &[String], scene: &Scene) -> Result<Vec<Quantity>> {
     let color = scene.color().map(|_| Quantity::Color);
     let channel = |name: &String| {
         if color.is_none() && *name == Quantity::Color.name() {
-            return Err(Usage(RenderError::NoColor.to_string()).into());
+            return Err(Usage(RenderError::NoColor.message()).into());
         }
         if scene.sampling().tolerance.is_none() && *name == Quantity::SamplingError.name() {
-            return Err(Usage(RenderError::NoTolerance.to_string()).into());
+            return Err(Usage(RenderError::NoTolerance.message()).into());
         }
         Quantity::from_name(name).filter(known).ok_or_else(|| {
             let known = Quantity::COMMON
@@ -28,7 +29,7 @@ pub fn named(names: &[String], scene: &Scene) -> Result<Vec<Quantity>> {
                 .chain(&color)
                 .chain(lights.iter().take(20));
             let names: Vec<String> = known.map(Quantity::name).collect();
-            Usage(format!("there is no channel `{name}`; allowed: {}", names.join(", "))).into()
+            Usage(message!("there is no channel `{name}`; allowed: {names}", name, names = names.join(", "))).into()
         })
     };
     names.iter().map(channel).collect()

@@ -3,21 +3,34 @@
 use std::fmt;
 use std::io::{IsTerminal, Write};
 
+use isophote::message;
 use isophote::render::RenderError;
 use isophote::scene::SceneError;
-use isophote::text::escaped;
+use isophote::text::{Language, Message, escaped};
 
 /// Invalid arguments, for this scene or in general: exit code 2.
 #[derive(Debug)]
-pub struct Usage(pub String);
+pub struct Usage(pub Message);
 
 impl fmt::Display for Usage {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.0)
+        self.0.fmt(formatter)
     }
 }
 
 impl std::error::Error for Usage {}
+
+/// What went wrong although the arguments were right: exit code 1.
+#[derive(Debug)]
+pub struct Failed(pub Message);
+
+impl fmt::Display for Failed {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(formatter)
+    }
+}
+
+impl std::error::Error for Failed {}
 
 /// The user stopped the program: exit code 130.
 #[derive(Debug)]
@@ -33,41 +46,62 @@ impl std::error::Error for Interrupted {}
 
 /// The user stopped a computation that can be resumed later: exit code 130.
 #[derive(Debug)]
-pub struct Paused(pub String);
+pub struct Paused(pub Message);
 
 impl fmt::Display for Paused {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "interrupted; {}", self.0)
+        self.message().fmt(formatter)
     }
 }
 
 impl std::error::Error for Paused {}
 
+impl Paused {
+    fn message(&self) -> Message {
+        message!("interrupted; {stays}", stays = self.0)
+    }
+}
+
 /// What an interruption of work on files is told as.
-pub const NOTHING_HALF_WRITTEN: &str = "interrupted; nothing was left half-written";
+pub fn nothing_half_written() -> Message {
+    message!("interrupted; nothing was left half-written")
+}
 
 /// Writes an error to standard error and chooses the exit code.
-pub fn report(error: &anyhow::Error) -> u8 {
+pub fn report(error: &anyhow::Error, language: Language) -> u8 {
     if let Some(scene_error) = find::<SceneError>(error) {
         let count = scene_error.count();
-        let plural = if count == 1 { "" } else { "s" };
-        let report = scene_error.report(use_color());
-        note_drawn(&format!(
-            "{report}\n\n{count} problem{plural} in {}; nothing was written",
-            escaped(&scene_error.name)
-        ));
+        let report = scene_error.report_in(language, use_color());
+        let name = &scene_error.name;
+        let sum = match count {
+            1 => message!("{count} problem in {name}; nothing was written", count, name),
+            _ => message!("{count} problems in {name}; nothing was written", count, name),
+        };
+        note_drawn(&format!("{report}\n\n{}", sum.in_language(language)));
         return 3;
     }
     if let Some(paused) = find::<Paused>(error) {
-        note(&paused.to_string());
+        note(&paused.message().in_language(language));
         return 130;
     }
     if is_interruption(error) {
-        note(NOTHING_HALF_WRITTEN);
+        note(&nothing_half_written().in_language(language));
         return 130;
     }
-    note(&format!("error: {error:#}"));
+    let reason = message_of(error).unwrap_or_else(|| Message::verbatim(format!("{error:#}")));
+    note(&message!("error: {reason}", reason).in_language(language));
     if find::<Usage>(error).is_some() { 2 } else { 1 }
+}
+
+/// What an error says in either language. What the system and the files of outputs say is in English.
+fn message_of(error: &anyhow::Error) -> Option<Message> {
+    if let Some(Usage(message)) = find(error) {
+        return Some(message.clone());
+    }
+    if let Some(Failed(message)) = find(error) {
+        return Some(message.clone());
+    }
+    find::<RenderError>(error).map(RenderError::message)
 }
 
 /// Writes a line to standard error, with control characters escaped.

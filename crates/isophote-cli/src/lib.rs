@@ -15,6 +15,8 @@ use std::ffi::OsString;
 use std::io::Write;
 
 use clap::Parser;
+use isophote::message;
+use isophote::text::Language;
 
 pub use commands::APP_PAGE;
 
@@ -31,19 +33,24 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             return u8::try_from(answer.exit_code()).unwrap_or(2);
         }
     };
-    progress::watch_for_interrupts();
+    let language = arguments.language();
+    progress::watch_for_interrupts(language);
     match commands::run(arguments) {
-        Ok(result) => print(&result),
-        Err(error) => failure::report(&error),
+        Ok(result) => print(&result, language),
+        Err(error) => failure::report(&error, language),
     }
 }
 
 /// The reader may close standard output at any time: that is not an error.
-fn print(result: &str) -> u8 {
+fn print(result: &str, language: Language) -> u8 {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(result.as_bytes()).and_then(|()| stdout.flush()) {
         Ok(()) => 0,
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => 0,
-        Err(error) => failure::report(&anyhow::Error::new(error).context("cannot write to standard output")),
+        Err(error) => {
+            let error = error.to_string();
+            let failed = failure::Failed(message!("cannot write to standard output: {error}", error));
+            failure::report(&failed.into(), language)
+        }
     }
 }

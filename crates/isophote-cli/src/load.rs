@@ -3,18 +3,20 @@
 use std::path::Path;
 
 use anyhow::Result;
+use isophote::message;
 use isophote::scene::library::Starter;
 use isophote::scene::source::SamplingSource;
 use isophote::scene::{CarriedFiles, Scene, SceneError, Syntax, error};
+use isophote::text::{Language, Message, ToValue};
 use isophote_export::{FileMetadata, Format, read_metadata};
 
 use crate::args::{RenderArguments, SceneArgument};
 use crate::failure::{self, Usage};
 
 /// Reads the scene and prints its warnings.
-pub fn scene(argument: &SceneArgument, quiet: bool) -> Result<Scene> {
+pub fn scene(argument: &SceneArgument, quiet: bool, language: Language) -> Result<Scene> {
     let (name, scene) = read(argument)?;
-    warn(&name, &scene, quiet);
+    warn(&name, &scene, quiet, language);
     Ok(scene)
 }
 
@@ -26,15 +28,15 @@ pub fn scene_to_render(arguments: &RenderArguments) -> Result<Scene> {
     }
     let sampling = arguments.sampling.source();
     if sampling != SamplingSource::default() {
-        scene = scene.with_sampling(&sampling).map_err(|error| wrong("--samples or --tolerance", &error))?;
+        scene = scene.with_sampling(&sampling).map_err(|error| wrong(message!("--samples or --tolerance"), &error))?;
     }
-    warn(&name, &scene, arguments.quiet);
+    warn(&name, &scene, arguments.quiet, arguments.language.lang);
     Ok(scene)
 }
 
-fn warn(name: &str, scene: &Scene, quiet: bool) {
+fn warn(name: &str, scene: &Scene, quiet: bool, language: Language) {
     if !quiet && !scene.warnings().is_empty() {
-        failure::note_drawn(&error::report(name, scene.warnings(), failure::use_color()));
+        failure::note_drawn(&error::report_in(name, scene.warnings(), language, failure::use_color()));
     }
 }
 
@@ -51,7 +53,10 @@ fn read(argument: &SceneArgument) -> Result<(String, Scene)> {
         let syntax = if text.trim_start().starts_with('{') { Syntax::Json } else { Syntax::Toml };
         Scene::from_text(name, &text, syntax)?
     } else if Format::from_path(path).is_some() || is_store(path) {
-        let no_scene = |error| SceneError::unreadable(&name, format!("no scene can be taken out of it: {error}"), None);
+        let no_scene = |error: anyhow::Error| {
+            let reason = error.to_string();
+            SceneError::unreadable(&name, message!("no scene can be taken out of it: {reason}", reason), None)
+        };
         let metadata = metadata(path).map_err(no_scene)?;
         carried_scene(path, &name, &metadata)?
     } else {
@@ -77,10 +82,11 @@ pub fn is_store(path: &Path) -> bool {
 }
 
 /// The scene is valid: the argument is wrong.
-pub fn wrong(options: &str, error: &SceneError) -> Usage {
+pub fn wrong(options: impl ToValue, error: &SceneError) -> Usage {
     let reasons = error.problems.iter().map(|problem| match &problem.help {
-        Some(help) => format!("{}; {help}", problem.message),
+        Some(help) => message!("{first}; {second}", first = problem.message, second = help),
         None => problem.message.clone(),
     });
-    Usage(format!("{options}: {}", reasons.collect::<Vec<_>>().join("; ")))
+    let reasons = reasons.reduce(|first, second| message!("{first}; {second}", first, second));
+    Usage(message!("{options}: {reasons}", options, reasons = reasons.unwrap_or_else(Message::empty)))
 }

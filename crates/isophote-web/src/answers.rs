@@ -2,8 +2,10 @@
 
 use isophote::analysis::area::{AreaExtreme, AreaReading};
 use isophote::analysis::probe::{ProbeError, ProbeReading, SeenFromEye};
+use isophote::message;
 use isophote::prepare::PreparedScene;
 use isophote::scene::{Area, AreaPlace, Scene};
+use isophote::text::{Language, Message};
 use serde::Serialize;
 
 use crate::info::on_screen;
@@ -49,29 +51,31 @@ struct LightReading {
 }
 
 impl Probed {
-    pub fn new(request: &ProbeRequest, prepared: &PreparedScene) -> Self {
+    pub fn new(request: &ProbeRequest, prepared: &PreparedScene, language: Language) -> Self {
         let scene = prepared.scene();
         let reading = request.position(scene).map_err(|refusal| refusal.0);
         match reading.and_then(|position| prepared.probe(&position).map_err(|error| refusal(&error, scene))) {
-            Ok(reading) => Self { reading: Some(Reading::new(&request.name, &reading, prepared)), error: None },
-            Err(error) => Self { reading: None, error: Some(error) },
+            Ok(reading) => {
+                Self { reading: Some(Reading::new(&request.name, &reading, prepared, language)), error: None }
+            }
+            Err(error) => Self { reading: None, error: Some(error.in_language(language)) },
         }
     }
 }
 
 /// Why there is no value, and where the nearest one is.
-pub fn refusal(error: &ProbeError, scene: &Scene) -> String {
+pub fn refusal(error: &ProbeError, scene: &Scene) -> Message {
     match error {
         ProbeError::OffSurface(miss) => {
             let miss = miss.describe(&scene.shapes()[miss.shape].name, scene.length());
-            format!("{error}: {miss}")
+            message!("{error}: {miss}", error = error.message(), miss)
         }
-        other => other.to_string(),
+        other => other.message(),
     }
 }
 
 impl Reading {
-    fn new(name: &str, reading: &ProbeReading, prepared: &PreparedScene) -> Self {
+    fn new(name: &str, reading: &ProbeReading, prepared: &PreparedScene, language: Language) -> Self {
         let scene = prepared.scene();
         let length = scene.length();
         let lights = scene.lights().iter().enumerate().map(|(index, light)| {
@@ -95,7 +99,7 @@ impl Reading {
             shape: scene.name_of(reading.hit.primitive),
             screen: on_screen(prepared, point.position()),
             seen: reading.is_seen(),
-            unseen_because: reading.why_unseen(scene),
+            unseen_because: reading.why_unseen(scene).map(|why| why.in_language(language)),
             cos_theta_o: point.cos_theta_o,
             brightness: reading.shading.brightness(),
             irradiance: reading.shading.irradiance,

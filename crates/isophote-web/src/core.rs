@@ -2,11 +2,12 @@
 
 use isophote::analysis::surface::{SurfaceProjection, SurfaceRequest as SurfaceOfScene};
 use isophote::map::{Quantity, Resolution};
+use isophote::message;
 use isophote::prepare::PreparedScene;
-use isophote::scene::library::{Language, Starter};
+use isophote::scene::library::Starter;
 use isophote::scene::{Problem, Scene, SceneError, SceneSource, Syntax};
 use isophote::shape::{Primitive, Side};
-use isophote_export::colormap::Colormap;
+use isophote::text::Language;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use wasm_bindgen::JsValue;
@@ -16,9 +17,10 @@ use crate::answers::{AreaAnswer, Explanation, Probed, refusal};
 use crate::export::export;
 use crate::frame::{Analysis, Band, render, rows};
 use crate::info::SceneInfo;
-use crate::problem::{ProblemAnswer, Refusal, json};
+use crate::problem::{ProblemAnswer, Refusal, json, told};
 use crate::request::{
-    ExportRequest, FrameHead, Levels, ProbeRequest, SectionRequest, SurfaceRequest, channel, keyword, shape_named,
+    ExportRequest, FrameHead, Levels, ProbeRequest, SectionRequest, SurfaceRequest, channel, colormap, keyword,
+    shape_named,
 };
 use crate::section::Section;
 
@@ -60,7 +62,9 @@ impl Core {
     /// # Errors
     /// Another language.
     pub fn set_language(&mut self, name: &str) -> Result<(), JsValue> {
-        self.language = keyword("language", name)?;
+        let language =
+            keyword(name, |name, allowed| message!("there is no language `{name}`; allowed: {allowed}", name, allowed));
+        self.language = told(language, self.language)?;
         Ok(())
     }
 
@@ -72,14 +76,19 @@ impl Core {
         let syntax = match syntax {
             "toml" => Syntax::Toml,
             "json" => Syntax::Json,
-            other => return Err(Refusal(format!("no scene is written in {other}; allowed: toml, json")).into()),
+            other => {
+                let refusal = Refusal(message!("no scene is written in `{other}`; allowed: `toml`, `json`", other));
+                return told(Err(refusal), self.language);
+            }
         };
         let (source, problems) = match Scene::from_text("", text, syntax) {
-            Ok(scene) => (scene.source().clone(), ProblemAnswer::all(scene.warnings())),
-            Err(error) => (SceneSource::readable_part(text, syntax), ProblemAnswer::all(&error.problems)),
+            Ok(scene) => (scene.source().clone(), ProblemAnswer::all(scene.warnings(), self.language)),
+            Err(error) => {
+                (SceneSource::readable_part(text, syntax), ProblemAnswer::all(&error.problems, self.language))
+            }
         };
         let scene = (source != SceneSource::default()).then_some(source);
-        Ok(json(&ReadScene { scene, problems })?)
+        told(json(&ReadScene { scene, problems }), self.language)
     }
 
     /// A starter scene with its comments.
@@ -87,7 +96,10 @@ impl Core {
     /// # Errors
     /// There is none of this name.
     pub fn starter(&self, name: &str) -> Result<String, JsValue> {
-        let starter: Starter = keyword("starter scene", name)?;
+        let starter = keyword(name, |name, allowed| {
+            message!("there is no starter scene `{name}`; allowed: {allowed}", name, allowed)
+        });
+        let starter: Starter = told(starter, self.language)?;
         Ok(starter.text_in(self.language).into())
     }
 
@@ -104,8 +116,9 @@ impl Core {
     /// # Errors
     /// None that is known.
     pub fn load(&mut self, scene: &str) -> Result<String, JsValue> {
+        let language = self.language;
         let checked = |info: Option<SceneInfo>, problems: &[Problem]| {
-            Ok(json(&Checked { info, problems: ProblemAnswer::all(problems) })?)
+            told(json(&Checked { info, problems: ProblemAnswer::all(problems, language) }), language)
         };
         match Scene::from_text("", scene, Syntax::Json) {
             Err(SceneError { problems, .. }) => checked(None, &problems),
@@ -127,10 +140,8 @@ impl Core {
     /// # Errors
     /// No scene, no such channel, no such rows.
     pub fn render(&mut self, name: &str, first: u32, count: u32, step: u32) -> Result<Band, JsValue> {
-        let quantity = channel(name, self.scene()?.scene())?;
-        let prepared = if step == 2 { self.half()? } else { self.scene()? };
-        let region = rows(prepared.scene().camera().resolution, first, count);
-        Ok(Band::of(render(prepared, vec![quantity.clone()], Some(region))?, &quantity)?)
+        let band = self.rendered(name, [first, count, step]);
+        told(band, self.language)
     }
 
     /// Statistics and isophotes of a frame.
@@ -138,8 +149,10 @@ impl Core {
     /// # Errors
     /// A frame that is no map.
     pub fn analyse(&self, head: &str, values: Vec<f64>, shapes: Vec<i32>, levels: &str) -> Result<String, JsValue> {
-        let (head, levels): (FrameHead, Levels) = (asked(head)?, asked(levels)?);
-        Ok(json(&Analysis::new(self.scene()?, &head, values, shapes, &levels)?)?)
+        self.answer(|core| {
+            let (head, levels): (FrameHead, Levels) = (asked(head)?, asked(levels)?);
+            json(&Analysis::new(core.scene()?, &head, values, shapes, &levels)?)
+        })
     }
 
     /// Values at places.
@@ -147,8 +160,10 @@ impl Core {
     /// # Errors
     /// No scene.
     pub fn probe(&self, requests: &str) -> Result<String, JsValue> {
-        let (scene, requests) = (self.scene()?, asked::<Vec<ProbeRequest>>(requests)?);
-        Ok(json(&requests.iter().map(|request| Probed::new(request, scene)).collect::<Vec<_>>())?)
+        self.answer(|core| {
+            let (scene, requests) = (core.scene()?, asked::<Vec<ProbeRequest>>(requests)?);
+            json(&requests.iter().map(|request| Probed::new(request, scene, core.language)).collect::<Vec<_>>())
+        })
     }
 
     /// The calculation of a value.
@@ -156,10 +171,12 @@ impl Core {
     /// # Errors
     /// A place without a value.
     pub fn explain(&self, request: &str) -> Result<String, JsValue> {
-        let (prepared, request) = (self.scene()?, asked::<ProbeRequest>(request)?);
-        let reading = prepared.probe(&request.position(prepared.scene())?);
-        let reading = reading.map_err(|error| Refusal(refusal(&error, prepared.scene())))?;
-        Ok(json(&Explanation::new(&reading.explain(prepared, &request.name)))?)
+        self.answer(|core| {
+            let (prepared, request) = (core.scene()?, asked::<ProbeRequest>(request)?);
+            let reading = prepared.probe(&request.position(prepared.scene())?);
+            let reading = reading.map_err(|error| Refusal(refusal(&error, prepared.scene())))?;
+            json(&Explanation::new(&reading.explain(prepared, &request.name, core.language)))
+        })
     }
 
     /// Values along lines.
@@ -167,11 +184,13 @@ impl Core {
     /// # Errors
     /// A line that is not in the image, or a channel that sections do not have.
     pub fn section(&self, lines: &str, channels: &str) -> Result<String, JsValue> {
-        let prepared = self.scene()?;
-        let (lines, names): (Vec<SectionRequest>, Vec<String>) = (asked(lines)?, asked(channels)?);
-        let channels: Result<Vec<Quantity>, Refusal> =
-            names.iter().map(|name| channel(name, prepared.scene())).collect();
-        Ok(json(&Section::all(&lines, &channels?, prepared)?)?)
+        self.answer(|core| {
+            let prepared = core.scene()?;
+            let (lines, names): (Vec<SectionRequest>, Vec<String>) = (asked(lines)?, asked(channels)?);
+            let channels: Result<Vec<Quantity>, Refusal> =
+                names.iter().map(|name| channel(name, prepared.scene())).collect();
+            json(&Section::all(&lines, &channels?, prepared, core.language)?)
+        })
     }
 
     /// The values inside the areas of the scene.
@@ -179,7 +198,7 @@ impl Core {
     /// # Errors
     /// No scene.
     pub fn areas(&self) -> Result<String, JsValue> {
-        Ok(json(&AreaAnswer::all(self.scene()?))?)
+        self.answer(|core| json(&AreaAnswer::all(core.scene()?)))
     }
 
     /// A channel over a shape's own surface.
@@ -187,24 +206,26 @@ impl Core {
     /// # Errors
     /// A shape without coordinates, or a channel that surfaces do not have.
     pub fn surface(&self, request: &str, name: &str) -> Result<Band, JsValue> {
-        let (prepared, request) = (self.scene()?, asked::<SurfaceRequest>(request)?);
-        let quantity = channel(name, prepared.scene())?;
-        let shape = shape_named(&request.shape, prepared.scene())?;
-        let projection =
-            if request.equal_area { SurfaceProjection::EqualArea } else { SurfaceProjection::Equirectangular };
-        let of_width = |size: Option<Resolution>| SurfaceOfScene {
-            primitive: Primitive { shape, part: 0 },
-            projection,
-            axis: None,
-            side: Side::Front,
-            size,
-        };
-        let size = prepared.surface(&of_width(None)).map_err(Refusal::from)?.size();
-        let height = (u64::from(size.height) * u64::from(request.width) / u64::from(size.width.max(1))).max(2);
-        let size = Resolution { width: request.width, height: u32::try_from(height).unwrap_or(u32::MAX) };
-        let surface = prepared.surface(&of_width(Some(size))).map_err(Refusal::from)?;
-        let map = surface.map(std::slice::from_ref(&quantity)).map_err(Refusal::from)?;
-        Ok(Band::of(map, &quantity)?)
+        self.answer(|core| {
+            let (prepared, request) = (core.scene()?, asked::<SurfaceRequest>(request)?);
+            let quantity = channel(name, prepared.scene())?;
+            let shape = shape_named(&request.shape, prepared.scene())?;
+            let projection =
+                if request.equal_area { SurfaceProjection::EqualArea } else { SurfaceProjection::Equirectangular };
+            let of_width = |size: Option<Resolution>| SurfaceOfScene {
+                primitive: Primitive { shape, part: 0 },
+                projection,
+                axis: None,
+                side: Side::Front,
+                size,
+            };
+            let size = prepared.surface(&of_width(None))?.size();
+            let height = (u64::from(size.height) * u64::from(request.width) / u64::from(size.width.max(1))).max(2);
+            let size = Resolution { width: request.width, height: u32::try_from(height).unwrap_or(u32::MAX) };
+            let surface = prepared.surface(&of_width(Some(size)))?;
+            let map = surface.map(std::slice::from_ref(&quantity))?;
+            Band::of(map, &quantity)
+        })
     }
 
     /// A channel on a grid of the scene.
@@ -212,12 +233,14 @@ impl Core {
     /// # Errors
     /// There is no such grid, or no such channel.
     pub fn grid(&self, grid: &str, name: &str) -> Result<Band, JsValue> {
-        let prepared = self.scene()?;
-        let quantity = channel(name, prepared.scene())?;
-        let known = prepared.scene().grids().iter().find(|known| known.name == grid);
-        let known = known.ok_or_else(|| Refusal(format!("there is no grid “{grid}”")))?;
-        let map = prepared.grid(known, std::slice::from_ref(&quantity)).map_err(Refusal::from)?;
-        Ok(Band::of(map, &quantity)?)
+        self.answer(|core| {
+            let prepared = core.scene()?;
+            let quantity = channel(name, prepared.scene())?;
+            let known = prepared.scene().grids().iter().find(|known| known.name == grid);
+            let known = known.ok_or_else(|| Refusal(message!("there is no grid \"{grid}\"", grid)))?;
+            let map = prepared.grid(known, std::slice::from_ref(&quantity))?;
+            Band::of(map, &quantity)
+        })
     }
 
     /// The bytes of a file.
@@ -225,7 +248,7 @@ impl Core {
     /// # Errors
     /// What cannot be drawn or written.
     pub fn export(&self, request: &str) -> Result<Vec<u8>, JsValue> {
-        Ok(export(self.scene()?, &asked::<ExportRequest>(request)?)?)
+        self.answer(|core| export(core.scene()?, &asked::<ExportRequest>(request)?, core.language))
     }
 
     /// 256 colours, three bytes each.
@@ -233,14 +256,26 @@ impl Core {
     /// # Errors
     /// There is no such colour map.
     pub fn colormap(&self, name: &str) -> Result<Vec<u8>, JsValue> {
-        let colormap: Colormap = keyword("colour map", name)?;
+        let colormap = told(colormap(name), self.language)?;
         Ok((0..=255_u8).flat_map(|index| colormap.color(f64::from(index) / 255.0)).collect())
     }
 }
 
 impl Core {
+    /// The answer to a question about the scene, or why there is none in the language of the page.
+    fn answer<T>(&self, of: impl FnOnce(&Self) -> Result<T, Refusal>) -> Result<T, JsValue> {
+        told(of(self), self.language)
+    }
+
+    fn rendered(&mut self, name: &str, [first, count, step]: [u32; 3]) -> Result<Band, Refusal> {
+        let quantity = channel(name, self.scene()?.scene())?;
+        let prepared = if step == 2 { self.half()? } else { self.scene()? };
+        let region = rows(prepared.scene().camera().resolution, first, count);
+        Band::of(render(prepared, vec![quantity.clone()], Some(region))?, &quantity)
+    }
+
     fn scene(&self) -> Result<&PreparedScene, Refusal> {
-        self.scene.as_ref().ok_or_else(|| Refusal("no scene was loaded".into()))
+        self.scene.as_ref().ok_or_else(|| Refusal(message!("no scene was loaded")))
     }
 
     fn half(&mut self) -> Result<&PreparedScene, Refusal> {
@@ -250,11 +285,12 @@ impl Core {
             let half = Resolution { width: width.div_ceil(2), height: height.div_ceil(2) };
             self.half = Some(scene.at_resolution(half));
         }
-        self.half.as_ref().ok_or_else(|| Refusal("no scene was loaded".into()))
+        self.half.as_ref().ok_or_else(|| Refusal(message!("no scene was loaded")))
     }
 }
 
 /// A question as JSON.
 fn asked<T: DeserializeOwned>(json: &str) -> Result<T, Refusal> {
-    serde_json::from_str(json).map_err(|error| Refusal(format!("this question is not one: {error}")))
+    serde_json::from_str(json)
+        .map_err(|error| Refusal(message!("this question is not one: {error}", error = error.to_string())))
 }

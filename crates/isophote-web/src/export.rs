@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use isophote::map::{Map, Quantity};
+use isophote::message;
 use isophote::prepare::PreparedScene;
-use isophote::text::significant;
+use isophote::text::{Language, significant};
 use isophote::units::Keyword;
 use isophote_export::csv::{self, Rows};
 use isophote_export::figure::{
@@ -22,22 +23,22 @@ use crate::section::Section;
 const FIGURE_SCALE: f64 = 2.0;
 
 /// The bytes of a file.
-pub fn export(prepared: &PreparedScene, request: &ExportRequest) -> Result<Vec<u8>, Refusal> {
+pub fn export(prepared: &PreparedScene, request: &ExportRequest, language: Language) -> Result<Vec<u8>, Refusal> {
     match request {
         ExportRequest::Png { channel, style } => picture(prepared, channel, style),
         ExportRequest::FigureSvg { channel, style, marks } => {
-            Ok(figure(prepared, channel, style, *marks)?.to_svg()?.into_bytes())
+            Ok(figure(prepared, channel, style, *marks, language)?.to_svg()?.into_bytes())
         }
         ExportRequest::FigurePng { channel, style, marks } => {
-            Ok(figure(prepared, channel, style, *marks)?.to_png(FIGURE_SCALE, None)?)
+            Ok(figure(prepared, channel, style, *marks, language)?.to_png(FIGURE_SCALE, None)?)
         }
         ExportRequest::MapCsv { channels } => table(prepared, channels),
         ExportRequest::SectionCsv { sections, channels } => section_table(prepared, sections, channels),
         ExportRequest::SectionSvg { sections, channels } => {
-            Ok(section_plot(prepared, sections, channels)?.to_svg()?.into_bytes())
+            Ok(section_plot(prepared, sections, channels, language)?.to_svg()?.into_bytes())
         }
         ExportRequest::SectionPng { sections, channels } => {
-            Ok(section_plot(prepared, sections, channels)?.to_png(FIGURE_SCALE, None)?)
+            Ok(section_plot(prepared, sections, channels, language)?.to_png(FIGURE_SCALE, None)?)
         }
         ExportRequest::ProbesCsv { probes } => probe_table(prepared, probes),
     }
@@ -60,13 +61,20 @@ fn picture(prepared: &PreparedScene, name: &str, style: &PictureStyle) -> Result
     Ok(bytes)
 }
 
-fn figure(prepared: &PreparedScene, name: &str, style: &PictureStyle, marks: bool) -> Result<Figure, Refusal> {
+fn figure(
+    prepared: &PreparedScene,
+    name: &str,
+    style: &PictureStyle,
+    marks: bool,
+    language: Language,
+) -> Result<Figure, Refusal> {
     let scene = prepared.scene();
     let quantity = channel(name, scene)?;
     let map = render(prepared, vec![quantity.clone()], None)?;
+    let name = quantity.label_in(scene.unit_system(), language);
     let label = match quantity {
-        Quantity::Brightness => format!("brightness, {}", map.provenance.convention),
-        _ => quantity.name(),
+        Quantity::Brightness => format!("{name}, {}", map.provenance.convention),
+        _ => name,
     };
     let options = FigureOptions {
         title: scene.title().to_owned(),
@@ -74,7 +82,7 @@ fn figure(prepared: &PreparedScene, name: &str, style: &PictureStyle, marks: boo
         range: style.range,
         isophotes: style.isophotes,
         marks: if marks { probe_marks(&map, prepared) } else { Vec::new() },
-        ..FigureOptions::new(quantity, &label)
+        ..FigureOptions::in_language(quantity, &label, language)
     };
     Ok(map_figure(&map, &options)?)
 }
@@ -105,13 +113,14 @@ fn sections(
     prepared: &PreparedScene,
     requests: &[SectionRequest],
     names: &[String],
+    language: Language,
 ) -> Result<(Vec<Section>, Vec<Quantity>), Refusal> {
     let channels = names.iter().map(|name| channel(name, prepared.scene())).collect::<Result<Vec<_>, _>>()?;
-    Ok((Section::all(requests, &channels, prepared)?, channels))
+    Ok((Section::all(requests, &channels, prepared, language)?, channels))
 }
 
 fn section_table(prepared: &PreparedScene, requests: &[SectionRequest], names: &[String]) -> Result<Vec<u8>, Refusal> {
-    let (sections, channels) = sections(prepared, requests, names)?;
+    let (sections, channels) = sections(prepared, requests, names, Language::English)?;
     let scene = prepared.scene();
     let mut text = format!("# {}\n# units: x, y in {}\n", footer(prepared), scene.screen_unit().name());
     for quantity in &channels {
@@ -139,41 +148,68 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('"', "\"\"").replace(char::is_control, " "))
 }
 
-fn section_plot(prepared: &PreparedScene, requests: &[SectionRequest], names: &[String]) -> Result<Figure, Refusal> {
-    let (sections, channels) = sections(prepared, requests, names)?;
+fn section_plot(
+    prepared: &PreparedScene,
+    requests: &[SectionRequest],
+    names: &[String],
+    language: Language,
+) -> Result<Figure, Refusal> {
+    let (sections, channels) = sections(prepared, requests, names, language)?;
     let scene = prepared.scene();
     let units: Vec<&str> = channels
         .iter()
         .map(|quantity| quantity.unit(scene.convention(), scene.unit_system(), scene.length()))
         .collect();
     if units.windows(2).any(|pair| pair[0] != pair[1]) {
-        return Err(Refusal(format!("one plot cannot show different units: {}", units.join(", "))));
+        return Err(Refusal(message!("one plot cannot show different units: {units}", units = units.join(", "))));
     }
     let series = |section: &Section| -> Vec<Series> {
-        let of_channel = |name: &String| {
-            let points = section.positions.iter().zip(&section.values[name]);
+        let of_channel = |quantity: &Quantity| {
+            let points = section.positions.iter().zip(&section.values[&quantity.name()]);
             let points = points.map(|(x, value)| SectionPoint { x: *x, value: *value }).collect();
-            let name = if names.len() == 1 { section.name.clone() } else { format!("{name}, {}", section.name) };
+            let name = match channels.len() {
+                1 => section.name.clone(),
+                _ => format!("{}, {}", quantity.label_in(scene.unit_system(), language), section.name),
+            };
             Series { name, points }
         };
-        names.iter().map(of_channel).collect()
+        channels.iter().map(of_channel).collect()
     };
     let all: Vec<Series> = sections.iter().flat_map(series).collect();
     let mut axes: Vec<&str> = sections.iter().map(|section| section.axis).collect();
     axes.dedup();
+    let axes: Vec<String> = axes
+        .into_iter()
+        .map(|axis| match axis {
+            "distance" => message!("distance").in_language(language),
+            axis => axis.to_owned(),
+        })
+        .collect();
     let options = SectionOptions {
         title: scene.title().to_owned(),
         x_label: axes.join(", "),
         x_unit: scene.screen_unit().name().into(),
-        y_label: if let [only] = names { only.clone() } else { String::new() },
+        y_label: if let [only] = channels.as_slice() {
+            only.label_in(scene.unit_system(), language)
+        } else {
+            String::new()
+        },
         y_unit: units.first().copied().unwrap_or_default().into(),
-        footer: footer(prepared),
+        footer: message!(
+            "{program}, convention {convention}",
+            program = PROGRAM,
+            convention = scene.convention().label()
+        )
+        .in_language(language),
     };
     Ok(section_figure(&all, &options)?)
 }
 
+const PROGRAM: &str = concat!("isophote ", env!("CARGO_PKG_VERSION"));
+
+/// What a table says of its origin, which is the same in every language.
 fn footer(prepared: &PreparedScene) -> String {
-    format!(concat!("isophote ", env!("CARGO_PKG_VERSION"), ", convention {}"), prepared.scene().convention().label())
+    format!("{PROGRAM}, convention {}", prepared.scene().convention().label())
 }
 
 /// Values at points; where there is none, its columns are empty.

@@ -6,6 +6,7 @@ use isophote::analysis::isophotes::{isophotes, nice_levels};
 use isophote::analysis::statistics::{Extreme, Statistics, counts, statistics};
 use isophote::lanes::Precision;
 use isophote::map::{Map, Pixel, Provenance, Quantity, Region, Resolution, Values, Window};
+use isophote::message;
 use isophote::prepare::PreparedScene;
 use isophote::render::{RenderSettings, Renderer, SimdRenderer};
 use serde::Serialize;
@@ -82,7 +83,12 @@ impl Band {
         let values = match map.take(quantity) {
             Some(Values::Scalar(values)) => values,
             Some(Values::Single(values)) => values.into_iter().map(f64::from).collect(),
-            _ => return Err(Refusal(format!("the channel `{}` is not one number per pixel", quantity.name()))),
+            _ => {
+                return Err(Refusal(message!(
+                    "the channel `{channel}` is not one number per pixel",
+                    channel = quantity.name()
+                )));
+            }
         };
         Ok(Self { head, values, shapes })
     }
@@ -146,7 +152,7 @@ impl Analysis {
         levels: &Levels,
     ) -> Result<Self, Refusal> {
         let quantity = Quantity::from_name(&head.channel)
-            .ok_or_else(|| Refusal(format!("there is no channel `{}`", head.channel)))?;
+            .ok_or_else(|| Refusal(message!("there is no channel `{channel}`", channel = head.channel)))?;
         let map = map_again(prepared, head, &quantity, values, shapes)?;
         let statistics = statistics(&map, &quantity);
         let levels = match (levels, &statistics) {

@@ -1,7 +1,14 @@
 //! Problems of scenes as data, and errors as texts.
 
+use isophote::analysis::isophotes::IsophoteError;
+use isophote::analysis::measuring_grid::GridError;
+use isophote::analysis::section::SectionError;
+use isophote::analysis::surface::SurfaceError;
+use isophote::render::RenderError;
 use isophote::scene::Problem;
+use isophote::text::{Language, Message};
 use serde::Serialize;
+use wasm_bindgen::JsValue;
 
 /// A problem as the page takes it.
 #[derive(Serialize)]
@@ -16,16 +23,16 @@ pub struct ProblemAnswer {
 
 impl ProblemAnswer {
     /// Problems in the order found.
-    pub fn all(problems: &[Problem]) -> Vec<Self> {
-        problems.iter().map(Self::new).collect()
+    pub fn all(problems: &[Problem], language: Language) -> Vec<Self> {
+        problems.iter().map(|problem| Self::new(problem, language)).collect()
     }
 
-    fn new(problem: &Problem) -> Self {
+    fn new(problem: &Problem, language: Language) -> Self {
         Self {
             kind: problem.kind.name(),
             path: problem.path.clone(),
-            message: problem.message.clone(),
-            help: problem.help.clone(),
+            message: problem.message.in_language(language),
+            help: problem.help.as_ref().map(|help| help.in_language(language)),
             line: problem.place.as_ref().map(|place| place.line),
             column: problem.place.as_ref().map(|place| place.column),
         }
@@ -34,18 +41,43 @@ impl ProblemAnswer {
 
 /// Why a question has no answer, in words.
 #[derive(Debug)]
-pub struct Refusal(pub String);
+pub struct Refusal(pub Message);
 
-impl<E: std::error::Error> From<E> for Refusal {
-    fn from(error: E) -> Self {
-        Self(error.to_string())
-    }
+/// Errors that are told in either language.
+macro_rules! told {
+    ($($error:ty),*) => {
+        $(impl From<$error> for Refusal {
+            fn from(error: $error) -> Self {
+                Self(error.message())
+            }
+        })*
+    };
 }
 
-impl From<Refusal> for wasm_bindgen::JsValue {
-    fn from(refusal: Refusal) -> Self {
-        Self::from_str(&refusal.0)
-    }
+told!(GridError, RenderError, SectionError, SurfaceError);
+
+/// Errors that are told in English only.
+macro_rules! told_in_english {
+    ($($error:ty),*) => {
+        $(impl From<$error> for Refusal {
+            fn from(error: $error) -> Self {
+                Self(Message::verbatim(error.to_string()))
+            }
+        })*
+    };
+}
+
+told_in_english!(
+    IsophoteError,
+    isophote::map::MapError,
+    isophote_export::ExportError,
+    isophote_export::figure::FigureError,
+    serde_json::Error
+);
+
+/// An answer, or why there is none in the language of the page.
+pub fn told<T>(answer: Result<T, Refusal>, language: Language) -> Result<T, JsValue> {
+    answer.map_err(|Refusal(message)| JsValue::from_str(&message.in_language(language)))
 }
 
 /// An answer as JSON. Numbers that are not finite become null.

@@ -2,7 +2,9 @@
 
 use isophote::analysis::probe::ProbePosition;
 use isophote::map::{Pixel, Quantity};
+use isophote::message;
 use isophote::scene::Scene;
+use isophote::text::Message;
 use isophote::units::{Keyword, LengthUnit};
 use isophote::vector::Vector;
 use isophote_export::colormap::Colormap;
@@ -42,7 +44,7 @@ impl ProbeRequest {
                 let shape = shape_named(name, scene)?;
                 Ok(ProbePosition::Angles { shape, theta: theta.to_radians(), phi: phi.to_radians() })
             }
-            _ => Err(Refusal("a probe needs a point, a pixel, a screen point, or angles on a shape".into())),
+            _ => Err(Refusal(message!("a probe needs a point, a pixel, a screen point, or angles on a shape"))),
         }
     }
 }
@@ -80,11 +82,13 @@ pub struct PictureStyle {
 
 impl PictureStyle {
     pub fn colormap(&self) -> Result<Colormap, Refusal> {
-        keyword("colour map", &self.colormap)
+        colormap(&self.colormap)
     }
 
     pub fn normalization(&self) -> Result<Normalization, Refusal> {
-        keyword("normalization", &self.normalization)
+        keyword(&self.normalization, |name, allowed| {
+            message!("there is no normalization `{name}`; allowed: {allowed}", name, allowed)
+        })
     }
 }
 
@@ -129,11 +133,17 @@ pub enum Levels {
     These(Vec<f64>),
 }
 
-pub fn keyword<K: Keyword>(what: &str, name: &str) -> Result<K, Refusal> {
+/// The word of a list; `no_such` says that the name is not in it, and what is allowed.
+pub fn keyword<K: Keyword>(name: &str, no_such: impl FnOnce(&str, String) -> Message) -> Result<K, Refusal> {
     K::from_name(name).ok_or_else(|| {
         let names: Vec<&str> = K::ALL.iter().map(|keyword| keyword.name()).collect();
-        Refusal(format!("there is no {what} `{name}`; allowed: {}", names.join(", ")))
+        Refusal(no_such(name, names.join(", ")))
     })
+}
+
+/// The colour map with this name.
+pub fn colormap(name: &str) -> Result<Colormap, Refusal> {
+    keyword(name, |name, allowed| message!("there is no colour map `{name}`; allowed: {allowed}", name, allowed))
 }
 
 /// The channel of a scene with this name, if a picture can show it.
@@ -142,13 +152,13 @@ pub fn channel(name: &str, scene: &Scene) -> Result<Quantity, Refusal> {
         Quantity::Light(light) | Quantity::LightBrightness(light) => scene.light_named(light).is_some(),
         quantity => quantity.is_scalar(),
     };
-    let no_such = || Refusal(format!("this scene has no channel `{name}` of single numbers"));
+    let no_such = || Refusal(message!("this scene has no channel `{name}` of single numbers", name));
     Quantity::from_name(name).filter(is_known).ok_or_else(no_such)
 }
 
 /// The index of the shape with this name.
 pub fn shape_named(name: &str, scene: &Scene) -> Result<usize, Refusal> {
-    let no_such = || Refusal(format!("there is no shape “{name}”"));
+    let no_such = || Refusal(message!("there is no shape \"{on}\"", on = name));
     scene.shapes().iter().position(|shape| shape.name == name).ok_or_else(no_such)
 }
 

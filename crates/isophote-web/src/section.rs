@@ -2,9 +2,10 @@
 
 use isophote::analysis::section::{Sample, SectionLine};
 use isophote::map::Quantity;
+use isophote::message;
 use isophote::prepare::PreparedScene;
 use isophote::scene::Scene;
-use isophote::text::significant;
+use isophote::text::{Language, significant};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -39,10 +40,11 @@ impl Section {
         requests: &[SectionRequest],
         channels: &[Quantity],
         prepared: &PreparedScene,
+        language: Language,
     ) -> Result<Vec<Self>, Refusal> {
         let mut sections = Vec::new();
         for request in requests {
-            for line in lines(request, prepared)? {
+            for line in lines(request, prepared, language)? {
                 sections.push(Self::along(line, channels, prepared)?);
             }
         }
@@ -87,12 +89,16 @@ fn value(sample: &Sample, quantity: &Quantity, scene: &Scene) -> Result<Option<f
         Quantity::Depth => scene.length().from_metres(hit.distance),
         other => {
             let allowed = "brightness, irradiance, ambient, diffuse, specular, depth";
-            return Err(Refusal(format!("a section cannot show `{}`; allowed: {allowed}", other.name())));
+            return Err(Refusal(message!(
+                "a section cannot show `{channel}`; allowed: {allowed}",
+                channel = other.name(),
+                allowed
+            )));
         }
     }))
 }
 
-fn lines(request: &SectionRequest, prepared: &PreparedScene) -> Result<Vec<Line>, Refusal> {
+fn lines(request: &SectionRequest, prepared: &PreparedScene, language: Language) -> Result<Vec<Line>, Refusal> {
     let scene = prepared.scene();
     let unit = scene.screen_unit();
     let camera = scene.camera();
@@ -111,10 +117,18 @@ fn lines(request: &SectionRequest, prepared: &PreparedScene) -> Result<Vec<Line>
     let internal = |coordinate: f64| unit.to_internal(coordinate);
     Ok(match request {
         SectionRequest::Row { row } => {
-            vec![Line { along: SectionLine::Row(*row), axis: "x", name: format!("row {row}") }]
+            vec![Line {
+                along: SectionLine::Row(*row),
+                axis: "x",
+                name: message!("row {row}", row).in_language(language),
+            }]
         }
         SectionRequest::Column { column } => {
-            vec![Line { along: SectionLine::Column(*column), axis: "y", name: format!("column {column}") }]
+            vec![Line {
+                along: SectionLine::Column(*column),
+                axis: "y",
+                name: message!("column {column}", column).in_language(language),
+            }]
         }
         SectionRequest::Horizontal { y } => vec![horizontal(internal(*y))],
         SectionRequest::Vertical { x } => vec![vertical(internal(*x))],
@@ -127,7 +141,7 @@ fn lines(request: &SectionRequest, prepared: &PreparedScene) -> Result<Vec<Line>
             let center = scene.shapes()[shape_named(shape, scene)?].geometry.center();
             match prepared.frame().project(center) {
                 Some([x, y]) if contains(extent.x, x) && contains(extent.y, y) => vec![horizontal(y), vertical(x)],
-                _ => return Err(Refusal(format!("the centre of “{shape}” appears outside the image"))),
+                _ => return Err(Refusal(message!("the centre of \"{shape}\" appears outside the image", shape))),
             }
         }
     })

@@ -208,3 +208,31 @@ fn files_are_the_formats_that_they_say() {
     let table = String::from_utf8(of(json!({"kind": "map-csv", "channels": ["brightness"]}))).unwrap();
     assert_eq!(table.lines().filter(|line| !line.starts_with('#')).count(), 1 + 800 * 600);
 }
+
+#[test]
+fn what_the_core_says_is_in_the_language_of_the_page() {
+    let (mut core, ..) = loaded(Starter::Lab);
+    core.set_language("ru").unwrap();
+    let explained = parsed(&core.explain(&json!({"name": "P1", "at": [0.0, 0.0, 4.0]}).to_string()).unwrap());
+    assert_eq!(explained["blocks"][0]["title"], "Геометрия (2.2), длины в m");
+    let requests = json!([{"name": "", "at": [0.0, 0.0, 3.0]}, {"name": "", "at": [0.0, 0.0, 6.0]}]);
+    let probed = parsed(&core.probe(&requests.to_string()).unwrap());
+    let off = "точка не лежит ни на одной поверхности: она на 1 m снаружи от поверхности «ball»; ближайшая точка поверхности — [0, 0, 4]";
+    assert_eq!(probed[0]["error"], off);
+    assert_eq!(probed[1]["reading"]["unseenBecause"], "поверхность там обращена от наблюдателя (θ_o ≥ 90°)");
+    let style = json!({"colormap": "gray", "range": null, "normalization": "max", "isophotes": 3});
+    let figure = json!({"kind": "figure-svg", "channel": "brightness", "style": style, "marks": true});
+    let figure = String::from_utf8(core.export(&figure.to_string()).unwrap()).unwrap();
+    assert!(figure.contains("яркость, lab (3.3), W/m²"), "{figure}");
+    let lines = json!([{"kind": "row", "row": 300}]);
+    let section = parsed(&core.section(&lines.to_string(), r#"["brightness"]"#).unwrap());
+    assert_eq!(section[0]["name"], "строка 300");
+    let scene = Scene::from_text("", Starter::Lab.text(), Syntax::Toml).unwrap();
+    let mut wrong = serde_json::to_value(scene.source()).unwrap();
+    wrong["sphere"][0]["radius"] = json!(-1.0);
+    let checked = parsed(&core.load(&wrong.to_string()).unwrap());
+    assert_eq!(checked["problems"][0]["message"], "`sphere[0].radius` равно -1");
+    core.set_language("en").unwrap();
+    let checked = parsed(&core.load(&wrong.to_string()).unwrap());
+    assert_eq!(checked["problems"][0]["message"], "`sphere[0].radius` is -1");
+}

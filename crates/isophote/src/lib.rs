@@ -68,6 +68,7 @@
 //!
 //! ```
 //! use isophote::analysis::probe::ProbePosition;
+//! use isophote::text::Language;
 //! use isophote::vector::Vector;
 //! # use isophote::prepare::PreparedScene;
 //! # use isophote::scene::{Scene, Syntax, library::Starter};
@@ -75,7 +76,7 @@
 //! # let prepared = PreparedScene::new(&Scene::from_text("lab", Starter::Lab.text(), Syntax::Toml)?);
 //! let reading = prepared.probe(&ProbePosition::Point(Vector::new(0.0, 0.0, 4.0)))?;
 //! assert!((reading.shading.brightness() - 0.316677297547093).abs() < 1e-14);
-//! assert!(reading.explain(&prepared, "P1").contains("E   = v I cosθ_i / r²"));
+//! assert!(reading.explain(&prepared, "P1", Language::English).contains("E   = v I cosθ_i / r²"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -161,7 +161,7 @@ fn the_sun_does_not_shine_into_a_closed_sphere() {
     let scene = Scene::try_from(source).unwrap_or_else(|error| panic!("{error}"));
     let warning = &scene.warnings()[0];
     assert_eq!(warning.path, "light[0].direction");
-    assert!(warning.message.contains("lights nothing there"), "{}", warning.message);
+    assert!(warning.message.to_string().contains("lights nothing there"), "{}", warning.message);
     let scene = PreparedScene::new(&scene);
     let reading = scene.probe(&ProbePosition::NearestTo(Vector::new(-0.6, -0.8, 0.0))).expect("there is a sphere");
     assert!(reading.terms[0].cos_theta_i > 0.9, "it would shine on it");
@@ -218,6 +218,6 @@ fn a_light_that_is_off_gives_no_light() {
     let reading = off.probe(&ProbePosition::Pixel(isophote::map::Pixel { column: 20, row: 20 }));
     if let Ok(reading) = reading {
         assert_eq!(reading.terms[1].irradiance, 0.0);
-        assert!(reading.explain(&off, "here").contains("switched off"));
+        assert!(reading.explain(&off, "here", isophote::text::Language::English).contains("switched off"));
     }
 }

@@ -215,7 +215,7 @@ fn a_scene_of_every_shape_is_valid_and_lists_them_by_kind() {
     );
     let kinds: Vec<&str> = scene.shapes().iter().map(|shape| shape.geometry.kind()).collect();
     assert_eq!(kinds, ["ellipsoid", "box", "cylinder", "cone", "plane", "rectangle", "disk"]);
-    let messages: Vec<&str> = scene.warnings().iter().map(|warning| warning.message.as_str()).collect();
+    let messages: Vec<String> = scene.warnings().iter().map(|warning| warning.message.to_string()).collect();
     assert_eq!(messages, ["the shapes cast no shadows on each other: each is lit as if it were alone"]);
     let again = Scene::from_text("again", &scene.source().to_toml(), Syntax::Toml).expect("it was valid");
     assert_eq!(again.source(), scene.source());
@@ -227,7 +227,7 @@ fn too_many_shapes_of_all_kinds_together_are_refused() {
     text.extend(std::iter::repeat_n("[[disk]]\ncenter = [0, 0, 1]\nnormal = [0, 0, 1]\nradius = 1\n", 99_994));
     let error = refused("world.toml", &text, Syntax::Toml);
     assert_eq!(error.problems.len(), 1);
-    assert_eq!(error.problems[0].message, "the scene has 100001 shapes");
+    assert_eq!(error.problems[0].message.to_string(), "the scene has 100001 shapes");
 }
 
 /// Shapes that come from files, here from `tests/files`.
@@ -280,7 +280,7 @@ mistakes! {
 #[test]
 fn triangles_without_area_are_counted_in_a_warning() {
     let scene = with_files(IMPORTS).unwrap_or_else(|error| panic!("{error}"));
-    let warnings: Vec<String> = scene.warnings().iter().map(|warning| warning.message.clone()).collect();
+    let warnings: Vec<String> = scene.warnings().iter().map(|warning| warning.message.to_string()).collect();
     assert_eq!(warnings, ["1 triangles of `mesh[0]` have no area and were left out"]);
 }
 
@@ -452,7 +452,7 @@ fn a_material_that_reflects_more_than_it_receives_is_warned_of_by_its_albedo() {
         let scene = changed(&scene, "specular = 0.3", &format!("specular = {specular}"));
         let scene = changed(&scene, "shininess = 20", &format!("shininess = {shininess}"));
         let scene = Scene::from_text("lab.toml", &scene, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
-        scene.warnings().iter().map(|warning| warning.message.clone()).collect::<Vec<_>>()
+        scene.warnings().iter().map(|warning| warning.message.to_string()).collect::<Vec<_>>()
     };
     assert_eq!(warnings("course-pi", [0.7, 0.9, 40.0]), Vec::<String>::new());
     assert_eq!(warnings("blinn-phong-pi", [0.7, 0.9, 40.0]), Vec::<String>::new());

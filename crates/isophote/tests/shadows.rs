@@ -65,7 +65,7 @@ fn a_blocker_is_named() {
     let blocker = reading.blockers[0].expect("the ball is before the lamp");
     assert_eq!(scene.scene().name_of(blocker), "ball");
     assert_eq!(scene.probe(&ProbePosition::Point(Vector::new(3.0, 0.0, 0.0))).expect("likewise").blockers, [None]);
-    assert!(reading.explain(&scene, "P").contains("\"ball\" stands between"));
+    assert!(reading.explain(&scene, "P", isophote::text::Language::English).contains("\"ball\" stands between"));
 }
 
 #[test]

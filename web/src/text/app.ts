@@ -212,7 +212,7 @@ export const ru: typeof en = {
     resolution: 'Разрешение',
     screen: 'Экран',
     convention: 'Соглашение',
-    shape: 'Тело',
+    shape: 'Фигура',
     light: 'Источник',
     material: 'Материал',
     length: 'Единица длины',

@@ -437,7 +437,7 @@ export const ru: typeof en = {
     'course-plane': { title: 'Курс: плоскость под лампой', description: 'Облучённость, круг на плоскости' },
     'two-lights': { title: 'Две сферы, два источника', description: 'Яркость с бликами' },
     sun: { title: 'Сфера на солнце', description: 'Параллельный свет' },
-    room: { title: 'Комната с тенями', description: 'Тела, лампа и фоновый свет, в люксах' },
+    room: { title: 'Комната с тенями', description: 'Фигуры, лампа и фоновый свет, в люксах' },
     photometric: { title: 'Шар под потолочной лампой', description: 'Люмены, люксы и кд/м²' },
     course: { title: 'Сфера под двумя ламбертовыми лампами', description: 'Миллиметры, формула (3.4)' },
   },

@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+use crate::args::language::LanguageArgument;
 use crate::args::scene::SceneArgument;
 
 #[derive(Args)]
@@ -20,6 +21,9 @@ pub struct AppArguments {
     /// Print the end of a link that holds the scene, for the address of the app on any server, and serve nothing
     #[arg(long, requires = "scene", conflicts_with_all = ["port", "no_browser"])]
     pub link: bool,
+
+    #[command(flatten)]
+    pub language: LanguageArgument,
 
     /// No warnings: only results and errors
     #[arg(short, long)]

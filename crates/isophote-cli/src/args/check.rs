@@ -2,12 +2,16 @@
 
 use clap::Args;
 
+use crate::args::language::LanguageArgument;
 use crate::args::scene::SceneArgument;
 
 #[derive(Args)]
 pub struct CheckArguments {
     #[command(flatten)]
     pub scene: SceneArgument,
+
+    #[command(flatten)]
+    pub language: LanguageArgument,
 
     /// Print the scene, with every default filled in, as JSON
     #[arg(long)]

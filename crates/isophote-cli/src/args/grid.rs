@@ -6,6 +6,7 @@ use clap::Args;
 use isophote::map::Resolution;
 use isophote::shape::Side;
 
+use crate::args::language::LanguageArgument;
 use crate::args::parse;
 use crate::args::scene::SceneArgument;
 use crate::args::style::CellStyleArguments;
@@ -38,6 +39,9 @@ pub struct GridArguments {
 
     #[command(flatten)]
     pub style: CellStyleArguments,
+
+    #[command(flatten)]
+    pub language: LanguageArgument,
 
     /// Print the results, with all values, as JSON
     #[arg(long)]

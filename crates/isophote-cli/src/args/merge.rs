@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::args::language::LanguageArgument;
+
 #[derive(Args)]
 pub struct MergeArguments {
     /// A .zarr store whose parts were computed by `isophote render --shard`
@@ -12,6 +14,9 @@ pub struct MergeArguments {
     /// Read every shard and compare it with its checksums
     #[arg(long)]
     pub check: bool,
+
+    #[command(flatten)]
+    pub language: LanguageArgument,
 
     /// Print the results as JSON
     #[arg(long)]

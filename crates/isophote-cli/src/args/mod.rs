@@ -3,6 +3,7 @@
 mod app;
 mod check;
 mod grid;
+mod language;
 mod merge;
 mod new;
 mod parse;
@@ -17,6 +18,7 @@ mod style;
 mod surface;
 
 use clap::{Parser, Subcommand};
+use isophote::text::Language;
 
 pub use app::AppArguments;
 pub use check::CheckArguments;
@@ -41,6 +43,25 @@ pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Option<Command>,
+}
+
+impl Arguments {
+    /// The language of what the command says.
+    pub fn language(&self) -> Language {
+        match &self.command {
+            Some(Command::Render(arguments)) => arguments.language.lang,
+            Some(Command::Probe(arguments)) => arguments.language.lang,
+            Some(Command::Section(arguments)) => arguments.language.lang,
+            Some(Command::Surface(arguments)) => arguments.language.lang,
+            Some(Command::Grid(arguments)) => arguments.language.lang,
+            Some(Command::Merge(arguments)) => arguments.language.lang,
+            Some(Command::App(arguments)) => arguments.language.lang,
+            Some(Command::Check(arguments)) => arguments.language.lang,
+            Some(Command::New(arguments)) => arguments.lang,
+            Some(Command::Show(arguments)) => arguments.language.lang,
+            Some(Command::Schema | Command::Completions { .. } | Command::Man { .. }) | None => Language::English,
+        }
+    }
 }
 
 #[derive(Subcommand)]

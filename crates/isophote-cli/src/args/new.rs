@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use isophote::scene::library::{Language, Starter};
+use isophote::scene::library::Starter;
+use isophote::text::Language;
 
 use crate::args::parse;
 

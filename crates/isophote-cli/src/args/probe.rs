@@ -3,6 +3,7 @@
 use clap::Args;
 use isophote::map::Pixel;
 
+use crate::args::language::LanguageArgument;
 use crate::args::parse;
 use crate::args::scene::SceneArgument;
 use crate::numbers;
@@ -37,6 +38,9 @@ pub struct ProbeArguments {
     /// Show every step of the calculation, with its numbers and formula numbers
     #[arg(long)]
     pub explain: bool,
+
+    #[command(flatten)]
+    pub language: LanguageArgument,
 
     /// Print the results as JSON
     #[arg(long, conflicts_with = "explain")]

@@ -9,6 +9,7 @@ use isophote::map::{Region, Resolution};
 use isophote_export::colormap::Colormap;
 use isophote_export::png::Normalization;
 
+use crate::args::language::LanguageArgument;
 use crate::args::parse;
 use crate::args::sampling::SamplingArguments;
 use crate::args::scene::SceneArgument;
@@ -93,6 +94,9 @@ pub struct RenderArguments {
 
     #[command(flatten)]
     pub store: StoreArguments,
+
+    #[command(flatten)]
+    pub language: LanguageArgument,
 
     /// Print the results as JSON
     #[arg(long)]

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::args::language::LanguageArgument;
 use crate::args::parse;
 use crate::args::scene::SceneArgument;
 
@@ -27,6 +28,9 @@ pub struct SectionArguments {
     /// Write to FILE instead: .csv, .png or .svg; may be given several times
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub language: LanguageArgument,
 
     /// Print the values as JSON
     #[arg(long)]

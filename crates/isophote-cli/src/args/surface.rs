@@ -7,6 +7,7 @@ use isophote::analysis::surface::SurfaceProjection;
 use isophote::map::Resolution;
 use isophote::shape::Side;
 
+use crate::args::language::LanguageArgument;
 use crate::args::parse;
 use crate::args::scene::SceneArgument;
 use crate::args::style::CellStyleArguments;
@@ -60,6 +61,9 @@ pub struct SurfaceArguments {
 
     #[command(flatten)]
     pub style: CellStyleArguments,
+
+    #[command(flatten)]
+    pub language: LanguageArgument,
 
     /// Print the results as JSON
     #[arg(long)]

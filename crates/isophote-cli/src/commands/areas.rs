@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 
 use isophote::analysis::area::{AreaExtreme, AreaReading};
 use isophote::analysis::probe::SeenFromEye;
+use isophote::message;
 use isophote::prepare::PreparedScene;
 use isophote::scene::{Area, AreaPlace, Scene};
-use isophote::text::significant;
+use isophote::text::{Language, Message, significant};
 use isophote::units::Keyword;
 use serde::Serialize;
 
@@ -28,20 +29,27 @@ impl Areas {
         scene.areas().iter().zip(self.0.iter().map(Option::as_ref))
     }
 
-    pub fn to_text(&self, scene: &Scene) -> String {
+    pub fn to_text(&self, scene: &Scene, language: Language) -> String {
         let (convention, length) = (scene.convention(), scene.length().name());
         let unit = convention.unit(scene.unit_system());
-        let headings =
-            ["maximum", "mean", "minimum"].map(|what| format!("{what} of B ({}), {unit}", convention.formula_number()));
-        let place = format!("at, {length}");
+        let number = convention.formula_number();
+        let headings = [
+            message!("maximum of B ({number}), {unit}", number, unit),
+            message!("mean of B ({number}), {unit}", number, unit),
+            message!("minimum of B ({number}), {unit}", number, unit),
+        ];
+        let headings = headings.map(|heading| heading.in_language(language));
+        let place = message!("at, {length}", length).in_language(language);
+        let area = message!("area").in_language(language);
         let columns = [
-            ("area", Align::Left),
+            (area.as_str(), Align::Left),
             (headings[0].as_str(), Align::Right),
             (place.as_str(), Align::Left),
             (headings[1].as_str(), Align::Right),
             (headings[2].as_str(), Align::Right),
             (place.as_str(), Align::Left),
         ];
+        let nothing = message!("no surface is seen").in_language(language);
         let row = |(area, reading): (&Area, Option<&AreaReading>)| match reading {
             Some(AreaReading { max, min, mean, .. }) => vec![
                 area.name.clone(),
@@ -52,14 +60,14 @@ impl Areas {
                 point_text(min, scene),
             ],
             None => {
-                vec![area.name.clone(), "–".into(), "no surface is seen".into(), "–".into(), "–".into(), "–".into()]
+                vec![area.name.clone(), "–".into(), nothing.clone(), "–".into(), "–".into(), "–".into()]
             }
         };
         let mut text = table(&columns, &self.with_areas(scene).map(row).collect::<Vec<_>>());
         for (area, reading) in self.with_areas(scene) {
             for note in reading.into_iter().flat_map(|reading| notes(area, reading)) {
                 // Writing to a string cannot fail.
-                let _ = writeln!(text, "  {}: {note}", area.name);
+                let _ = writeln!(text, "  {}: {}", area.name, note.in_language(language));
             }
         }
         text
@@ -94,22 +102,23 @@ fn point_text(extreme: &AreaExtreme, scene: &Scene) -> String {
 }
 
 /// What a reader of the values should know.
-fn notes(area: &Area, reading: &AreaReading) -> Vec<String> {
+fn notes(area: &Area, reading: &AreaReading) -> Vec<Message> {
     let mut notes = Vec::new();
     let share = significant(100.0 * reading.visible, 4);
     if reading.visible < 1.0 {
         notes.push(match area.place {
-            AreaPlace::Surface { .. } => format!("the eye sees {share} % of it"),
-            AreaPlace::Screen(_) => format!("{share} % of it shows a surface, and counts"),
+            AreaPlace::Surface { .. } => message!("the eye sees {share} % of it", share),
+            AreaPlace::Screen(_) => message!("{share} % of it shows a surface, and counts", share),
         });
     }
-    for (what, extreme) in [("maximum", reading.max), ("minimum", reading.min)] {
-        if extreme.seen != SeenFromEye::Seen {
-            notes.push(format!("the eye does not see the point of the {what}"));
-        }
+    if reading.max.seen != SeenFromEye::Seen {
+        notes.push(message!("the eye does not see the point of the maximum"));
+    }
+    if reading.min.seen != SeenFromEye::Seen {
+        notes.push(message!("the eye does not see the point of the minimum"));
     }
     if reading.mean_error > 1e-6 * reading.mean.abs() {
-        notes.push(format!("the mean is uncertain by about {}", significant(reading.mean_error, 2)));
+        notes.push(message!("the mean is uncertain by about {error}", error = significant(reading.mean_error, 2)));
     }
     notes
 }

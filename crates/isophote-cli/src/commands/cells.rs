@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use isophote::map::{CoordinateAxis, Map, Quantity};
+use isophote::message;
 use isophote::scene::Scene;
-use isophote::text::significant;
+use isophote::text::{Language, significant};
 use isophote_export::FileMetadata;
 use isophote_export::csv::Rows;
 use isophote_export::figure::{Figure, FigureOptions, map_figure};
@@ -42,15 +43,17 @@ impl<'a> CellFiles<'a> {
         let is_picture = !self.figures.is_empty() || self.files.iter().any(MapFile::is_picture);
         refuse_colormap(main, self.style.colormap)?;
         if is_picture && !main.can_be_picture() {
-            let message = "cannot be a picture: it is not one quantity a cell; put another --channel first";
-            return Err(Usage(format!("the channel `{}` {message}", main.name())));
+            return Err(Usage(message!(
+                "the channel `{channel}` cannot be a picture: it is not one quantity a cell; put another --channel first",
+                channel = main.name()
+            )));
         }
         Ok(())
     }
 
     /// Writes everything; the channel in the options is the one pictured.
     pub fn write(&self, map: &Map, options: FigureOptions, scene: &Scene, quiet: bool) -> Result<()> {
-        let main = options.quantity.clone();
+        let (main, language) = (options.quantity.clone(), options.language);
         let figure = (!self.figures.is_empty()).then(|| self.draw(map, options, scene)).transpose()?;
         let style = MapStyle {
             quantity: main.clone(),
@@ -75,7 +78,7 @@ impl<'a> CellFiles<'a> {
         }
         if !quiet {
             for note in &notes {
-                failure::note(note);
+                failure::note(&note.in_language(language));
             }
         }
         Ok(())
@@ -86,7 +89,7 @@ impl<'a> CellFiles<'a> {
         const MOST: f64 = 6.0;
         let title = if options.title.is_empty() { scene.title().to_owned() } else { options.title };
         let label = match options.quantity {
-            Quantity::Brightness => format!("{}, {}", options.label, formula_label(map)),
+            Quantity::Brightness => format!("{}, {}", options.label, formula_label(map).in_language(options.language)),
             _ => options.label,
         };
         let [width, height] =
@@ -105,14 +108,14 @@ impl<'a> CellFiles<'a> {
 }
 
 /// `longitude 12.5°, latitude −3°`.
-pub fn place_text(axes: [CoordinateAxis; 2], place: [f64; 2]) -> String {
+pub fn place_text(axes: [CoordinateAxis; 2], place: [f64; 2], language: Language) -> String {
     let one = |(axis, value): (CoordinateAxis, f64)| {
         let unit = match axis.unit {
             "1" => String::new(),
             "°" => "°".into(),
             unit => format!(" {unit}"),
         };
-        format!("{} {}{unit}", axis.title, significant(value, 6))
+        format!("{} {}{unit}", axis.label(language), significant(value, 6))
     };
     axes.into_iter().zip(place).map(one).collect::<Vec<_>>().join(", ")
 }

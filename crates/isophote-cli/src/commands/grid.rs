@@ -5,15 +5,17 @@ use std::fmt::Write;
 use anyhow::Result;
 use isophote::analysis::statistics::{Extreme, Statistics, statistics};
 use isophote::map::{Map, Quantity};
+use isophote::message;
 use isophote::prepare::PreparedScene;
 use isophote::scene::source::GridSource;
 use isophote::scene::{Grid, Scene};
-use isophote::text::{escaped_line, significant};
+use isophote::text::{Language, escaped_line, significant};
 use isophote::units::Keyword;
 use isophote_export::figure::FigureOptions;
 use serde::Serialize;
 
 use super::cells::{CellFiles, place_text};
+use super::there_are;
 use crate::args::{GridArguments, PlacedGridArguments};
 use crate::channels::{named, unit};
 use crate::failure::Usage;
@@ -22,9 +24,10 @@ use crate::{load, numbers};
 
 /// Computes grids, writes one if requested, and prints their statistics.
 pub fn run(arguments: &GridArguments) -> Result<String> {
-    let mut scene = load::scene(&arguments.scene, arguments.quiet)?;
+    let language = arguments.language.lang;
+    let mut scene = load::scene(&arguments.scene, arguments.quiet, language)?;
     if let Some(grid) = placed(&arguments.placed)? {
-        scene = scene.with_grid(grid).map_err(|error| load::wrong("the grid", &error))?;
+        scene = scene.with_grid(grid).map_err(|error| load::wrong(message!("the grid"), &error))?;
     }
     let scene = PreparedScene::new(&scene);
     let files = CellFiles::new(&arguments.output, &arguments.figure, &arguments.style)?;
@@ -37,19 +40,20 @@ pub fn run(arguments: &GridArguments) -> Result<String> {
     let grids = chosen(arguments, scene.scene())?;
     if !files.is_empty() && grids.len() > 1 {
         let names: Vec<&str> = grids.iter().map(|grid| grid.name.as_str()).collect();
-        let message = format!("a file holds one grid: choose one with --name; there are: {}", names.join(", "));
+        let message =
+            message!("a file holds one grid: choose one with --name; {there_are}", there_are = there_are(&names));
         return Err(Usage(message).into());
     }
     let computed = |grid| {
-        let map = scene.grid(grid, &wanted).map_err(|error| Usage(error.to_string()))?;
+        let map = scene.grid(grid, &wanted).map_err(|error| Usage(error.message()))?;
         Ok(Computed { grid, statistics: statistics(&map, &main), map })
     };
     let computed: Vec<Computed> = grids.into_iter().map(computed).collect::<Result<_>>()?;
     if let [only] = computed.as_slice() {
-        files.write(&only.map, only.figure_options(&main, scene.scene()), scene.scene(), arguments.quiet)?;
+        files.write(&only.map, only.figure_options(&main, scene.scene(), language), scene.scene(), arguments.quiet)?;
     }
     let summary = Summary { scene: scene.scene(), main, computed };
-    if arguments.json { numbers::json(&summary.to_json()) } else { Ok(summary.to_text()) }
+    if arguments.json { numbers::json(&summary.to_json()) } else { Ok(summary.to_text(language)) }
 }
 
 /// The grid given on the command line, in the form of a scene file.
@@ -58,7 +62,9 @@ fn placed(arguments: &PlacedGridArguments) -> Result<Option<GridSource>, Usage> 
     let is_given = corner.is_some() || center.is_some() || u.is_some() || v.is_some() || points.is_some();
     if !is_given {
         return match side {
-            Some(_) => Err(Usage("--side goes with a grid of the command line: --center, --u, --v, --points".into())),
+            Some(_) => {
+                Err(Usage(message!("--side goes with a grid of the command line: --center, --u, --v, --points")))
+            }
             None => Ok(None),
         };
     }
@@ -69,14 +75,15 @@ fn placed(arguments: &PlacedGridArguments) -> Result<Option<GridSource>, Usage> 
 fn chosen<'s>(arguments: &GridArguments, scene: &'s Scene) -> Result<Vec<&'s Grid>> {
     let grids = scene.grids();
     if grids.is_empty() {
-        let message =
-            "the scene has no grid: write a table [[grid]], or say where with --center, --u, --v and --points";
-        return Err(Usage(message.into()).into());
+        let message = message!(
+            "the scene has no grid: write a table [[grid]], or say where with --center, --u, --v and --points"
+        );
+        return Err(Usage(message).into());
     }
     let Some(name) = &arguments.name else { return Ok(grids.iter().collect()) };
     let names: Vec<&str> = grids.iter().take(20).map(|grid| grid.name.as_str()).collect();
     let found = grids.iter().find(|grid| grid.name == *name);
-    let unknown = || Usage(format!("there is no grid \"{name}\"; there are: {}", names.join(", ")));
+    let unknown = || Usage(message!("there is no grid \"{name}\"; {there_are}", name, there_are = there_are(&names)));
     Ok(vec![found.ok_or_else(unknown)?])
 }
 
@@ -88,14 +95,16 @@ struct Computed<'s> {
 }
 
 impl Computed<'_> {
-    fn figure_options(&self, main: &Quantity, scene: &Scene) -> FigureOptions {
+    fn figure_options(&self, main: &Quantity, scene: &Scene, language: Language) -> FigureOptions {
         let label = match (main, scene.unit_system()) {
-            (Quantity::Irradiance, isophote::units::UnitSystem::Photometric) => "illuminance".into(),
-            _ => main.name(),
+            (Quantity::Irradiance, isophote::units::UnitSystem::Photometric) => {
+                message!("illuminance").in_language(language)
+            }
+            (_, units) => main.label_in(units, language),
         };
         let title = [scene.title(), &self.grid.name].join(": ");
         let title = if scene.title().is_empty() { self.grid.name.clone() } else { title };
-        FigureOptions { title, ..FigureOptions::new(main.clone(), &label) }
+        FigureOptions { title, ..FigureOptions::in_language(main.clone(), &label, language) }
     }
 
     fn place(&self, extreme: &Extreme, scene: &Scene) -> [f64; 2] {
@@ -110,18 +119,22 @@ struct Summary<'s> {
 }
 
 impl Summary<'_> {
-    fn to_text(&self) -> String {
+    fn to_text(&self, language: Language) -> String {
         let unit = unit(&self.main, self.scene);
-        let headings = ["minimum", "mean", "maximum"].map(|name| format!("{name}, {unit}"));
+        let headings = [message!("minimum"), message!("mean"), message!("maximum")]
+            .map(|name| format!("{}, {unit}", name.in_language(language)));
+        let [grid, points, to_mean, to_max] =
+            [message!("grid"), message!("points"), message!("min/mean"), message!("min/max")]
+                .map(|heading| heading.in_language(language));
         let [min, mean, max] = headings.each_ref().map(|heading| (heading.as_str(), Align::Right));
         let columns = [
-            ("grid", Align::Left),
-            ("points", Align::Right),
+            (grid.as_str(), Align::Left),
+            (points.as_str(), Align::Right),
             min,
             mean,
             max,
-            ("min/mean", Align::Right),
-            ("min/max", Align::Right),
+            (to_mean.as_str(), Align::Right),
+            (to_max.as_str(), Align::Right),
         ];
         let row = |computed: &Computed| {
             let Grid { name, points, .. } = computed.grid;
@@ -143,10 +156,12 @@ impl Summary<'_> {
         for computed in &self.computed {
             let Some(found) = &computed.statistics else { continue };
             let axes = computed.map.window.coordinates.axes(self.scene.length());
-            let place = |extreme| place_text(axes, computed.place(extreme, self.scene));
+            let place = |extreme| place_text(axes, computed.place(extreme, self.scene), language);
             let (min, max) = (place(&found.min), place(&found.max));
+            let name = &computed.grid.name;
+            let line = message!("  {name}: minimum at {min}; maximum at {max}", name, min, max);
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "  {}: minimum at {min}; maximum at {max}", computed.grid.name);
+            let _ = writeln!(text, "{}", line.in_language(language));
         }
         text
     }

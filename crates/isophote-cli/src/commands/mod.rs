@@ -25,7 +25,8 @@ use std::io::IsTerminal;
 
 use anyhow::Result;
 use clap::CommandFactory;
-use isophote::text::escaped;
+use isophote::message;
+use isophote::text::{Message, escaped};
 
 use crate::args::{Arguments, Command, RenderArguments};
 use crate::failure::Usage;
@@ -66,6 +67,14 @@ fn rendered(arguments: &RenderArguments) -> Result<String> {
     }
 }
 
+/// What there is to choose from, for an error message.
+fn there_are(names: &[&str]) -> Message {
+    match names {
+        [] => message!("the scene has none"),
+        _ => message!("there are: {names}", names = names.join(", ")),
+    }
+}
+
 fn completions(shell: clap_complete::Shell) -> String {
     let mut bytes = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "isophote", &mut bytes);
@@ -77,7 +86,9 @@ fn man(name: Option<&str>) -> Result<String> {
     command.build();
     let command = match name {
         None => &command,
-        Some(name) => command.find_subcommand(name).ok_or_else(|| Usage(format!("there is no command `{name}`")))?,
+        Some(name) => {
+            command.find_subcommand(name).ok_or_else(|| Usage(message!("there is no command `{name}`", name)))?
+        }
     };
     let mut bytes = Vec::new();
     clap_mangen::Man::new(command.clone()).render(&mut bytes)?;

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use isophote::message;
 use isophote::units::Keyword;
 use isophote_export::write_atomically;
 
@@ -18,7 +19,7 @@ pub fn run(arguments: &NewArguments) -> Result<String> {
         return Ok(text.to_owned());
     }
     if path.exists() && !arguments.force {
-        return Err(Usage(format!("{} exists; --force overwrites it", path.display())).into());
+        return Err(Usage(message!("{path} exists; --force overwrites it", path = path.display())).into());
     }
     write_atomically(&path, |file| Ok(std::io::Write::write_all(file, text.as_bytes())?))?;
     Ok(format!("{}\n", path.display()))

@@ -1,14 +1,14 @@
 //! Writing maps and figures to files.
 
 use std::collections::HashSet;
-use std::fmt::Write as _;
 use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow};
 use isophote::map::{Map, Quantity};
-use isophote::text::significant;
+use isophote::message;
+use isophote::text::{Message, significant};
 use isophote::units::Keyword;
 use isophote_export::colormap::Colormap;
 use isophote_export::figure::Figure;
@@ -43,7 +43,11 @@ impl MapFile {
         let format = Format::from_path(path).ok_or_else(|| {
             let mut allowed: Vec<String> = Format::ALL.iter().map(|format| format!(".{}", format.name())).collect();
             allowed.push(".zarr".into());
-            Usage(format!("cannot tell the format of {}; allowed: {}", path.display(), allowed.join(", ")))
+            Usage(message!(
+                "cannot tell the format of {path}; allowed: {allowed}",
+                path = path.display(),
+                allowed = allowed.join(", ")
+            ))
         })?;
         atomic::check_target(path)?;
         Ok(Self { path: path.into(), format })
@@ -65,7 +69,7 @@ impl MapFile {
     }
 
     /// Writes the map, and adds notes on what a reader of the file should know.
-    pub fn write(&self, map: &Map, style: &MapStyle, notes: &mut Vec<String>) -> Result<()> {
+    pub fn write(&self, map: &Map, style: &MapStyle, notes: &mut Vec<Message>) -> Result<()> {
         let path = &self.path;
         let note = write_atomically(path, |file| {
             let mut file = Interruptible(file);
@@ -81,12 +85,16 @@ impl MapFile {
             Ok(None)
         });
         crate::progress::check()?;
-        notes.push(format!("wrote {}{}", path.display(), note?.unwrap_or_default()));
+        let path = path.display();
+        notes.push(match note? {
+            Some(note) => message!("wrote {path}: {note}", path, note),
+            None => message!("wrote {path}", path),
+        });
         Ok(())
     }
 }
 
-fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<String, ExportError> {
+fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<Message, ExportError> {
     let color = style.colormap.map(|colormap| move |fraction| colormap.color(fraction));
     let name = style.colormap.map_or("", Colormap::name);
     let options = PictureOptions {
@@ -100,13 +108,17 @@ fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<S
     let report = png::write(map, &options, file)?;
     let unit = map.channel(&style.quantity).map_or("", |channel| &channel.unit);
     let [black, white] = report.range.map(|value| significant(value, 6));
-    let scale = if style.normalization == Normalization::Log { ", by the logarithm" } else { "" };
-    let mut note = format!(": {black} to {white} {unit} from black to white{scale}");
-    for (count, side) in [(report.clamped_below, "below"), (report.clamped_above, "above")] {
-        if count > 0 {
-            // Writing to a string cannot fail.
-            let _ = write!(note, "; {count} pixels {side} are clipped");
+    let mut note = match style.normalization {
+        Normalization::Log => {
+            message!("{black} to {white} {unit} from black to white, by the logarithm", black, white, unit)
         }
+        _ => message!("{black} to {white} {unit} from black to white", black, white, unit),
+    };
+    if report.clamped_below > 0 {
+        note = message!("{note}; {count} pixels below are clipped", note, count = report.clamped_below);
+    }
+    if report.clamped_above > 0 {
+        note = message!("{note}; {count} pixels above are clipped", note, count = report.clamped_above);
     }
     Ok(note)
 }
@@ -114,24 +126,28 @@ fn write_picture(map: &Map, style: &MapStyle, file: &mut impl Write) -> Result<S
 /// Colour channels are shown in their own colours, without a colour map.
 pub fn refuse_colormap(quantity: &Quantity, colormap: Option<Colormap>) -> Result<(), Usage> {
     if *quantity == Quantity::Color && colormap.is_some() {
-        let message =
-            "--colormap does not go with the channel `color`, which is shown as it is; put -c brightness first";
-        return Err(Usage(message.into()));
+        let message = message!(
+            "--colormap does not go with the channel `color`, which is shown as it is; put -c brightness first"
+        );
+        return Err(Usage(message));
     }
     Ok(())
 }
 
 /// The map's convention and, in a scene with colours, the luminance that a single number stands for.
-pub fn formula_label(map: &Map) -> String {
-    let space = map.provenance.color_space.as_ref().map_or(String::new(), |space| format!(", luminance in {space}"));
-    format!("{}{space}", map.provenance.convention)
+pub fn formula_label(map: &Map) -> Message {
+    let convention = &map.provenance.convention;
+    match &map.provenance.color_space {
+        Some(space) => message!("{convention}, luminance in {space}", convention, space),
+        None => Message::verbatim(convention),
+    }
 }
 
 /// Refuses a path given twice: only the last output would survive, without a warning.
 pub fn refuse_twice<'p>(paths: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), Usage> {
     let mut seen = HashSet::new();
     match paths.into_iter().find(|path| !seen.insert(place(path))) {
-        Some(path) => Err(Usage(format!("{} would be written twice", path.display()))),
+        Some(path) => Err(Usage(message!("{path} would be written twice", path = path.display()))),
         None => Ok(()),
     }
 }
@@ -157,7 +173,8 @@ pub fn figure_format(path: &Path) -> Result<FigureFormat> {
         Some("svg") => FigureFormat::Svg,
         Some("png") => FigureFormat::Png,
         _ => {
-            let message = format!("cannot tell the format of {}; allowed for figures: .svg, .png", path.display());
+            let path = path.display();
+            let message = message!("cannot tell the format of {path}; allowed for figures: .svg, .png", path);
             return Err(Usage(message).into());
         }
     };
@@ -173,7 +190,7 @@ pub fn write_figure(
     metadata: Option<&FileMetadata>,
     path: &Path,
     format: FigureFormat,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Message>,
 ) -> Result<()> {
     /// Dots per unit of the drawing: sharp on paper and on high-density screens.
     const SCALE: f64 = 2.0;
@@ -185,10 +202,10 @@ pub fn write_figure(
 }
 
 /// Writes a file from bytes already in memory.
-pub fn write_bytes(bytes: &[u8], path: &Path, notes: &mut Vec<String>) -> Result<()> {
+pub fn write_bytes(bytes: &[u8], path: &Path, notes: &mut Vec<Message>) -> Result<()> {
     let written = write_atomically(path, |file| Ok(Interruptible(file).write_all(bytes)?));
     crate::progress::check()?;
     written?;
-    notes.push(format!("wrote {}", path.display()));
+    notes.push(message!("wrote {path}", path = path.display()));
     Ok(())
 }

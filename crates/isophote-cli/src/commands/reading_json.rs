@@ -94,7 +94,7 @@ impl ProbeJson {
             normal: reading.hit.point.normal.to_array(),
             shape: description.name_of(reading.hit.primitive),
             seen: reading.is_seen(),
-            unseen_because: reading.why_unseen(description),
+            unseen_because: reading.why_unseen(description).map(|why| why.to_string()),
             cos_theta_o: reading.hit.point.cos_theta_o,
             channels: ChannelsJson {
                 brightness: brightness(Shading::brightness),

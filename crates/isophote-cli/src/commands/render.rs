@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use anyhow::{Result, anyhow};
 use isophote::analysis::probe::ProbePosition;
 use isophote::map::{Map, Quantity, Region};
+use isophote::message;
 use isophote::prepare::PreparedScene;
 use isophote::render::{RenderError, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::Scene;
+use isophote::text::Message;
 use isophote::threads::Threads;
 use isophote_export::FileMetadata;
 use isophote_export::csv::Rows;
@@ -35,10 +37,14 @@ pub fn run(arguments: &RenderArguments) -> Result<String> {
     let notes = job.write(&map, &scene)?;
     if !arguments.quiet {
         for note in &notes {
-            failure::note(note);
+            failure::note(&note.in_language(arguments.language.lang));
         }
     }
-    if arguments.json { numbers::json(&summary.to_json(&scene)) } else { Ok(summary.to_text(&scene)) }
+    if arguments.json {
+        numbers::json(&summary.to_json(&scene))
+    } else {
+        Ok(summary.to_text(&scene, arguments.language.lang))
+    }
 }
 
 /// A render job with valid arguments.
@@ -107,28 +113,33 @@ impl<'a> Job<'a> {
         let has_picture = self.files.iter().any(MapFile::is_picture);
         refuse_colormap(&self.pictured, self.style.colormap)?;
         if self.pictured == Quantity::Color && self.style.gamma != 1.0 {
-            let message =
-                "--gamma does not go with the channel `color`, which is shown with sRGB's; put -c brightness first";
-            return Err(Usage(message.into()));
+            let message = message!(
+                "--gamma does not go with the channel `color`, which is shown with sRGB's; put -c brightness first"
+            );
+            return Err(Usage(message));
         }
         if self.pictured == Quantity::Color && self.style.normalization != Normalization::Max {
-            let message = "--normalize does not go with the channel `color`, whose components share one scale from 0 to the \
-                largest; put -c brightness first";
-            return Err(Usage(message.into()));
+            let message = message!(
+                "--normalize does not go with the channel `color`, whose components share one scale from 0 to the largest; put -c brightness first"
+            );
+            return Err(Usage(message));
         }
         let logarithm_of = |black: f64| self.style.normalization == Normalization::Log && black <= 0.0;
         if let Some([black, _]) = self.style.range.filter(|[black, _]| logarithm_of(*black)) {
-            let message = format!("--range starts at {black}; with --normalize log it has to start above 0");
+            let message = message!("--range starts at {black}; with --normalize log it has to start above 0", black);
             return Err(Usage(message));
         }
         let can_be_picture = self.pictured.can_be_picture();
         if !can_be_picture && (has_picture || !self.figures.is_empty()) {
-            let message = "cannot be a picture: it is not one quantity a pixel; put another --channel first";
-            return Err(Usage(format!("the channel `{}` {message}", self.pictured.name())));
+            return Err(Usage(message!(
+                "the channel `{channel}` cannot be a picture: it is not one quantity a pixel; put another --channel first",
+                channel = self.pictured.name()
+            )));
         }
         if has_picture && self.style.depth == Depth::Sixteen && self.style.colormap.is_some() {
-            let message = "--bits 16 does not go with --colormap: colours have 8 bits, only grey pictures have 16";
-            return Err(Usage(message.into()));
+            let message =
+                message!("--bits 16 does not go with --colormap: colours have 8 bits, only grey pictures have 16");
+            return Err(Usage(message));
         }
         Ok(())
     }
@@ -140,19 +151,21 @@ impl<'a> Job<'a> {
         let quantities =
             self.wanted.iter().cloned().chain([Quantity::Irradiance, self.main.clone()]).chain(sampled).collect();
         let region = arguments.region.unwrap_or(Region::all(scene.scene().camera().resolution));
-        let progress = Progress::new(region.size.count(), arguments.quiet);
+        let progress = Progress::new(region.size.count(), arguments.quiet, arguments.language.lang);
         let settings = RenderSettings { region: Some(region), quantities, observer: Some(&progress) };
         let map = SimdRenderer::new(arguments.precision, arguments.threads).render(scene, &settings);
         progress.finish();
         map.map_err(|error| match error {
-            RenderError::Region { .. } => Usage(error.to_string()).into(),
+            RenderError::Region { .. } => Usage(error.message()).into(),
             RenderError::Memory { .. } => anyhow!("{error}; -o NAME.zarr is computed part by part"),
-            RenderError::TooLarge { .. } => Usage(format!("{error}; -o NAME.zarr takes larger ones")).into(),
+            RenderError::TooLarge { .. } => {
+                Usage(message!("{error}; -o NAME.zarr takes larger ones", error = error.message())).into()
+            }
             error => error.into(),
         })
     }
 
-    fn write(&self, map: &Map, scene: &PreparedScene) -> Result<Vec<String>> {
+    fn write(&self, map: &Map, scene: &PreparedScene) -> Result<Vec<Message>> {
         // If a figure cannot be drawn, find out before anything is written.
         let figure =
             (!self.figures.is_empty()).then(|| map_figure(map, &self.figure_options(map, scene))).transpose()?;
@@ -169,23 +182,31 @@ impl<'a> Job<'a> {
         Ok(notes)
     }
 
-    fn options_without_effect(&self) -> Vec<String> {
+    fn options_without_effect(&self) -> Vec<Message> {
         let has_picture = self.files.iter().any(MapFile::is_picture);
         let arguments = self.arguments;
-        let note = |is_given: bool, option: &str, file: &str| {
-            is_given.then(|| format!("{option} has no effect: no {file} file is written"))
+        let note = |is_given: bool, option: &str, file: Message| {
+            is_given.then(|| message!("{option} has no effect: no {file} file is written", option, file))
         };
         let has_figure = !self.figures.is_empty();
         let has_either = has_picture || has_figure;
         let has_isophotes = has_figure && self.pictured != Quantity::Color;
         [
-            note(!has_either && arguments.range.is_some(), "--range", ".png or figure"),
-            note(!has_either && arguments.colormap.is_some(), "--colormap", ".png or figure"),
-            note(!has_isophotes && arguments.isophotes != DEFAULT_ISOPHOTES, "--isophotes", "figure of numbers"),
-            note(!has_picture && arguments.normalize != Normalization::Max, "--normalize", ".png"),
-            note(!has_picture && arguments.gamma != 1.0, "--gamma", ".png"),
-            note(!has_picture && self.style.depth == Depth::Sixteen, "--bits", ".png"),
-            note(arguments.visible_only && !self.files.iter().any(MapFile::is_table), "--visible-only", ".csv"),
+            note(!has_either && arguments.range.is_some(), "--range", message!(".png or figure")),
+            note(!has_either && arguments.colormap.is_some(), "--colormap", message!(".png or figure")),
+            note(
+                !has_isophotes && arguments.isophotes != DEFAULT_ISOPHOTES,
+                "--isophotes",
+                message!("figure of numbers"),
+            ),
+            note(!has_picture && arguments.normalize != Normalization::Max, "--normalize", Message::verbatim(".png")),
+            note(!has_picture && arguments.gamma != 1.0, "--gamma", Message::verbatim(".png")),
+            note(!has_picture && self.style.depth == Depth::Sixteen, "--bits", Message::verbatim(".png")),
+            note(
+                arguments.visible_only && !self.files.iter().any(MapFile::is_table),
+                "--visible-only",
+                Message::verbatim(".csv"),
+            ),
         ]
         .into_iter()
         .flatten()
@@ -193,9 +214,11 @@ impl<'a> Job<'a> {
     }
 
     fn figure_options(&self, map: &Map, scene: &PreparedScene) -> FigureOptions {
+        let language = self.arguments.language.lang;
+        let label = self.pictured.label_in(scene.scene().unit_system(), language);
         let label = match self.pictured {
-            Quantity::Brightness => format!("brightness, {}", formula_label(map)),
-            _ => self.pictured.name(),
+            Quantity::Brightness => format!("{label}, {}", formula_label(map).in_language(language)),
+            _ => label,
         };
         FigureOptions {
             title: scene.scene().title().to_owned(),
@@ -203,7 +226,7 @@ impl<'a> Job<'a> {
             range: self.arguments.range,
             isophotes: self.arguments.isophotes.into(),
             marks: marks(map, scene),
-            ..FigureOptions::new(self.pictured.clone(), &label)
+            ..FigureOptions::in_language(self.pictured.clone(), &label, language)
         }
     }
 }

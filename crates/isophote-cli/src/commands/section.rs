@@ -6,9 +6,10 @@ use std::path::Path;
 use anyhow::Result;
 use isophote::analysis::section::Sample;
 use isophote::map::Quantity;
+use isophote::message;
 use isophote::prepare::PreparedScene;
 use isophote::scene::Scene;
-use isophote::text::significant;
+use isophote::text::{Language, Message, significant};
 use isophote::units::Keyword;
 use isophote_export::atomic;
 use isophote_export::figure::{Figure, SectionOptions, SectionPoint, Series, section_figure};
@@ -24,20 +25,22 @@ use crate::{load, numbers};
 
 /// Computes sections and prints or writes them.
 pub fn run(arguments: &SectionArguments) -> Result<String> {
-    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.quiet)?);
+    let language = arguments.language.lang;
+    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.quiet, language)?);
     let lines = section_lines::lines(arguments, &scene)?;
     let quantities = quantities(arguments, scene.scene())?;
     refuse_twice(&arguments.output)?;
     let outputs: Vec<(&Path, Output)> = arguments.output.iter().map(|path| Output::new(path)).collect::<Result<_>>()?;
-    let mut notes: Vec<String> = lines.iter().filter_map(|line| line.note.clone()).collect();
+    let mut notes: Vec<Message> = lines.iter().filter_map(|line| line.note.clone()).collect();
     let section = |line: Line| -> Result<Section<'_>> {
-        let samples = scene.section(line.along).map_err(|error| Usage(error.to_string()))?;
+        let samples = scene.section(line.along).map_err(|error| Usage(error.message()))?;
         Ok(Section { scene: scene.scene(), line, quantities: &quantities, samples })
     };
-    let sections = Sections { scene: scene.scene(), all: lines.into_iter().map(section).collect::<Result<_>>()? };
+    let all = lines.into_iter().map(section).collect::<Result<_>>()?;
+    let sections = Sections { scene: scene.scene(), language, all };
     let printed = || if arguments.json { sections.to_json() } else { Ok(sections.to_table()) };
     if outputs.is_empty() {
-        told(&notes, arguments.quiet);
+        told(&notes, arguments);
         return printed();
     }
     // Find out what cannot be drawn before anything is written.
@@ -52,13 +55,13 @@ pub fn run(arguments: &SectionArguments) -> Result<String> {
             }
         }
     }
-    told(&notes, arguments.quiet);
+    told(&notes, arguments);
     if arguments.json { sections.to_json() } else { Ok(String::new()) }
 }
 
-fn told(notes: &[String], is_quiet: bool) {
-    for note in notes.iter().filter(|_| !is_quiet) {
-        failure::note(note);
+fn told(notes: &[Message], arguments: &SectionArguments) {
+    for note in notes.iter().filter(|_| !arguments.quiet) {
+        failure::note(&note.in_language(arguments.language.lang));
     }
 }
 
@@ -77,7 +80,8 @@ impl Output {
         match figure_format(path) {
             Ok(format) => Ok((path, Self::Figure(format))),
             Err(error) if error.is::<Usage>() => {
-                let message = format!("cannot tell the format of {}; allowed: .csv, .png, .svg", path.display());
+                let (path, allowed) = (path.display(), ".csv, .png, .svg");
+                let message = message!("cannot tell the format of {path}; allowed: {allowed}", path, allowed);
                 Err(Usage(message).into())
             }
             Err(error) => Err(error),
@@ -95,7 +99,8 @@ fn quantities(arguments: &SectionArguments, scene: &Scene) -> Result<Vec<Quantit
     };
     if let Some(quantity) = quantities.iter().find(unsuitable) {
         let allowed = "brightness, irradiance, ambient, diffuse, specular, depth";
-        return Err(Usage(format!("a section cannot show `{}`; allowed: {allowed}", quantity.name())).into());
+        let channel = quantity.name();
+        return Err(Usage(message!("a section cannot show `{channel}`; allowed: {allowed}", channel, allowed)).into());
     }
     Ok(if quantities.is_empty() { vec![Quantity::Brightness] } else { quantities })
 }
@@ -111,6 +116,7 @@ struct Section<'s> {
 /// All lines, and how they are shown together.
 struct Sections<'s> {
     scene: &'s Scene,
+    language: Language,
     /// At least one; all of the same quantities.
     all: Vec<Section<'s>>,
 }
@@ -145,9 +151,10 @@ impl Section<'_> {
         }
     }
 
-    fn to_table(&self) -> String {
+    fn to_table(&self, language: Language) -> String {
         let unit = self.scene.screen_unit().name();
-        let headings: Vec<String> = self.quantities.iter().map(|quantity| heading(quantity, self.scene)).collect();
+        let headings = self.quantities.iter().map(|quantity| heading(quantity, self.scene, language));
+        let headings: Vec<String> = headings.collect();
         let (x, y) = (format!("x, {unit}"), format!("y, {unit}"));
         let mut columns = vec![(x.as_str(), Align::Right), (y.as_str(), Align::Right)];
         columns.extend(headings.iter().map(|heading| (heading.as_str(), Align::Right)));
@@ -191,7 +198,7 @@ impl Section<'_> {
             values: self.samples.iter().map(|sample| self.value(sample, quantity)).collect(),
         });
         SectionJson {
-            line: self.line.name.clone(),
+            line: self.line.name.to_string(),
             length: self.scene.length().name(),
             screen_unit: self.scene.screen_unit().name(),
             convention: self.scene.convention().name(),
@@ -213,9 +220,13 @@ impl Sections<'_> {
 
     fn to_table(&self) -> String {
         if let Some(only) = self.only() {
-            return only.to_table();
+            return only.to_table(self.language);
         }
-        let tables = self.all.iter().map(|section| format!("{}\n{}", section.line.name, section.to_table()));
+        let of_section = |section: &Section<'_>| {
+            let name = section.line.name.in_language(self.language);
+            format!("{name}\n{}", section.to_table(self.language))
+        };
+        let tables = self.all.iter().map(of_section);
         tables.collect::<Vec<_>>().join("\n")
     }
 
@@ -232,7 +243,7 @@ impl Sections<'_> {
         let _ = writeln!(text, "# {}", self.footer());
         let _ = writeln!(text, "# {}", self.scene.title().replace(char::is_control, " "));
         if let Some(only) = self.only() {
-            let _ = writeln!(text, "# section along {}", only.line.name.replace(char::is_control, " "));
+            let _ = writeln!(text, "# section along {}", only.line.name.to_string().replace(char::is_control, " "));
         }
         let _ = writeln!(text, "# units: x, y in {}", self.scene.screen_unit().name());
         for quantity in self.quantities() {
@@ -242,7 +253,8 @@ impl Sections<'_> {
         let column = if self.only().is_some() { "" } else { "section," };
         let _ = writeln!(text, "{column}x,y,{}", names.join(","));
         for section in &self.all {
-            let quoted = format!("\"{}\",", section.line.name.replace('"', "\"\"").replace(char::is_control, " "));
+            let name = section.line.name.to_string();
+            let quoted = format!("\"{}\",", name.replace('"', "\"\"").replace(char::is_control, " "));
             section.write_rows(if self.only().is_some() { "" } else { &quoted }, &mut text);
         }
         text
@@ -253,54 +265,72 @@ impl Sections<'_> {
         let quantities = self.quantities();
         let y_unit = unit(&quantities[0], self.scene);
         if quantities.iter().any(|quantity| unit(quantity, self.scene) != y_unit) {
-            let channels: Vec<String> = quantities.iter().map(|quantity| heading(quantity, self.scene)).collect();
-            return Err(Usage(format!("one plot cannot show different units: {}", channels.join("; "))).into());
+            let channels = quantities.iter().map(|quantity| heading(quantity, self.scene, self.language));
+            let channels = channels.collect::<Vec<_>>().join("; ");
+            return Err(Usage(message!("one plot cannot show different units: {channels}", channels)).into());
         }
         let name = |section: &Section<'_>, quantity: &Quantity| match (self.only(), quantities) {
-            (Some(_), _) => quantity.name(),
-            (None, [_]) => section.line.name.clone(),
-            (None, _) => format!("{}, {}", quantity.name(), section.line.name),
+            (Some(_), _) => label(quantity, self.scene, self.language),
+            (None, [_]) => section.line.name.in_language(self.language),
+            (None, _) => {
+                let line = section.line.name.in_language(self.language);
+                format!("{}, {line}", label(quantity, self.scene, self.language))
+            }
         };
         let of_section = |section: &Section<'_>| -> Vec<Series> {
             quantities.iter().map(|quantity| section.series(quantity, name(section, quantity))).collect()
         };
         let series: Vec<Series> = self.all.iter().flat_map(of_section).collect();
-        let lines = self.only().map_or("several lines", |only| &only.line.name);
+        let lines = self.only().map_or_else(|| message!("several lines"), |only| only.line.name.clone());
         let title = self.scene.title();
         let options = SectionOptions {
             title: if title.is_empty() {
-                format!("Section along {lines}")
+                message!("Section along {lines}", lines).in_language(self.language)
             } else {
-                format!("{title}: section along {lines}")
+                format!("{title}: {}", message!("section along {lines}", lines).in_language(self.language))
             },
-            x_label: self.x_label().into(),
+            x_label: self.x_label().in_language(self.language),
             x_unit: self.scene.screen_unit().name().into(),
-            y_label: if let [only] = quantities { only.name() } else { "values".into() },
+            y_label: match quantities {
+                [only] => label(only, self.scene, self.language),
+                _ => message!("values").in_language(self.language),
+            },
             y_unit,
-            footer: self.footer(),
+            footer: message!(
+                "{program}, convention {convention}",
+                program = PROGRAM,
+                convention = self.scene.convention().label()
+            )
+            .in_language(self.language),
         };
         Ok(section_figure(&series, &options)?)
     }
 
     /// What the horizontal axis of a plot shows.
-    fn x_label(&self) -> &'static str {
+    fn x_label(&self) -> Message {
         let has = |axis: Axis| self.all.iter().any(|section| section.line.axis == axis);
         match (has(Axis::X), has(Axis::Y), has(Axis::Distance)) {
-            (true, false, false) => "x",
-            (false, true, false) => "y",
-            (true, true, false) => "x or y",
-            (false, false, _) => "distance along the line",
-            (_, _, true) => "x, y or distance along the line",
+            (true, false, false) => Message::verbatim("x"),
+            (false, true, false) => Message::verbatim("y"),
+            (true, true, false) => message!("x or y"),
+            (false, false, _) => message!("distance along the line"),
+            (_, _, true) => message!("x, y or distance along the line"),
         }
     }
 
     fn footer(&self) -> String {
-        format!(concat!("isophote ", env!("CARGO_PKG_VERSION"), ", convention {}"), self.scene.convention().label())
+        format!("{PROGRAM}, convention {}", self.scene.convention().label())
     }
 }
 
-fn heading(quantity: &Quantity, scene: &Scene) -> String {
-    format!("{}, {}", quantity.name(), unit(quantity, scene))
+const PROGRAM: &str = concat!("isophote ", env!("CARGO_PKG_VERSION"));
+
+fn label(quantity: &Quantity, scene: &Scene, language: Language) -> String {
+    quantity.label_in(scene.unit_system(), language)
+}
+
+fn heading(quantity: &Quantity, scene: &Scene, language: Language) -> String {
+    format!("{}, {}", label(quantity, scene, language), unit(quantity, scene))
 }
 
 #[derive(Serialize)]

@@ -4,9 +4,11 @@ use anyhow::Result;
 use isophote::analysis::section::SectionLine;
 use isophote::camera::{Extent, ScreenPosition};
 use isophote::map::Pixel;
+use isophote::message;
 use isophote::prepare::PreparedScene;
-use isophote::text::significant;
+use isophote::text::{Message, significant};
 
+use super::there_are;
 use crate::args::SectionArguments;
 use crate::failure::Usage;
 
@@ -18,9 +20,9 @@ pub(super) struct Line {
     pub(super) along: SectionLine,
     pub(super) axis: Axis,
     /// Where it runs, in words.
-    pub(super) name: String,
+    pub(super) name: Message,
     /// What its reader should know.
-    pub(super) note: Option<String>,
+    pub(super) note: Option<Message>,
 }
 
 /// What the position along a line is.
@@ -40,16 +42,16 @@ pub(super) fn lines(arguments: &SectionArguments, scene: &PreparedScene) -> Resu
         .iter()
         .all(|count| *count == 0);
     if arguments.samples.is_some() && are_pixels {
-        let message = "--samples does not go with --row and --column, which have a sample for each pixel";
-        return Err(Usage(message.into()).into());
+        let message = message!("--samples does not go with --row and --column, which have a sample for each pixel");
+        return Err(Usage(message).into());
     }
     let mut lines = Vec::new();
     for name in &asked.through {
         lines.extend(maker.through(name)?);
     }
     let internal = |coordinate: f64| scene.scene().screen_unit().to_internal(coordinate);
-    lines.extend(asked.horizontal.iter().map(|y| maker.horizontal(internal(*y), "")));
-    lines.extend(asked.vertical.iter().map(|x| maker.vertical(internal(*x), "")));
+    lines.extend(asked.horizontal.iter().map(|y| maker.horizontal(internal(*y), None)));
+    lines.extend(asked.vertical.iter().map(|x| maker.vertical(internal(*x), None)));
     lines.extend(asked.line.iter().map(|ends| maker.between(ends.map(internal))));
     lines.extend(asked.row.iter().map(|row| maker.row(*row)));
     lines.extend(asked.column.iter().map(|column| maker.column(*column)));
@@ -78,35 +80,40 @@ impl Maker<'_> {
         let shapes = self.scene.scene().shapes();
         let Some(shape) = shapes.iter().find(|shape| shape.name == name) else {
             let names: Vec<&str> = shapes.iter().map(|shape| shape.name.as_str()).take(20).collect();
-            let there_are =
-                if names.is_empty() { "the scene has none".into() } else { format!("there are: {}", names.join(", ")) };
-            return Err(Usage(format!("--through {name}: there is no such shape; {there_are}")).into());
+            let there_are = there_are(&names);
+            return Err(
+                Usage(message!("--through {name}: there is no such shape; {there_are}", name, there_are)).into()
+            );
         };
         let Extent { x: [left, right], y: [bottom, top] } = self.extent();
         let place = self.scene.frame().project(shape.geometry.center());
         match place {
             Some([x, y]) if (left..=right).contains(&x) && (bottom..=top).contains(&y) => {
-                let through = format!(", through \"{name}\"");
-                Ok([self.horizontal(y, &through), self.vertical(x, &through)])
+                Ok([self.horizontal(y, Some(name)), self.vertical(x, Some(name))])
             }
             Some([x, y]) => {
                 let place = format!("x = {}, y = {}", self.text(x), self.text(y));
-                Err(Usage(format!("--through {name}: its centre appears outside the image, at {place}")).into())
+                let message =
+                    message!("--through {name}: its centre appears outside the image, at {place}", name, place);
+                Err(Usage(message).into())
             }
-            None => Err(Usage(format!("--through {name}: the eye does not see its centre, which is behind it")).into()),
+            None => {
+                let message = message!("--through {name}: the eye does not see its centre, which is behind it", name);
+                Err(Usage(message).into())
+            }
         }
     }
 
-    fn horizontal(&self, y: f64, through: &str) -> Line {
+    fn horizontal(&self, y: f64, through: Option<&str>) -> Line {
         let [left, right] = self.extent().x;
         let along = SectionLine::Between { from: [left, y], to: [right, y], samples: self.samples };
-        Line { along, axis: Axis::X, name: format!("y = {}{through}", self.text(y)), note: None }
+        Line { along, axis: Axis::X, name: through_text(format!("y = {}", self.text(y)), through), note: None }
     }
 
-    fn vertical(&self, x: f64, through: &str) -> Line {
+    fn vertical(&self, x: f64, through: Option<&str>) -> Line {
         let [bottom, top] = self.extent().y;
         let along = SectionLine::Between { from: [x, bottom], to: [x, top], samples: self.samples };
-        Line { along, axis: Axis::Y, name: format!("x = {}{through}", self.text(x)), note: None }
+        Line { along, axis: Axis::Y, name: through_text(format!("x = {}", self.text(x)), through), note: None }
     }
 
     #[expect(clippy::float_cmp, reason = "only a line that is exactly level has one y")]
@@ -119,40 +126,54 @@ impl Maker<'_> {
         };
         let unit = self.scene.scene().screen_unit();
         let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(|coordinate| significant(unit.from_internal(coordinate), 6));
-        Line { along, axis, name: format!("the line from ({x0}, {y0}) to ({x1}, {y1}) {}", unit.name()), note: None }
+        let (from, to) = (format!("({x0}, {y0})"), format!("({x1}, {y1})"));
+        let name = message!("the line from {from} to {to} {unit}", from, to, unit = unit.name());
+        Line { along, axis, name, note: None }
     }
 
     fn row(&self, row: u32) -> Line {
         let [_, y] = self.center_of(Pixel { column: 0, row });
         let [bottom, top] = self.extent().y;
         let note = half_a_pixel_off(y, [bottom, top], self.scene.scene().camera().resolution.height).map(|middle| {
-            let side = if y < middle { "below" } else { "above" };
-            format!(
-                "row {row} runs at y = {}, half a pixel {side} the middle of the image; --horizontal {} runs through it",
-                self.text(y),
-                significant(self.scene.scene().screen_unit().from_internal(middle), 6)
+            let side = if y < middle { message!("below") } else { message!("above") };
+            message!(
+                "row {row} runs at y = {y}, half a pixel {side} the middle of the image; --horizontal {middle} runs through it",
+                row,
+                y = self.text(y),
+                side,
+                middle = significant(self.scene.scene().screen_unit().from_internal(middle), 6)
             )
         });
-        Line { along: SectionLine::Row(row), axis: Axis::X, name: format!("row {row}, y = {}", self.text(y)), note }
+        let name = message!("row {row}, y = {y}", row, y = self.text(y));
+        Line { along: SectionLine::Row(row), axis: Axis::X, name, note }
     }
 
     fn column(&self, column: u32) -> Line {
         let [x, _] = self.center_of(Pixel { column, row: 0 });
         let note = half_a_pixel_off(x, self.extent().x, self.scene.scene().camera().resolution.width).map(|middle| {
-            let side = if x < middle { "left" } else { "right" };
-            format!(
-                "column {column} runs at x = {}, half a pixel to the {side} of the middle of the image; --vertical {} runs \
-                 through it",
-                self.text(x),
-                significant(self.scene.scene().screen_unit().from_internal(middle), 6)
+            let side = if x < middle { message!("left") } else { message!("right") };
+            message!(
+                "column {column} runs at x = {x}, half a pixel to the {side} of the middle of the image; --vertical {middle} runs through it",
+                column,
+                x = self.text(x),
+                side,
+                middle = significant(self.scene.scene().screen_unit().from_internal(middle), 6)
             )
         });
-        let name = format!("column {column}, x = {}", self.text(x));
+        let name = message!("column {column}, x = {x}", column, x = self.text(x));
         Line { along: SectionLine::Column(column), axis: Axis::Y, name, note }
     }
 
     fn center_of(&self, pixel: Pixel) -> [f64; 2] {
         self.scene.frame().point_on_screen(ScreenPosition::PixelCenter(pixel))
+    }
+}
+
+/// A line, and the shape through whose centre it runs.
+fn through_text(line: String, shape: Option<&str>) -> Message {
+    match shape {
+        Some(shape) => message!("{line}, through \"{shape}\"", line, shape),
+        None => Message::verbatim(line),
     }
 }
 

@@ -3,8 +3,9 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use isophote::map::SourceFile;
-use isophote::text::{escaped_line, significant};
+use isophote::map::{Pixel, Region, Resolution, SourceFile};
+use isophote::message;
+use isophote::text::{Language, Message, escaped_line, significant};
 use isophote_export::FileMetadata;
 
 use crate::args::ShowArguments;
@@ -19,56 +20,85 @@ pub fn run(arguments: &ShowArguments) -> Result<String> {
     if arguments.json {
         return Ok(metadata.to_json() + "\n");
     }
-    Ok(to_text(&metadata))
+    Ok(to_text(&metadata, arguments.language.lang))
 }
 
-fn to_text(metadata: &FileMetadata) -> String {
+fn to_text(metadata: &FileMetadata, language: Language) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let mut row = |name: &str, value: String| {
+    let mut row = |name: Message, value: Message| {
+        let (name, value) = (name.in_language(language), value.in_language(language));
         let _ = writeln!(text, "  {name:<12}{}", escaped_line(&value));
     };
     let FileMetadata { full, region, window, .. } = metadata;
-    row("title", metadata.title.clone());
-    row("made by", format!("{}, {}", metadata.program, metadata.renderer));
-    row("convention", metadata.convention.clone());
+    row(message!("title"), Message::verbatim(&metadata.title));
+    row(message!("made by"), Message::verbatim(format!("{}, {}", metadata.program, metadata.renderer)));
+    row(message!("convention"), Message::verbatim(&metadata.convention));
     if let Some(space) = &metadata.color_space {
-        row("color space", format!("{space}; one number is a luminance in it"));
+        row(message!("color space"), message!("{space}; one number is a luminance in it", space));
     }
-    row("image", format!("{} × {} pixels", full.width, full.height));
+    row(message!("image"), message!("{width} × {height} pixels", width = full.width, height = full.height));
     if region.size != *full {
-        let (corner, size) = (region.corner, region.size);
-        row("region", format!("{} × {} from column {}, row {}", size.width, size.height, corner.column, corner.row));
+        let Region { corner: Pixel { column, row: first }, size: Resolution { width, height } } = *region;
+        let value = message!("{width} × {height} from column {column}, row {row}", width, height, column, row = first);
+        row(message!("region"), value);
     }
     let [left, right] = window.x.map(|x| significant(x, 9));
     let [bottom, top] = window.y.map(|y| significant(y, 9));
-    let [x, y] =
-        window.coordinates.axes(window.length).map(|axis| if axis.unit == "1" { "no unit" } else { axis.unit });
-    let [across, up] = window.coordinates.axes(window.length).map(|axis| axis.title);
-    let unit_of_x = if x == y { String::new() } else { format!(" {x}") };
-    row("window", format!("{across} {left} to {right}{unit_of_x}, {up} {bottom} to {top} {y}"));
+    let [x, y] = window
+        .coordinates
+        .axes(window.length)
+        .map(|axis| if axis.unit == "1" { message!("no unit") } else { Message::verbatim(axis.unit) });
+    let [across, up] = window.coordinates.axes(window.length).map(|axis| axis.label(language));
+    let unit_of_x = if x == y { Message::empty() } else { message!(" {x}", x) };
+    let value = message!(
+        "{across} {left} to {right}{unit_of_x}, {up} {bottom} to {top} {y}",
+        across,
+        left,
+        right,
+        unit_of_x,
+        up,
+        bottom,
+        top,
+        y
+    );
+    row(message!("window"), value);
     for channel in &metadata.channels {
-        let unit = if channel.unit.is_empty() { "no unit" } else { &channel.unit };
-        let stored_as = match channel.stored_as.join(", ") {
-            names if names.is_empty() || names == channel.name => String::new(),
-            names => format!(", stored as {names}"),
+        let unit = if channel.unit.is_empty() { message!("no unit") } else { Message::verbatim(&channel.unit) };
+        let value = message!("{channel}, {unit}", channel = channel.name, unit);
+        let value = match channel.stored_as.join(", ") {
+            names if names.is_empty() || names == channel.name => value,
+            names => message!("{value}, stored as {names}", value, names),
         };
-        row("channel", format!("{}, {unit}{stored_as}", channel.name));
+        row(message!("channel"), value);
     }
     for SourceFile { name, bytes, sha256, content, .. } in &metadata.files {
-        let carried = if content.is_some() { ", carried" } else { "" };
-        row("file", format!("{name}, {bytes} bytes{carried}, SHA-256 {sha256}"));
+        let value = match content {
+            Some(_) => message!("{name}, {bytes} bytes, carried, SHA-256 {hash}", name, bytes, hash = sha256),
+            None => message!("{name}, {bytes} bytes, SHA-256 {hash}", name, bytes, hash = sha256),
+        };
+        row(message!("file"), value);
     }
     if let Some(picture) = &metadata.picture {
         let [black, white] = picture.range.map(|value| significant(value, 12));
-        let log = if picture.normalization == "log" { "logarithmic, " } else { "" };
-        let level = picture.encoding.clone().unwrap_or_else(|| format!("{log}gamma {}", picture.gamma));
-        row("picture", format!("{black} to {white} from black to white, {} bits, {level}", picture.depth));
+        let level = match &picture.encoding {
+            Some(encoding) => Message::verbatim(encoding),
+            None if picture.normalization == "log" => message!("logarithmic, gamma {gamma}", gamma = picture.gamma),
+            None => message!("gamma {gamma}", gamma = picture.gamma),
+        };
+        let value = message!(
+            "{black} to {white} from black to white, {depth} bits, {level}",
+            black,
+            white,
+            depth = picture.depth,
+            level
+        );
+        row(message!("picture"), value);
         if let Some(colormap) = &picture.colormap {
-            row("colours", colormap.clone());
+            row(message!("colours"), Message::verbatim(colormap));
         }
     }
-    let _ = write!(text, "\nscene\n{}", indented(&metadata.scene));
+    let _ = write!(text, "\n{}\n{}", message!("scene").in_language(language), indented(&metadata.scene));
     text
 }
 

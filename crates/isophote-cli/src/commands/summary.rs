@@ -2,9 +2,10 @@
 
 use isophote::analysis::probe::{ProbePosition, ProbeReading};
 use isophote::analysis::statistics::{Counts, Extreme, Statistics, counts, statistics};
-use isophote::map::{Map, Quantity, Region};
+use isophote::map::{Map, Pixel, Quantity, Region, Resolution};
+use isophote::message;
 use isophote::prepare::PreparedScene;
-use isophote::text::{escaped_line, significant};
+use isophote::text::{Language, Message, escaped_line, significant};
 use isophote::units::Keyword;
 use isophote_zarr::MapStatistics;
 use serde::Serialize;
@@ -76,7 +77,7 @@ impl Summary {
         }
     }
 
-    pub fn to_text(&self, scene: &PreparedScene) -> String {
+    pub fn to_text(&self, scene: &PreparedScene, language: Language) -> String {
         let description = scene.scene();
         let resolution = description.camera().resolution;
         let Counts { pixels, visible, lit } = self.counts;
@@ -85,58 +86,74 @@ impl Summary {
         if !description.title().is_empty() {
             lines.extend([escaped_line(description.title()).into_owned(), String::new()]);
         }
-        let mut row = |name: &str, value: String| lines.push(format!("  {name:<12}{value}"));
-        row("image", format!("{} × {} pixels{}", resolution.width, resolution.height, self.region_text()));
+        let mut row = |name: Message, value: Message| {
+            lines.push(format!("  {:<12}{}", name.in_language(language), value.in_language(language)));
+        };
+        let Resolution { width, height } = resolution;
+        row(
+            message!("image"),
+            message!("{width} × {height} pixels{region}", width, height, region = self.region_text()),
+        );
         #[allow(clippy::cast_precision_loss, reason = "fewer than 2^53 pixels")]
         let share = 100.0 * visible as f64 / pixels as f64;
-        row("visible", format!("{visible} of {pixels} pixels ({} %)", significant(share, 4)));
-        row("lit", format!("{} pixels", lit.unwrap_or(0)));
+        row(
+            message!("visible"),
+            message!("{visible} of {pixels} pixels ({share} %)", visible, pixels, share = significant(share, 4)),
+        );
+        row(message!("lit"), message!("{count} pixels", count = lit.unwrap_or(0)));
         let convention = description.convention();
         let separator = if unit.is_empty() { "" } else { ", " };
-        row("channel", format!("{}{separator}{unit}", self.main.name()));
-        row("convention", format!("{}: {}", convention.label(), convention.formula()));
+        let channel = self.main.label_in(description.unit_system(), language);
+        row(message!("channel"), Message::verbatim(format!("{channel}{separator}{unit}")));
+        row(message!("convention"), Message::verbatim(format!("{}: {}", convention.label(), convention.formula())));
         if let Some(color) = description.color_label() {
-            row("color space", color);
+            row(message!("color space"), Message::verbatim(color));
         }
         match &self.statistics {
             Some(statistics) => {
-                row("maximum", extreme_text(&statistics.max, &unit, scene));
-                row("minimum", extreme_text(&statistics.min, &unit, scene));
-                row("mean", format!("{} {unit} over the visible pixels", significant(statistics.mean, 12)));
+                row(message!("maximum"), extreme_text(&statistics.max, &unit, scene));
+                row(message!("minimum"), extreme_text(&statistics.min, &unit, scene));
+                let mean = significant(statistics.mean, 12);
+                row(message!("mean"), message!("{mean} {unit} over the visible pixels", mean, unit));
             }
-            None if visible == 0 => row("", "no surface is seen".into()),
-            None => row("", "no extremes: this channel is not one quantity a pixel".into()),
+            None if visible == 0 => row(Message::empty(), message!("no surface is seen")),
+            None => row(Message::empty(), message!("no extremes: this channel is not one quantity a pixel")),
         }
         if let Some(Refined { pixels: refined, rays }) = self.refined {
             #[allow(clippy::cast_precision_loss, reason = "fewer than 2^53 pixels")]
             let [share, mean] = [100.0 * refined as f64 / pixels as f64, rays / visible.max(1) as f64];
             let [share, mean] = [share, mean].map(|number| significant(number, 4));
-            lines.push(format!(
-                "  {:<12}{refined} pixels ({share} %) by more rays than one; {mean} a visible pixel",
-                "refined"
-            ));
+            let value = message!(
+                "{refined} pixels ({share} %) by more rays than one; {mean} a visible pixel",
+                refined,
+                share,
+                mean
+            );
+            row(message!("refined"), value);
         }
         if let Some(pixels) = self.over_tolerance.filter(|pixels| *pixels > 0) {
             let samples = description.sampling().samples;
-            lines.push(format!("  {:<12}not assured in {pixels} pixels by {samples} rays each", "tolerance"));
+            let value = message!("not assured in {pixels} pixels by {samples} rays each", pixels, samples);
+            row(message!("tolerance"), value);
         }
         let mut text = lines.join("\n") + "\n";
         if !self.probes.is_empty() {
             let rows: Vec<_> =
                 self.probes.iter().map(|(name, reading, published)| (name.as_str(), reading, *published)).collect();
             text.push('\n');
-            text.push_str(&reading_table::text(&rows, scene));
+            text.push_str(&reading_table::text(&rows, scene, language));
         }
         if !self.areas.is_empty() {
             text.push('\n');
-            text.push_str(&self.areas.to_text(description));
+            text.push_str(&self.areas.to_text(description, language));
         }
         text
     }
 
-    fn region_text(&self) -> String {
-        self.region.map_or(String::new(), |Region { corner, size }| {
-            format!("; of these {} × {} from column {}, row {}", size.width, size.height, corner.column, corner.row)
+    fn region_text(&self) -> Message {
+        self.region.map_or_else(Message::empty, |Region { corner: Pixel { column, row }, size }| {
+            let Resolution { width, height } = size;
+            message!("; of these {width} × {height} from column {column}, row {row}", width, height, column, row)
         })
     }
 
@@ -230,12 +247,20 @@ fn point_at(extreme: &Extreme, scene: &PreparedScene) -> Option<[f64; 3]> {
     Some(hit.point.position().to_array().map(|metres| length.from_metres(metres)))
 }
 
-fn extreme_text(extreme: &Extreme, unit: &str, scene: &PreparedScene) -> String {
-    let Extreme { value, pixel } = extreme;
+fn extreme_text(extreme: &Extreme, unit: &str, scene: &PreparedScene) -> Message {
+    let Extreme { value, pixel: Pixel { column, row } } = extreme;
     let value = significant(*value, 12);
-    let point = point_at(extreme, scene).map_or(String::new(), |point| {
-        let [x, y, z] = point.map(|coordinate| significant(coordinate, 6));
-        format!(", point ({x}, {y}, {z}) {}", scene.scene().length().name())
-    });
-    format!("{value} {unit} at column {}, row {}{point}", pixel.column, pixel.row)
+    let Some(point) = point_at(extreme, scene) else {
+        return message!("{value} {unit} at column {column}, row {row}", value, unit, column, row);
+    };
+    let [x, y, z] = point.map(|coordinate| significant(coordinate, 6));
+    message!(
+        "{value} {unit} at column {column}, row {row}, point {point} {length}",
+        value,
+        unit,
+        column,
+        row,
+        point = format!("({x}, {y}, {z})"),
+        length = scene.scene().length().name()
+    )
 }

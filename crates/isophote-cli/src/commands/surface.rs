@@ -6,16 +6,18 @@ use anyhow::Result;
 use isophote::analysis::probe::ProbePosition;
 use isophote::analysis::surface::{CellExtreme, Surface, SurfaceRequest, SurfaceTotals, depends_on_eye};
 use isophote::map::{Coordinates, Map, Quantity};
+use isophote::message;
 use isophote::prepare::PreparedScene;
 use isophote::scene::Scene;
 use isophote::shape::Primitive;
-use isophote::text::{escaped_line, significant};
+use isophote::text::{Language, Message, escaped_line, significant};
 use isophote::units::Keyword;
 use isophote::vector::Vector;
 use isophote_export::figure::FigureOptions;
 use serde::Serialize;
 
 use super::cells::{CellFiles, place_text};
+use super::there_are;
 use crate::args::SurfaceArguments;
 use crate::channels::{named, unit};
 use crate::failure::Usage;
@@ -23,7 +25,8 @@ use crate::{load, numbers};
 
 /// Computes the map of a surface, writes it and prints its statistics.
 pub fn run(arguments: &SurfaceArguments) -> Result<String> {
-    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.quiet)?);
+    let language = arguments.language.lang;
+    let scene = PreparedScene::new(&load::scene(&arguments.scene, arguments.quiet, language)?);
     let files = CellFiles::new(&arguments.output, &arguments.figure, &arguments.style)?;
     let mut wanted = named(&arguments.channel, scene.scene())?;
     let main = wanted.first().cloned().unwrap_or(Quantity::Irradiance);
@@ -33,12 +36,12 @@ pub fn run(arguments: &SurfaceArguments) -> Result<String> {
     files.refuse_impossible_pictures(&main)?;
     wanted.push(Quantity::Shape);
     let request = request(arguments, scene.scene())?;
-    let surface = scene.surface(&request).map_err(|error| Usage(error.to_string()))?;
-    let map = surface.map(&wanted).map_err(|error| Usage(error.to_string()))?;
+    let surface = scene.surface(&request).map_err(|error| Usage(error.message()))?;
+    let map = surface.map(&wanted).map_err(|error| Usage(error.message()))?;
     let options = FigureOptions {
         proportions: Some(surface.proportions()),
-        no_surface: "turned away".into(),
-        ..FigureOptions::new(main.clone(), &main.name())
+        no_surface: message!("turned away").in_language(language),
+        ..FigureOptions::in_language(main.clone(), &main.label_in(scene.scene().unit_system(), language), language)
     };
     files.write(&map, options, scene.scene(), arguments.quiet)?;
     let summary = Summary {
@@ -50,14 +53,15 @@ pub fn run(arguments: &SurfaceArguments) -> Result<String> {
         main,
         map,
     };
-    if arguments.json { numbers::json(&summary.to_json()) } else { Ok(summary.to_text()) }
+    if arguments.json { numbers::json(&summary.to_json()) } else { Ok(summary.to_text(language)) }
 }
 
 fn request(arguments: &SurfaceArguments, scene: &Scene) -> Result<SurfaceRequest> {
     let shape = shape(arguments.shape.as_deref(), scene)?;
     let parts = scene.shapes()[shape].geometry.parts();
     if parts > 1 && arguments.part.is_none() {
-        let message = format!("\"{}\" has {parts} parts; say which with --part, from 0", scene.shapes()[shape].name);
+        let name = &scene.shapes()[shape].name;
+        let message = message!("\"{name}\" has {parts} parts; say which with --part, from 0", name, parts);
         return Err(Usage(message).into());
     }
     let primitive = Primitive { shape, part: arguments.part.unwrap_or(0) };
@@ -79,9 +83,8 @@ fn shape(name: Option<&str>, scene: &Scene) -> Result<usize> {
     };
     index.ok_or_else(|| {
         let shown: Vec<&str> = names.iter().copied().take(20).collect();
-        let there_are =
-            if shown.is_empty() { "the scene has none".into() } else { format!("there are: {}", shown.join(", ")) };
-        Usage(format!("say which surface with --shape and the name of a shape; {there_are}")).into()
+        let there_are = there_are(&shown);
+        Usage(message!("say which surface with --shape and the name of a shape; {there_are}", there_are)).into()
     })
 }
 
@@ -89,13 +92,14 @@ fn shape(name: Option<&str>, scene: &Scene) -> Result<usize> {
 fn towards(name: &str, primitive: Primitive, scene: &Scene) -> Result<Vector> {
     let light = scene.lights().iter().find(|light| light.name == name).ok_or_else(|| {
         let names: Vec<&str> = scene.lights().iter().take(20).map(|light| light.name.as_str()).collect();
-        Usage(format!("--towards: there is no light \"{name}\"; there are: {}", names.join(", ")))
+        let names = names.join(", ");
+        Usage(message!("--towards: there is no light \"{name}\"; there are: {names}", name, names))
     })?;
     let bounds = scene.shapes()[primitive.shape].geometry.bounds(primitive.part).unwrap_or_default();
     let middle = (bounds.least + bounds.greatest) * 0.5;
     let direction = light.seen_from(middle);
     let is_somewhere = direction.length() > 0.0;
-    let nowhere = || Usage(format!("--towards: the light \"{name}\" stands in the middle of the shape")).into();
+    let nowhere = || Usage(message!("--towards: the light \"{name}\" stands in the middle of the shape", name)).into();
     is_somewhere.then_some(direction).ok_or_else(nowhere)
 }
 
@@ -110,40 +114,55 @@ struct Summary<'s> {
 }
 
 impl Summary<'_> {
-    fn to_text(&self) -> String {
+    fn to_text(&self, language: Language) -> String {
         let mut text = String::new();
         if !self.scene.title().is_empty() {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "{}\n", escaped_line(self.scene.title()));
         }
-        let mut row = |name: &str, value: String| {
+        let mut row = |name: Message, value: Message| {
+            let (name, value) = (name.in_language(language), value.in_language(language));
             let _ = writeln!(text, "  {name:<12}{value}");
         };
         let area = significant(self.surface.area(), 12);
-        let left_out = self.surface.left_out().map_or(String::new(), |what| format!(", without {what}"));
-        row("surface", format!("{} ({}), {}, {area} m²{left_out}", self.name(), self.kind(), self.request.side.name()));
-        row("cells", self.cells_text());
+        let (name, kind, side) = (self.name(), self.kind_text(), self.request.side.name());
+        let value = message!("{name} ({kind}), {side}, {area} m²", name, kind, side, area);
+        let value = match self.surface.left_out() {
+            Some(_) => message!("{value}, without its two ends", value),
+            None => value,
+        };
+        row(message!("surface"), value);
+        row(message!("cells"), self.cells_text(language));
         let unit = unit(&self.main, self.scene);
-        row("channel", if unit.is_empty() { self.main.name() } else { format!("{}, {unit}", self.main.name()) });
+        let channel = self.main.label_in(self.scene.unit_system(), language);
+        let separator = if unit.is_empty() { "" } else { ", " };
+        row(message!("channel"), Message::verbatim(format!("{channel}{separator}{unit}")));
         if depends_on_eye(&self.main) {
             let convention = self.scene.convention();
-            row("convention", format!("{}: {}", convention.label(), convention.formula()));
+            row(message!("convention"), Message::verbatim(format!("{}: {}", convention.label(), convention.formula())));
         }
         let Some(totals) = &self.totals else {
             let is_scalar = self.map.scalar(&self.main).is_some();
-            let reason = if is_scalar { "the eye sees nothing of this side" } else { "this channel is no quantity" };
-            row("", format!("no extremes: {reason}"));
+            let reason = if is_scalar {
+                message!("no extremes: the eye sees nothing of this side")
+            } else {
+                message!("no extremes: this channel is no quantity")
+            };
+            row(Message::empty(), reason);
             return text;
         };
         if depends_on_eye(&self.main) {
-            row("turned to", format!("the eye: {} m², and over them", significant(totals.area, 12)));
+            row(
+                message!("turned to"),
+                message!("the eye: {area} m², and over them", area = significant(totals.area, 12)),
+            );
         } else {
             let power = self.scene.unit_system().power_unit();
-            row("flux", format!("{} {power} = ∫ E dA", significant(totals.integral, 12)));
+            row(message!("flux"), Message::verbatim(format!("{} {power} = ∫ E dA", significant(totals.integral, 12))));
         }
-        row("mean", format!("{} {unit}", significant(totals.mean(), 12)));
-        row("maximum", self.extreme_text(&totals.max, &unit));
-        row("minimum", self.extreme_text(&totals.min, &unit));
+        row(message!("mean"), Message::verbatim(format!("{} {unit}", significant(totals.mean(), 12))));
+        row(message!("maximum"), self.extreme_text(&totals.max, &unit, language));
+        row(message!("minimum"), self.extreme_text(&totals.min, &unit, language));
         text
     }
 
@@ -158,28 +177,48 @@ impl Summary<'_> {
         }
     }
 
-    fn cells_text(&self) -> String {
-        let size = self.surface.size();
-        let [x, y] = self.map.window.coordinates.axes(self.scene.length());
-        let axis = self.surface.axis().map_or(String::new(), |axis| {
-            let [x, y, z] = axis.to_array().map(|component| significant(component, 6));
-            format!("; 90° latitude towards ({x}, {y}, {z})")
-        });
-        format!("{} × {}, {} × {}{axis}", size.width, size.height, x.title, y.title)
+    fn kind_text(&self) -> Message {
+        match self.scene.shapes()[self.request.primitive.shape].geometry.kind() {
+            "spheres" => message!("a sphere of several"),
+            "sphere" => message!("sphere"),
+            "cylinder" => message!("cylinder"),
+            "rectangle" => message!("rectangle"),
+            "disk" => message!("disk"),
+            kind => Message::verbatim(kind),
+        }
     }
 
-    fn extreme_text(&self, extreme: &CellExtreme, unit: &str) -> String {
+    fn cells_text(&self, language: Language) -> Message {
+        let size = self.surface.size();
+        let [x, y] = self.map.window.coordinates.axes(self.scene.length());
+        let [x, y] = [x, y].map(|axis| axis.label(language));
+        let cells = Message::verbatim(format!("{} × {}, {x} × {y}", size.width, size.height));
+        let Some(axis) = self.surface.axis() else { return cells };
+        let [x, y, z] = axis.to_array().map(|component| significant(component, 6));
+        message!("{cells}; 90° latitude towards {axis}", cells, axis = format!("({x}, {y}, {z})"))
+    }
+
+    fn extreme_text(&self, extreme: &CellExtreme, unit: &str, language: Language) -> Message {
         let axes = self.map.window.coordinates.axes(self.scene.length());
-        let place = place_text(axes, self.surface.coordinates(extreme.cell));
+        let place = place_text(axes, self.surface.coordinates(extreme.cell), language);
         let [x, y, z] = self.point(extreme).map(|coordinate| significant(coordinate, 6));
         let length = self.scene.length().name();
-        let unseen =
-            self.why_unseen(extreme).map_or(String::new(), |why| format!(", which the eye does not see: {why}"));
-        format!("{} {unit} at {place}, point ({x}, {y}, {z}) {length}{unseen}", significant(extreme.value, 12))
+        let value = message!(
+            "{value} {unit} at {place}, point {point} {length}",
+            value = significant(extreme.value, 12),
+            unit,
+            place,
+            point = format!("({x}, {y}, {z})"),
+            length
+        );
+        match self.why_unseen(extreme) {
+            Some(why) => message!("{value}, which the eye does not see: {why}", value, why),
+            None => value,
+        }
     }
 
     /// Why the eye does not see an extreme of a channel that depends on it.
-    fn why_unseen(&self, extreme: &CellExtreme) -> Option<String> {
+    fn why_unseen(&self, extreme: &CellExtreme) -> Option<Message> {
         if !depends_on_eye(&self.main) {
             return None;
         }
@@ -201,7 +240,7 @@ impl Summary<'_> {
             cell: [extreme.cell.column, extreme.cell.row],
             coordinates: self.surface.coordinates(extreme.cell),
             point: self.point(extreme),
-            unseen_because: self.why_unseen(extreme),
+            unseen_because: self.why_unseen(extreme).map(|why| why.to_string()),
         };
         let totals = self.totals.as_ref();
         let flux = totals.filter(|_| !depends_on_eye(&self.main)).map(|totals| totals.integral);

@@ -19,6 +19,7 @@ fn a_scene_that_reads_files_has_no_link() {
     let folder = Folder::with("a.obj", "v 0 0 5\nv 1 0 5\nv 0 1 5\nf 1 2 3\n");
     folder.write("mesh.toml", format!("{LAB}\n[[mesh]]\nfile = \"a.obj\"\nmaterial = \"clay\"\n"));
     folder.run("app mesh.toml --link").failed(2, &["this one reads a.obj"]);
+    folder.run("app mesh.toml --link --lang ru").failed(2, &["ошибка: приложение показывает", "эта читает файл a.obj"]);
 }
 
 /// Where the app was built before the program, it is served; otherwise the program says what is missing.

@@ -22,9 +22,9 @@ fn the_help_lists_every_command_and_the_exit_codes() {
         assert!(help.lines().any(|line| line.trim_start().starts_with(command)), "{command}");
     }
     assert!(help.contains("Exit codes: 0 fine, 1 failed, 2 wrong arguments, 3 invalid scene, 130 interrupted."));
-    let expected = "output figure channel lights size samples tolerance filter region colormap range normalize gamma bits isophotes visible-only precision threads resume shard memory json quiet help";
+    let expected = "output figure channel lights size samples tolerance filter region colormap range normalize gamma bits isophotes visible-only precision threads resume shard memory lang json quiet help";
     assert_eq!(options(&folder, "render").join(" "), expected);
-    assert_eq!(options(&folder, "probe").join(" "), "at pixel angles shape snap explain json quiet help");
+    assert_eq!(options(&folder, "probe").join(" "), "at pixel angles shape snap explain lang json quiet help");
     assert!(folder.names().is_empty());
 }
 

@@ -17,6 +17,7 @@ mod nasty;
 mod options;
 mod pictures;
 mod probe;
+mod russian;
 mod scene_files;
 mod schema;
 mod section;

@@ -166,6 +166,9 @@ fn pixels_that_the_rays_do_not_assure_are_counted() {
     assert!(count > 0 && count < few["refined"].as_u64().unwrap(), "{few}");
     let text = folder.ok("render shadows.toml --samples 16 --quiet").stdout;
     assert!(text.contains(&format!("  tolerance   not assured in {count} pixels by 16 rays each\n")), "{text}");
+    let russian = folder.ok("render shadows.toml --samples 16 --quiet --lang ru").stdout;
+    let told = format!("  допуск      не гарантирован; таких пикселей: {count}; лучей на каждый: 16\n");
+    assert!(russian.contains(&told), "{russian}");
     let many = folder.ok("render shadows.toml --quiet --json").json();
     assert_eq!(many["over_tolerance"], 0);
     assert!(!folder.ok("render shadows.toml --quiet").stdout.contains("not assured"));

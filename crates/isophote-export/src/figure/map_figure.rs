@@ -60,7 +60,7 @@ impl<'figure> Content<'figure> {
         let axis = |axis: CoordinateAxis, ticks: Ticks| {
             let is_length = axis.unit != "1" && axis.unit != "°";
             let unit = options.length_unit.as_deref().filter(|_| is_length).unwrap_or(axis.unit);
-            Axis { title: ticks::title(axis.title, unit, ticks.exponent), ticks }
+            Axis { title: ticks::title(&axis.label(options.language), unit, ticks.exponent), ticks }
         };
         let [x, y] = window.coordinates.axes(window.length);
         Ok(Self {
@@ -129,7 +129,7 @@ impl Layout {
         let natural = 2.0 * MARGIN + content.y.width() + picture_width + content.right_width();
         let width = natural.max(NARROWEST);
         let provenance = &content.map.provenance;
-        let caption = content.picture.caption().unwrap_or_default();
+        let caption = content.picture.caption(content.options.language).unwrap_or_default();
         let made_by = [caption.as_str(), provenance.program.as_str(), provenance.renderer.as_str()];
         let footer = made_by.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ");
         let page = Page::new(width, &content.options.title, &footer);

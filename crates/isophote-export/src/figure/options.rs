@@ -1,6 +1,8 @@
 //! What a map figure shows, and its texts.
 
 use isophote::map::Quantity;
+use isophote::message;
+use isophote::text::Language;
 
 use crate::colormap::Colormap;
 use crate::figure::marks::Mark;
@@ -14,6 +16,8 @@ pub struct FigureOptions {
     pub quantity: Quantity,
     /// What the values are, shown beside the colour bar: "brightness B, lab (3.3)".
     pub label: String,
+    /// The language of the names of axes.
+    pub language: Language,
     /// Replaces the channel's own unit, for figures in another language.
     pub unit: Option<String>,
     /// Replaces the name of the window's unit of length, for figures in another language.
@@ -38,13 +42,20 @@ impl FigureOptions {
     /// A plain figure: no title, viridis, the full range, about eight isophotes, no marks.
     #[must_use]
     pub fn new(quantity: Quantity, label: &str) -> Self {
+        Self::in_language(quantity, label, Language::English)
+    }
+
+    /// The same, with its words in a language; the label is in it already.
+    #[must_use]
+    pub fn in_language(quantity: Quantity, label: &str, language: Language) -> Self {
         Self {
             title: String::new(),
             quantity,
             label: label.into(),
+            language,
             unit: None,
             length_unit: None,
-            no_surface: "no surface".into(),
+            no_surface: message!("no surface").in_language(language),
             proportions: None,
             colormap: Colormap::default(),
             range: None,

@@ -2,7 +2,8 @@
 
 use isophote::analysis::isophotes::{Isophote, isophotes, nice_levels};
 use isophote::map::{Map, Quantity, Scalars, Values};
-use isophote::text::significant;
+use isophote::message;
+use isophote::text::{Language, significant};
 
 use crate::color_scale::ColorScale;
 use crate::figure::color_bar::ColorBar;
@@ -108,12 +109,19 @@ impl<'figure> Picture<'figure> {
     }
 
     /// What a colour bar would otherwise say.
-    pub(super) fn caption(&self) -> Option<String> {
+    pub(super) fn caption(&self, language: Language) -> Option<String> {
         match self {
             Self::Numbers { .. } => None,
             Self::Colors { scale, unit, space, .. } => {
                 let [black, white] = scale.range.map(|value| significant(value, 4));
-                Some(format!("{space}, black {black} and white {white} {unit} of each component, shown in sRGB"))
+                let caption = message!(
+                    "{space}, black {black} and white {white} {unit} of each component, shown in sRGB",
+                    space,
+                    black,
+                    white,
+                    unit
+                );
+                Some(caption.in_language(language))
             }
         }
     }

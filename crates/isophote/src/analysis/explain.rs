@@ -1,34 +1,35 @@
 //! Explains every step from the scene to a value, with its numbers and formula numbers.
 
-use std::fmt::Write;
+use std::fmt::Write as _;
 
 use super::probe::{ProbeReading, SeenFromEye};
 use crate::camera::Projection;
 use crate::color::{Component, Rgb};
 use crate::light::{Ambient, Emission, Light, LightKind, ParallelLight, PointLight};
+use crate::message;
 use crate::prepare::{Components, PreparedScene};
 use crate::reflectance::{Convention, Reflectance, lobe_constant};
 use crate::shade::LightTerm;
-use crate::text::significant;
+use crate::text::{Language, Message, significant};
 use crate::units::{Keyword, LengthUnit};
 use crate::vector::Vector;
 
 impl ProbeReading {
     /// The calculation as one would do it with a pocket calculator: every vector, cosine and product of this reading, with
-    /// 12 significant digits.
+    /// 12 significant digits. `name` is that of the point; formulas, symbols and units are the same in every language.
     #[must_use]
-    pub fn explain(&self, scene: &PreparedScene, name: &str) -> String {
-        let mut text = String::new();
+    pub fn explain(&self, scene: &PreparedScene, name: &str, language: Language) -> String {
+        let mut text = Page { text: String::new(), language };
         self.explain_geometry(&mut text, scene, name);
         match (scene.components(), self.components.as_deref()) {
             (Some(components), Some(readings)) => explain_components(&mut text, components, readings),
             _ => self.explain_numbers(&mut text, scene),
         }
-        text
+        text.text
     }
 
     /// Every light, and their sum.
-    fn explain_numbers(&self, text: &mut String, scene: &PreparedScene) {
+    fn explain_numbers(&self, text: &mut Page, scene: &PreparedScene) {
         for (index, term) in self.terms.iter().enumerate() {
             self.explain_light(text, scene, index, term);
         }
@@ -38,62 +39,70 @@ impl ProbeReading {
         self.explain_sum(text, scene);
     }
 
-    fn explain_geometry(&self, text: &mut String, scene: &PreparedScene, name: &str) {
+    fn explain_geometry(&self, text: &mut Page, scene: &PreparedScene, name: &str) {
         let description = scene.scene();
         let length = description.length();
         let shape = &description.shapes()[self.hit.primitive.shape];
         let point = &self.hit.point;
         let title = description.title();
         line(text, format_args!("{name}{}{title}", if title.is_empty() { "" } else { ": " }));
-        line(
+        let convention = description.convention();
+        say(
             text,
-            format_args!("Convention {}: {}", description.convention().label(), description.convention().formula()),
+            &message!("Convention {label}: {formula}", label = convention.label(), formula = convention.formula()),
         );
         line(text, format_args!(""));
-        line(text, format_args!("Geometry (2.2), lengths in {}", length.name()));
+        say(text, &message!("Geometry (2.2), lengths in {unit}", unit = length.name()));
         let on = description.name_of(self.hit.primitive);
-        line(text, format_args!("  P   = {}   on \"{on}\"", vector_in(point.position(), length)));
+        let place = vector_in(point.position(), length);
+        say(text, &message!("  P   = {place}   on \"{on}\"", place, on));
         if shape.geometry.is_round() {
-            line(text, format_args!("  C   = {}   centre of \"{on}\"", vector_in(point.anchor, length)));
+            let center = vector_in(point.anchor, length);
+            say(text, &message!("  C   = {center}   centre of \"{on}\"", center, on));
         }
         let normal = match (shape.geometry.is_round(), self.hit.from_inside) {
-            (true, true) => "(C − P)/‖C − P‖, the eye is inside",
-            (true, false) => "(P − C)/‖P − C‖",
-            (false, true) => "inward, the eye is inside",
-            (false, false) => "on the eye's side",
+            (true, true) => message!("(C − P)/‖C − P‖, the eye is inside"),
+            (true, false) => Message::verbatim("(P − C)/‖P − C‖"),
+            (false, true) => message!("inward, the eye is inside"),
+            (false, false) => message!("on the eye's side"),
         };
-        line(text, format_args!("  N   = {}   {normal}", vector(point.normal)));
-        line(text, format_args!("  O   = {}   eye", vector_in(scene.frame().eye, length)));
+        say(text, &message!("  N   = {vector}   {normal}", vector = vector(point.normal), normal));
+        say(text, &message!("  O   = {eye}   eye", eye = vector_in(scene.frame().eye, length)));
         let is_parallel = matches!(description.camera().projection, Projection::Orthographic(_));
-        let view =
-            if is_parallel { "against the direction of view, along parallel rays" } else { "(O − P)/‖O − P‖" };
-        line(text, format_args!("  V   = {}   {view}", vector(point.view)));
+        let view = if is_parallel {
+            message!("against the direction of view, along parallel rays")
+        } else {
+            Message::verbatim("(O − P)/‖O − P‖")
+        };
+        say(text, &message!("  V   = {vector}   {view}", vector = vector(point.view), view));
         line(text, format_args!("  cosθ_o = N·V = {}", digits(point.cos_theta_o)));
         match self.seen {
             SeenFromEye::Seen => {}
             SeenFromEye::FacesAway => {
-                line(
+                say(
                     text,
-                    format_args!(
-                        "  θ_o ≥ 90°: the eye does not see this side, and B = 0 where B depends on the viewer"
-                    ),
+                    &message!("  θ_o ≥ 90°: the eye does not see this side, and B = 0 where B depends on the viewer"),
                 );
             }
             SeenFromEye::Behind => {
-                line(text, format_args!("  The eye does not see the point: it is behind the plane of the eye."));
+                say(text, &message!("  The eye does not see the point: it is behind the plane of the eye."));
             }
             SeenFromEye::HiddenBy(other) => {
                 let other = description.name_of(other);
-                line(text, format_args!("  The eye does not see the point: \"{other}\" stands before it."));
+                say(text, &message!("  The eye does not see the point: \"{other}\" stands before it.", other));
             }
         }
     }
 
-    fn explain_light(&self, text: &mut String, scene: &PreparedScene, index: usize, term: &LightTerm) {
+    fn explain_light(&self, text: &mut Page, scene: &PreparedScene, index: usize, term: &LightTerm) {
         let Light { name, kind, is_on, .. } = &scene.scene().lights()[index];
         line(text, format_args!(""));
-        let off = if *is_on { "" } else { ", switched off" };
-        line(text, format_args!("Light {} \"{name}\"{off}", index + 1));
+        let number = index + 1;
+        if *is_on {
+            say(text, &message!("Light {number} \"{name}\"", number, name));
+        } else {
+            say(text, &message!("Light {number} \"{name}\", switched off", number, name));
+        }
         match kind {
             LightKind::Point(light) => self.explain_point_light(text, scene, light, index),
             LightKind::Parallel(light) => self.explain_parallel_light(text, scene, light, index),
@@ -101,7 +110,7 @@ impl ProbeReading {
         self.explain_reflection(text, scene, index, term);
     }
 
-    fn explain_point_light(&self, text: &mut String, scene: &PreparedScene, light: &PointLight, index: usize) {
+    fn explain_point_light(&self, text: &mut Page, scene: &PreparedScene, light: &PointLight, index: usize) {
         let term = &self.terms[index];
         let description = scene.scene();
         let length = description.length();
@@ -131,14 +140,14 @@ impl ProbeReading {
         );
     }
 
-    fn explain_parallel_light(&self, text: &mut String, scene: &PreparedScene, light: &ParallelLight, index: usize) {
+    fn explain_parallel_light(&self, text: &mut Page, scene: &PreparedScene, light: &ParallelLight, index: usize) {
         let term = &self.terms[index];
         let unit = scene.scene().unit_system().irradiance_unit();
-        line(text, format_args!("  D   = {}   the way that its light travels", vector(light.direction)));
+        say(text, &message!("  D   = {vector}   the way that its light travels", vector = vector(light.direction)));
         line(text, format_args!("  L   = −D = {}", vector(term.direction)));
         self.explain_cosine(text, term);
         let across = digits(light.irradiance);
-        line(text, format_args!("  E₀  = {across} {unit}, on a plane at right angles to D"));
+        say(text, &message!("  E₀  = {across} {unit}, on a plane at right angles to D", across, unit));
         self.explain_visibility(text, scene, index);
         let (visibility, cosine, irradiance) = (term.visibility, digits(term.cos_theta_i), digits(term.irradiance));
         line(
@@ -147,42 +156,51 @@ impl ProbeReading {
         );
     }
 
-    fn explain_cosine(&self, text: &mut String, term: &LightTerm) {
+    fn explain_cosine(&self, text: &mut Page, term: &LightTerm) {
         let cosine = self.hit.point.normal.dot(term.direction);
         line(text, format_args!("  cosθ_i = max(0, N·L) = max(0, {}) = {}", digits(cosine), digits(term.cos_theta_i)));
     }
 
-    fn explain_visibility(&self, text: &mut String, scene: &PreparedScene, index: usize) {
+    fn explain_visibility(&self, text: &mut Page, scene: &PreparedScene, index: usize) {
         if let Some(blocker) = self.blockers[index] {
             let name = scene.scene().name_of(blocker);
-            let what = if blocker == self.hit.primitive { "the wall of " } else { "" };
-            line(text, format_args!("  v   = {}: {what}\"{name}\" stands between", self.terms[index].visibility));
+            let visibility = self.terms[index].visibility;
+            if blocker == self.hit.primitive {
+                say(text, &message!("  v   = {visibility}: the wall of \"{name}\" stands between", visibility, name));
+            } else {
+                say(text, &message!("  v   = {visibility}: \"{name}\" stands between", visibility, name));
+            }
         }
     }
 
-    fn explain_ambient(&self, text: &mut String, scene: &PreparedScene, ambient: &Ambient) {
+    fn explain_ambient(&self, text: &mut Page, scene: &PreparedScene, ambient: &Ambient) {
         let unit = scene.scene().unit_system().irradiance_unit();
         let (radiance, irradiance) = (digits(ambient.radiance), digits(self.shading.ambient));
         line(text, format_args!(""));
-        line(text, format_args!("Ambient light"));
+        say(text, &message!("Ambient light"));
         if ambient.obstruction.is_none() {
             line(text, format_args!("  E   = π L_a = π × {radiance} = {irradiance} {unit}   (3.9)"));
         } else {
             let whole = ambient.unobstructed_irradiance();
             let share = digits(if whole > 0.0 { self.shading.ambient / whole } else { 0.0 });
             let error = digits(scene.ambient_irradiance(&self.hit).standard_error);
-            line(text, format_args!("  p   = {share} of the hemisphere, by cosθ, is free"));
-            line(
+            say(text, &message!("  p   = {share} of the hemisphere, by cosθ, is free", share));
+            say(
                 text,
-                format_args!(
-                    "  E   = π L_a p = π × {radiance} × {share} = {irradiance} {unit}, standard error {error}   (3.9)"
+                &message!(
+                    "  E   = π L_a p = π × {radiance} × {share} = {irradiance} {unit}, standard error {error}   (3.9)",
+                    radiance,
+                    share,
+                    irradiance,
+                    unit,
+                    error
                 ),
             );
         }
         self.explain_diffuse(text, scene, self.shading.ambient);
     }
 
-    fn explain_reflection(&self, text: &mut String, scene: &PreparedScene, index: usize, term: &LightTerm) {
+    fn explain_reflection(&self, text: &mut Page, scene: &PreparedScene, index: usize, term: &LightTerm) {
         self.explain_diffuse(text, scene, term.irradiance);
         let convention = scene.scene().convention();
         let Some(material) = scene.scene().material_of(self.hit.primitive) else { return };
@@ -213,10 +231,11 @@ impl ProbeReading {
             }
             _ => format!("E k_s (N·H)^n = {irradiance} × {k_s} × {lobe}"),
         };
-        line(text, format_args!("  specular = {specular} = {} {end}", digits(term.specular(formula, &self.hit.point))));
+        let value = digits(term.specular(formula, &self.hit.point));
+        say(text, &message!("  specular = {specular} = {value} {end}", specular, value, end));
     }
 
-    fn explain_diffuse(&self, text: &mut String, scene: &PreparedScene, irradiance: f64) {
+    fn explain_diffuse(&self, text: &mut Page, scene: &PreparedScene, irradiance: f64) {
         let convention = scene.scene().convention();
         let Some(material) = scene.scene().material_of(self.hit.primitive) else { return };
         if !convention.uses_material() {
@@ -225,7 +244,7 @@ impl ProbeReading {
         let k_d = scene.scene().materials()[material].reflectance.diffuse;
         let end = format!("{}   ({})", convention.unit(scene.scene().unit_system()), convention.formula_number());
         if self.hit.point.cos_theta_o <= 0.0 {
-            line(text, format_args!("  diffuse = specular = 0 {end}, since θ_o ≥ 90°"));
+            say(text, &message!("  diffuse = specular = 0 {end}, since θ_o ≥ 90°", end));
             return;
         }
         let value = digits(irradiance * scene.formula(self.hit.primitive).diffuse_factor(self.hit.point.cos_theta_o));
@@ -241,21 +260,27 @@ impl ProbeReading {
                 format!("E k_d/π = {irradiance} × {k_d}/π")
             }
         };
-        line(text, format_args!("  diffuse  = {diffuse} = {value} {end}"));
+        say(text, &message!("  diffuse  = {diffuse} = {value} {end}", diffuse, value, end));
     }
 
-    fn explain_sum(&self, text: &mut String, scene: &PreparedScene) {
+    fn explain_sum(&self, text: &mut Page, scene: &PreparedScene) {
         let description = scene.scene();
         let convention = description.convention();
         let unit = convention.unit(description.unit_system());
         line(text, format_args!(""));
-        let (lights, ambient) = (self.terms.len(), description.ambient().map_or("", |_| " and the ambient light"));
-        line(text, format_args!("Sum over {lights} light{}{ambient}", if lights == 1 { "" } else { "s" }));
+        let count = self.terms.len();
+        let sum = match (count, description.ambient()) {
+            (1, None) => message!("Sum over {count} light", count),
+            (1, Some(_)) => message!("Sum over {count} light and the ambient light", count),
+            (_, None) => message!("Sum over {count} lights", count),
+            (_, Some(_)) => message!("Sum over {count} lights and the ambient light", count),
+        };
+        say(text, &sum);
         let irradiance = description.unit_system().irradiance_unit();
         line(text, format_args!("  E = {} {irradiance}   (3.1)", full(self.shading.irradiance)));
         if convention.uses_material() {
             let (diffuse, specular) = (digits(self.shading.diffuse), digits(self.shading.specular));
-            line(text, format_args!("  B = diffuse + specular = {diffuse} + {specular}"));
+            say(text, &message!("  B = diffuse + specular = {diffuse} + {specular}", diffuse, specular));
         }
         let number = convention.formula_number();
         line(text, format_args!("  B = {} {unit}   ({number})", full(self.shading.brightness())));
@@ -263,13 +288,13 @@ impl ProbeReading {
 }
 
 /// What the highlight of (3.11) and (3.12) is multiplied by: the irradiance of a surface that faces the light.
-fn explain_irradiance_across(text: &mut String, scene: &PreparedScene, index: usize, term: &LightTerm) {
+fn explain_irradiance_across(text: &mut Page, scene: &PreparedScene, index: usize, term: &LightTerm) {
     let description = scene.scene();
     let (unit, number) = (description.unit_system().irradiance_unit(), description.convention().formula_number());
     let across = digits(term.lobe_irradiance);
     let calculation = match description.lights()[index].kind {
         _ if term.cos_theta_i <= 0.0 => {
-            line(text, format_args!("  E⊥  = 0 {unit}, since cosθ_i = 0   ({number})"));
+            say(text, &message!("  E⊥  = 0 {unit}, since cosθ_i = 0   ({number})", unit, number));
             return;
         }
         LightKind::Point(_) => {
@@ -278,22 +303,32 @@ fn explain_irradiance_across(text: &mut String, scene: &PreparedScene, index: us
         }
         LightKind::Parallel(_) => format!("v E₀ = {} × {}", term.visibility, digits(term.intensity)),
     };
-    line(text, format_args!("  E⊥  = {calculation} = {across} {unit}, without cosθ_i   ({number})"));
+    say(
+        text,
+        &message!(
+            "  E⊥  = {calculation} = {across} {unit}, without cosθ_i   ({number})",
+            calculation,
+            across,
+            unit,
+            number
+        ),
+    );
 }
 
 /// The calculation of each component, and the luminance of their results.
-fn explain_components(text: &mut String, components: &Components, readings: &Rgb<ProbeReading>) {
+fn explain_components(text: &mut Page, components: &Components, readings: &Rgb<ProbeReading>) {
     let space = components.space;
     for component in Component::ALL {
         line(text, format_args!(""));
-        line(text, format_args!("── {} ({}) ──", component.name(), space.name()));
+        say(text, &message!("── {component} ({space}) ──", component = component.label(), space = space.name()));
         readings.of(*component).explain_numbers(text, components.of(*component));
     }
     let scene = components.of(Component::Red).scene();
     let (convention, units) = (scene.convention(), scene.unit_system());
     let weights = space.luminance_weights();
     line(text, format_args!(""));
-    line(text, format_args!("Luminance Y = {}   (3.10), {}", space.luminance_text(), space.name()));
+    let formula = space.luminance_text();
+    say(text, &message!("Luminance Y = {formula}   (3.10), {space}", formula, space = space.name()));
     let mut sum = |symbol: &str, values: Rgb, unit: &str| {
         let terms = Rgb::from_fn(|one| format!("{} × {}", digits(*weights.of(one)), digits(*values.of(one))));
         let sum = full(values.weighted_by(weights));
@@ -303,18 +338,18 @@ fn explain_components(text: &mut String, components: &Components, readings: &Rgb
     sum("B", readings.map(|reading| reading.shading.brightness()), convention.unit(units));
 }
 
-fn explain_emission(text: &mut String, light: &PointLight, term: &LightTerm, unit: &str) {
+fn explain_emission(text: &mut Page, light: &PointLight, term: &LightTerm, unit: &str) {
     let (on_axis, intensity) = (digits(light.intensity), digits(term.intensity));
     let axis = match light.emission {
         Emission::Isotropic => {
-            line(text, format_args!("  I   = {intensity} {unit}, isotropic"));
+            say(text, &message!("  I   = {intensity} {unit}, isotropic", intensity, unit));
             return;
         }
         Emission::Lambertian { axis } => axis,
         Emission::Spot(spot) => spot.cone.axis,
     };
     let cosine = axis.dot(-term.direction);
-    line(text, format_args!("  A   = {}   axis of the light", vector(axis)));
+    say(text, &message!("  A   = {vector}   axis of the light", vector = vector(axis)));
     line(text, format_args!("  cosγ = A·(−L) = {}", digits(cosine)));
     let Emission::Spot(spot) = light.emission else {
         let cosine = digits(cosine);
@@ -324,9 +359,9 @@ fn explain_emission(text: &mut String, light: &PointLight, term: &LightTerm, uni
     let [inner, outer] = [spot.inner_angle(), spot.outer_angle()];
     let [inner_cosine, outer_cosine] = [inner, outer].map(libm::cos);
     let [inner, outer] = [inner, outer].map(|angle| digits(angle.to_degrees()));
-    line(text, format_args!("  α   = {inner}°, β = {outer}°   half angles of its cones"));
+    say(text, &message!("  α   = {inner}°, β = {outer}°   half angles of its cones", inner, outer));
     let x = ((cosine - outer_cosine) / (inner_cosine - outer_cosine)).clamp(0.0, 1.0);
-    line(text, format_args!("  x   = (cosγ − cosβ)/(cosα − cosβ), from 0 to 1: {}", digits(x)));
+    say(text, &message!("  x   = (cosγ − cosβ)/(cosα − cosβ), from 0 to 1: {x}", x = digits(x)));
     line(
         text,
         format_args!(
@@ -336,10 +371,23 @@ fn explain_emission(text: &mut String, light: &PointLight, term: &LightTerm, uni
     );
 }
 
-fn line(text: &mut String, content: std::fmt::Arguments<'_>) {
+/// The lines so far.
+struct Page {
+    text: String,
+    language: Language,
+}
+
+/// A line without words.
+fn line(page: &mut Page, content: std::fmt::Arguments<'_>) {
     // Writing to a `String` cannot fail.
-    let _ = text.write_fmt(content);
-    text.push('\n');
+    let _ = page.text.write_fmt(content);
+    page.text.push('\n');
+}
+
+/// A line with words.
+fn say(page: &mut Page, line: &Message) {
+    page.text.push_str(&line.in_language(page.language));
+    page.text.push('\n');
 }
 
 fn vector_in(vector: Vector, length: LengthUnit) -> String {

@@ -2,20 +2,19 @@
 
 use crate::analysis::cells::{self, Cell, Layout};
 use crate::map::{Coordinates, Map, Pixel, Quantity, Resolution, Window};
+use crate::message;
 use crate::prepare::PreparedScene;
 use crate::render::RenderError;
 use crate::scene::Grid;
 use crate::shape::SurfacePoint;
+use crate::text::Message;
 use crate::vector::Vector;
 
 /// Why there is no map of a grid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.message())]
 pub enum GridError {
     /// At the position of a point light the irradiance is unbounded.
-    #[error(
-        "the light \"{light}\" stands at the point in column {}, row {} of the grid \"{grid}\"; move one of them",
-        cell.column, cell.row
-    )]
     LightAtPoint {
         /// The light.
         light: String,
@@ -25,17 +24,36 @@ pub enum GridError {
         cell: Pixel,
     },
     /// A channel that needs a surface.
-    #[error("a grid has no channel `{name}`; allowed: irradiance, ambient, position, normal, light.NAME")]
     NoSuchChannel {
         /// The channel.
         name: String,
     },
     /// A channel for a light that the scene does not have.
-    #[error("the scene has no light named \"{name}\"")]
     NoSuchLight {
         /// The requested name.
         name: String,
     },
+}
+
+impl GridError {
+    /// What is wrong, in either language.
+    #[must_use]
+    pub fn message(&self) -> Message {
+        match self {
+            Self::LightAtPoint { light, grid, cell: Pixel { column, row } } => message!(
+                "the light \"{light}\" stands at the point in column {column}, row {row} of the grid \"{grid}\"; move one of them",
+                light,
+                column,
+                row,
+                grid
+            ),
+            Self::NoSuchChannel { name } => message!(
+                "a grid has no channel `{name}`; allowed: irradiance, ambient, position, normal, light.NAME",
+                name
+            ),
+            Self::NoSuchLight { name } => message!("the scene has no light named \"{name}\"", name),
+        }
+    }
 }
 
 impl PreparedScene {

@@ -3,10 +3,12 @@
 use crate::camera::ScreenPosition;
 use crate::color::Rgb;
 use crate::map::Pixel;
+use crate::message;
 use crate::prepare::{Hit, PreparedScene};
 use crate::scene::Scene;
 use crate::shade::{LightTerm, Shading};
 use crate::shape::{Located, Miss, Primitive, surface_at};
+use crate::text::Message;
 use crate::units::LengthUnit;
 use crate::vector::Vector;
 
@@ -117,46 +119,62 @@ impl ProbeReading {
 
     /// Why the eye does not see the point, in words; `None` if it does.
     #[must_use]
-    pub fn why_unseen(&self, scene: &Scene) -> Option<String> {
+    pub fn why_unseen(&self, scene: &Scene) -> Option<Message> {
         match self.seen {
             SeenFromEye::Seen => None,
-            SeenFromEye::Behind => Some("it is behind the plane of the eye".into()),
-            SeenFromEye::FacesAway => Some("the surface faces away there (θ_o ≥ 90°)".into()),
-            SeenFromEye::HiddenBy(other) => Some(format!("\"{}\" stands before it", scene.name_of(other))),
+            SeenFromEye::Behind => Some(message!("it is behind the plane of the eye")),
+            SeenFromEye::FacesAway => Some(message!("the surface faces away there (θ_o ≥ 90°)")),
+            SeenFromEye::HiddenBy(other) => {
+                Some(message!("\"{other}\" stands before it", other = scene.name_of(other)))
+            }
         }
     }
 }
 
 /// Why there is no value.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.message())]
 pub enum ProbeError {
     /// The point is on no surface.
-    #[error("the point is on no surface")]
     OffSurface(Box<Miss>),
     /// The scene has no shapes.
-    #[error("the scene has no shapes")]
     NoShapes,
     /// Only spheres have points given by angles.
-    #[error("points are given by angles on a sphere only, not on a {kind}")]
     NoAngles {
         /// The kind of the shape.
         kind: &'static str,
     },
     /// The pixel is outside the image.
-    #[error("there is no pixel at column {}, row {}", pixel.column, pixel.row)]
     NoSuchPixel {
         /// The requested pixel.
         pixel: Pixel,
     },
     /// The pixel sees no surface.
-    #[error("no surface is seen at column {}, row {}", pixel.column, pixel.row)]
     NothingSeen {
         /// The requested pixel.
         pixel: Pixel,
     },
     /// A point of the screen sees no surface.
-    #[error("no surface is seen there on the screen")]
     NothingThere,
+}
+
+impl ProbeError {
+    /// What is wrong, in either language.
+    #[must_use]
+    pub fn message(&self) -> Message {
+        match self {
+            Self::OffSurface(_) => message!("the point is on no surface"),
+            Self::NoShapes => message!("the scene has no shapes"),
+            Self::NoAngles { kind } => message!("points are given by angles on a sphere only, not on a {kind}", kind),
+            Self::NoSuchPixel { pixel: Pixel { column, row } } => {
+                message!("there is no pixel at column {column}, row {row}", column, row)
+            }
+            Self::NothingSeen { pixel: Pixel { column, row } } => {
+                message!("no surface is seen at column {column}, row {row}", column, row)
+            }
+            Self::NothingThere => message!("no surface is seen there on the screen"),
+        }
+    }
 }
 
 impl PreparedScene {

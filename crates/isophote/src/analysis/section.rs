@@ -2,8 +2,10 @@
 
 use crate::camera::ScreenPosition;
 use crate::map::Pixel;
+use crate::message;
 use crate::prepare::{Hit, PreparedScene};
 use crate::shade::Shading;
+use crate::text::Message;
 
 /// A line on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,9 +36,9 @@ pub struct Sample {
 
 /// Why there is no section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.message())]
 pub enum SectionError {
     /// The image has no such row.
-    #[error("there is no row {row}: the image has rows 0 to {last}")]
     NoSuchRow {
         /// The requested row.
         row: u32,
@@ -44,7 +46,6 @@ pub enum SectionError {
         last: u32,
     },
     /// The image has no such column.
-    #[error("there is no column {column}: the image has columns 0 to {last}")]
     NoSuchColumn {
         /// The requested column.
         column: u32,
@@ -52,8 +53,23 @@ pub enum SectionError {
         last: u32,
     },
     /// A line with fewer than two points.
-    #[error("a section needs at least 2 samples")]
     TooFewSamples,
+}
+
+impl SectionError {
+    /// What is wrong, in either language.
+    #[must_use]
+    pub fn message(&self) -> Message {
+        match self {
+            Self::NoSuchRow { row, last } => {
+                message!("there is no row {row}: the image has rows 0 to {last}", row, last)
+            }
+            Self::NoSuchColumn { column, last } => {
+                message!("there is no column {column}: the image has columns 0 to {last}", column, last)
+            }
+            Self::TooFewSamples => message!("a section needs at least 2 samples"),
+        }
+    }
 }
 
 impl PreparedScene {

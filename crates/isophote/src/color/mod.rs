@@ -7,6 +7,8 @@ mod space;
 
 pub use space::{Chromaticity, ColorSpace, Matrix};
 
+use crate::message;
+use crate::text::Message;
 use crate::units::Keyword;
 
 /// One value for each component of a colour.
@@ -39,6 +41,18 @@ impl Keyword for Component {
             Self::Red => "red",
             Self::Green => "green",
             Self::Blue => "blue",
+        }
+    }
+}
+
+impl Component {
+    /// Its name for people.
+    #[must_use]
+    pub fn label(self) -> Message {
+        match self {
+            Self::Red => message!("red"),
+            Self::Green => message!("green"),
+            Self::Blue => message!("blue"),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The format of a file: chosen by its suffix, checked by its contents.
 
+use crate::message;
+use crate::text::Message;
 use std::path::Path;
 
 use super::{Fault, FilePosition, FileProblem, ImportError};
@@ -28,7 +30,7 @@ impl MeshFormat {
             "ply" => Ok(Self::Ply),
             "stl" => Ok(Self::Stl),
             "glb" => Ok(Self::Glb),
-            _ => Err(ImportError::Suffix { file: file.into(), allowed: ".obj, .ply, .stl and .glb" }),
+            _ => Err(ImportError::Suffix { file: file.into(), allowed: message!(".obj, .ply, .stl and .glb") }),
         }
     }
 
@@ -63,7 +65,7 @@ impl SpheresFormat {
             "csv" => Ok(Self::Csv),
             "npy" => Ok(Self::Npy),
             "ply" => Ok(Self::Ply),
-            _ => Err(ImportError::Suffix { file: file.into(), allowed: ".csv, .npy and .ply" }),
+            _ => Err(ImportError::Suffix { file: file.into(), allowed: message!(".csv, .npy and .ply") }),
         }
     }
 
@@ -93,10 +95,10 @@ pub(super) fn check(bytes: &[u8], expected: Format) -> Result<(), Fault> {
         return Ok(());
     }
     let looks_like = match guess {
-        Some(Guess::Format(format)) => format.name(),
-        Some(Guess::Other(name)) => name,
-        Some(Guess::Binary) => "binary data",
-        None => "nothing known here",
+        Some(Guess::Format(format)) => Message::verbatim(format.name()),
+        Some(Guess::Other(name)) => name(),
+        Some(Guess::Binary) => message!("binary data"),
+        None => message!("nothing known here"),
     };
     Err(FileProblem::Foreign { expected: expected.name(), looks_like }.at(FilePosition::Whole))
 }
@@ -131,7 +133,7 @@ impl Format {
 
 enum Guess {
     Format(Format),
-    Other(&'static str),
+    Other(fn() -> Message),
     Binary,
 }
 
@@ -141,14 +143,14 @@ fn guess(bytes: &[u8]) -> Option<Guess> {
         (b"ply\r", Guess::Format(Format::Ply)),
         (b"glTF", Guess::Format(Format::Glb)),
         (b"\x93NUMPY", Guess::Format(Format::Npy)),
-        (b"PK\x03\x04", Guess::Other("a ZIP archive (NPZ, 3MF, USDZ)")),
-        (b"\x1f\x8b", Guess::Other("a gzip archive")),
-        (b"\x89PNG", Guess::Other("a PNG picture")),
-        (b"\x76\x2f\x31\x01", Guess::Other("an EXR picture")),
-        (b"Kaydara FBX", Guess::Other("an FBX scene")),
-        (b"BLENDER", Guess::Other("a Blender scene")),
-        (b"\xff\xfe", Guess::Other("text in UTF-16")),
-        (b"\xfe\xff", Guess::Other("text in UTF-16")),
+        (b"PK\x03\x04", Guess::Other(|| message!("a ZIP archive (NPZ, 3MF, USDZ)"))),
+        (b"\x1f\x8b", Guess::Other(|| message!("a gzip archive"))),
+        (b"\x89PNG", Guess::Other(|| message!("a PNG picture"))),
+        (b"\x76\x2f\x31\x01", Guess::Other(|| message!("an EXR picture"))),
+        (b"Kaydara FBX", Guess::Other(|| message!("an FBX scene"))),
+        (b"BLENDER", Guess::Other(|| message!("a Blender scene"))),
+        (b"\xff\xfe", Guess::Other(|| message!("text in UTF-16"))),
+        (b"\xfe\xff", Guess::Other(|| message!("text in UTF-16"))),
     ];
     if let Some((_, guess)) = magic.into_iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return Some(guess);
@@ -177,8 +179,8 @@ fn guess_text(start: &[u8]) -> Option<Guess> {
     match word {
         "v" | "vn" | "vt" | "f" | "o" | "g" | "s" | "mtllib" | "usemtl" => Some(Guess::Format(Format::Obj)),
         "solid" => Some(Guess::Format(Format::Stl)),
-        _ if line.starts_with('{') => Some(Guess::Other("JSON (a glTF scene goes into one file as .glb)")),
-        _ if line.starts_with('<') => Some(Guess::Other("XML or HTML")),
+        _ if line.starts_with('{') => Some(Guess::Other(|| message!("JSON (a glTF scene goes into one file as .glb)"))),
+        _ if line.starts_with('<') => Some(Guess::Other(|| message!("XML or HTML"))),
         _ if line.split(',').any(|column| matches!(column.trim(), "x" | "y" | "z" | "radius")) => {
             Some(Guess::Format(Format::Csv))
         }

@@ -1,5 +1,6 @@
 //! Names of materials of triangles or spheres.
 
+use crate::message;
 use std::collections::HashMap;
 
 use super::FileProblem;
@@ -34,7 +35,7 @@ impl SlotBook {
             *slot
         } else {
             let slot = u16::try_from(self.names.len())
-                .map_err(|_| FileProblem::TooMany { what: "materials", most: u64::from(u16::MAX) + 1 })?;
+                .map_err(|_| FileProblem::TooMany { what: message!("materials"), most: u64::from(u16::MAX) + 1 })?;
             self.names.push(name.clone());
             self.known.insert(name, slot);
             slot

@@ -3,6 +3,8 @@
 mod memory;
 mod origin;
 
+use crate::message;
+use crate::text::Message;
 use std::borrow::Cow;
 use std::io;
 use std::path::PathBuf;
@@ -43,49 +45,56 @@ pub enum ReadFailure {
     /// It is not where an output says that it was.
     Gone {
         /// Its length and hash at that time.
-        was: String,
+        was: Message,
     },
     /// It is no longer the file that an output was made of.
     Changed {
         /// Its length and hash at that time.
-        was: String,
+        was: Message,
         /// Where the changed file is.
         at: PathBuf,
         /// The length and hash of the changed file.
-        is: String,
+        is: Message,
     },
 }
 
 impl ReadFailure {
     /// Describes what is wrong with a file, for people.
     #[must_use]
-    pub fn describe(&self, file: &std::path::Path) -> String {
+    pub fn describe(&self, file: &std::path::Path) -> Message {
         let file = file.display();
         match self {
-            Self::Unreadable(reason) => format!("cannot read ‘{file}’: {reason}"),
-            Self::Directory => format!("‘{file}’ is a directory; a file is needed"),
-            Self::NoFile => format!("‘{file}’ is a pipe or a device; a file is needed"),
-            Self::Unknown(_) => format!("there is no file ‘{file}’ here"),
-            Self::Gone { was } => format!("the file ‘{file}’ that this was made of ({was}) is not there any more"),
-            Self::Changed { was, at, is } => {
-                format!("the file ‘{file}’ that this was made of ({was}) has changed: ‘{}’ is {is}", at.display())
+            Self::Unreadable(reason) => message!("cannot read ‘{file}’: {reason}", file, reason = reason.to_string()),
+            Self::Directory => message!("‘{file}’ is a directory; a file is needed", file),
+            Self::NoFile => message!("‘{file}’ is a pipe or a device; a file is needed", file),
+            Self::Unknown(_) => message!("there is no file ‘{file}’ here", file),
+            Self::Gone { was } => {
+                message!("the file ‘{file}’ that this was made of ({was}) is not there any more", file, was)
             }
-            Self::NoFiles => format!("the scene names the file ‘{file}’; none can be read here"),
+            Self::Changed { was, at, is } => message!(
+                "the file ‘{file}’ that this was made of ({was}) has changed: ‘{at}’ is {is}",
+                file,
+                was,
+                at = at.display(),
+                is
+            ),
+            Self::NoFiles => message!("the scene names the file ‘{file}’; none can be read here", file),
         }
     }
 
     /// What is allowed, or what to do.
     #[must_use]
-    pub fn help(&self) -> String {
+    pub fn help(&self) -> Message {
         match self {
-            Self::Unreadable(_) | Self::Directory | Self::NoFile => "a relative path starts at the scene file".into(),
-            Self::Unknown(known) if known.is_empty() => "there are no files".into(),
-            Self::Unknown(known) => format!("allowed: {}", known.join(", ")),
-            Self::Gone { .. } | Self::Changed { .. } => {
-                "put that file back; or write the scene beside other files: isophote show OUTPUT --scene > scene.toml"
-                    .into()
+            Self::Unreadable(_) | Self::Directory | Self::NoFile => {
+                message!("a relative path starts at the scene file")
             }
-            Self::NoFiles => "allowed: shapes whose numbers stand in the scene itself".into(),
+            Self::Unknown(known) if known.is_empty() => message!("there are no files"),
+            Self::Unknown(known) => message!("allowed: {names}", names = known.join(", ")),
+            Self::Gone { .. } | Self::Changed { .. } => message!(
+                "put that file back; or write the scene beside other files: isophote show OUTPUT --scene > scene.toml"
+            ),
+            Self::NoFiles => message!("allowed: shapes whose numbers stand in the scene itself"),
         }
     }
 }

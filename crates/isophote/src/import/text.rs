@@ -1,6 +1,8 @@
 //! Lines, words and numbers of text files, read as bytes: comments may be in any encoding.
 
 use super::FileProblem;
+use crate::message;
+use crate::text::Message;
 
 /// The lines with their numbers from 1, without the line endings (LF or CR LF). A final line ending does not start another
 /// line.
@@ -26,7 +28,7 @@ pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
 /// A decimal number; `nan`, `inf` and numbers too large for a double are left for the caller to reject, with the value.
 pub(super) fn number(word: &[u8], field: &str) -> Result<f64, FileProblem> {
     let number = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-    number.ok_or_else(|| not_a_number(word, field, "a number"))
+    number.ok_or_else(|| not_a_number(word, Message::verbatim(field), message!("a number")))
 }
 
 /// A finite decimal number.
@@ -41,13 +43,13 @@ pub(super) fn finite(value: f64, field: &'static str) -> Result<f64, FileProblem
 }
 
 /// An integer.
-pub(super) fn integer(word: &[u8], field: &str) -> Result<i64, FileProblem> {
+pub(super) fn integer(word: &[u8], field: impl FnOnce() -> Message) -> Result<i64, FileProblem> {
     let number = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-    number.ok_or_else(|| not_a_number(word, field, "a whole number"))
+    number.ok_or_else(|| not_a_number(word, field(), message!("a whole number")))
 }
 
-fn not_a_number(word: &[u8], field: &str, allowed: &'static str) -> FileProblem {
-    FileProblem::NotANumber { field: field.into(), text: shown(word), allowed }
+fn not_a_number(word: &[u8], field: Message, allowed: Message) -> FileProblem {
+    FileProblem::NotANumber { field, text: shown(word), allowed }
 }
 
 /// A word for messages: long ones are truncated, and invalid text is replaced.

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::message;
+use crate::text::{Language, Message};
 use crate::units::{Keyword, LengthUnit};
 
 /// What x and y of a [`Window`](super::Window) are: coordinates on the screen, or on a surface.
@@ -38,6 +40,23 @@ pub struct CoordinateAxis {
     pub title: &'static str,
     /// Its unit; `"1"` for pure numbers.
     pub unit: &'static str,
+}
+
+impl CoordinateAxis {
+    /// Its name in figures, in a language.
+    #[must_use]
+    pub fn label(&self, language: Language) -> String {
+        let label = match self.name {
+            "longitude" => message!("longitude"),
+            "latitude" => message!("latitude"),
+            "sin_latitude" => message!("sine of the latitude"),
+            "angle" => message!("angle"),
+            "height" => message!("height"),
+            "radius" => message!("radius"),
+            _ => Message::verbatim(self.title),
+        };
+        label.in_language(language)
+    }
 }
 
 impl Coordinates {

@@ -16,7 +16,9 @@ pub use values::{Scalars, Values};
 
 use serde::{Deserialize, Serialize};
 
+use crate::message;
 use crate::reflectance::Convention;
+use crate::text::{Language, Message};
 use crate::units::{Keyword, LengthUnit, ScreenUnit, UnitSystem};
 
 /// Width and height in pixels.
@@ -238,6 +240,53 @@ impl Quantity {
             Self::LightBrightness(light) => format!("brightness.{light}"),
             Self::Color => "color".into(),
             Self::Light(light) => format!("light.{light}"),
+        }
+    }
+}
+
+/// What people call quantities, in figures and tables.
+impl Quantity {
+    /// Its name for people: in English that of the channel, in Russian a term, such as «облучённость» for the irradiance.
+    #[must_use]
+    pub fn label(&self, language: Language) -> String {
+        self.label_in(UnitSystem::Radiometric, language)
+    }
+
+    /// The same in a scene of a unit system: in Russian the irradiance of a photometric scene is «освещённость».
+    #[must_use]
+    pub fn label_in(&self, units: UnitSystem, language: Language) -> String {
+        match language {
+            Language::English => self.name(),
+            Language::Russian => self.term(units == UnitSystem::Photometric).in_language(language),
+        }
+    }
+
+    fn term(&self, is_photometric: bool) -> Message {
+        match self {
+            Self::Irradiance if is_photometric => message!("illuminance"),
+            Self::Ambient if is_photometric => message!("ambient illuminance"),
+            Self::AmbientError if is_photometric => message!("standard error of the ambient illuminance"),
+            Self::Light(light) if is_photometric => message!("illuminance from \"{light}\"", light),
+            Self::Brightness => message!("brightness"),
+            Self::Irradiance => message!("irradiance"),
+            Self::Ambient => message!("ambient irradiance"),
+            Self::Diffuse => message!("diffuse part"),
+            Self::Specular => message!("specular part"),
+            Self::Depth => message!("depth"),
+            Self::Position => message!("point of the surface"),
+            Self::Normal => message!("normal"),
+            Self::Shape => message!("index of the shape"),
+            Self::Samples => message!("number of rays"),
+            Self::Coverage => message!("part of the pixel that shows a surface"),
+            Self::SamplingError => message!("bound on the error of the mean"),
+            Self::AmbientError => message!("standard error of the ambient irradiance"),
+            Self::ZDepth => message!("depth along the direction of view"),
+            Self::CosThetaO => Message::verbatim("cosθ_o"),
+            Self::CameraNormal => message!("normal in the axes of the camera"),
+            Self::Material => message!("index of the material"),
+            Self::LightBrightness(light) => message!("brightness from \"{light}\"", light),
+            Self::Color => message!("colour"),
+            Self::Light(light) => message!("irradiance from \"{light}\"", light),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! What an output says of the files that its scene names.
 
+use crate::message;
+use crate::text::Message;
 use serde::{Deserialize, Serialize};
 
 /// A file that a scene was read from.
@@ -27,7 +29,7 @@ impl SourceFile {
 
     /// Its length and its hash, for messages.
     #[must_use]
-    pub fn describe(&self) -> String {
-        format!("{} bytes with the SHA-256 {}", self.bytes, self.sha256)
+    pub fn describe(&self) -> Message {
+        message!("{bytes} bytes with the SHA-256 {hash}", bytes = self.bytes, hash = self.sha256)
     }
 }

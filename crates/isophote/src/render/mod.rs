@@ -17,6 +17,8 @@ mod share;
 mod simd;
 mod tiles;
 
+use crate::message;
+use crate::text::Message;
 use std::ops::ControlFlow;
 
 pub use points::{PointKernel, PointValues};
@@ -73,10 +75,9 @@ pub trait Observer: Sync {
 
 /// Why there is no map.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{}", self.message())]
 pub enum RenderError {
     /// The region is empty or sticks out of the image.
-    #[error("the region {}×{} at column {}, row {} is not within the image of {}×{} pixels",
-        region.size.width, region.size.height, region.corner.column, region.corner.row, full.width, full.height)]
     Region {
         /// The requested region.
         region: Region,
@@ -84,34 +85,25 @@ pub enum RenderError {
         full: Resolution,
     },
     /// The region is too large for one map; smaller regions of the same image can be rendered one after another.
-    #[error("a map of {}×{} pixels is too large to be held in memory; allowed: sides up to {}, together at most {} pixels",
-        size.width, size.height, Resolution::LONGEST_IN_MEMORY, Resolution::MOST_IN_MEMORY)]
     TooLarge {
         /// The requested size.
         size: Resolution,
     },
     /// The system does not grant the memory that the map needs.
-    #[error(
-        "the map needs {mebibytes} MiB of memory, which the system does not grant; fewer channels or a smaller region need less"
-    )]
     Memory {
         /// The memory of all channels.
         mebibytes: usize,
     },
     /// A channel for a light that the scene does not have.
-    #[error("the scene has no light named \"{name}\"")]
     NoSuchLight {
         /// The requested name.
         name: String,
     },
     /// The channel `color` of a scene without colours.
-    #[error("{}", NO_COLOR)]
     NoColor,
     /// The channel `sampling-error` of a scene without a tolerance.
-    #[error("{}", NO_TOLERANCE)]
     NoTolerance,
     /// Single precision cannot hold a value.
-    #[error("column {}, row {}: {value:e} is more than single precision holds (3.4e38); double does", pixel.column, pixel.row)]
     Overflow {
         /// The pixel.
         pixel: Pixel,
@@ -119,20 +111,56 @@ pub enum RenderError {
         value: f64,
     },
     /// The observer stopped it.
-    #[error("interrupted")]
     Interrupted,
     /// The threads could not be started.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
 }
 
-/// Why there is no channel `color`.
-pub(crate) const NO_COLOR: &str =
-    "there is no channel `color`: no coefficient and no strength of the scene is written as [R, G, B]";
+impl RenderError {
+    /// What is wrong, in either language.
+    #[must_use]
+    pub fn message(&self) -> Message {
+        match self {
+            Self::Region { region: Region { corner, size }, full } => message!(
+                "the region {size} at column {column}, row {row} is not within the image of {full} pixels",
+                size = format!("{}×{}", size.width, size.height),
+                column = corner.column,
+                row = corner.row,
+                full = format!("{}×{}", full.width, full.height)
+            ),
+            Self::TooLarge { size: Resolution { width, height } } => message!(
+                "a map of {width}×{height} pixels is too large to be held in memory; allowed: sides up to {longest}, together at most {most} pixels",
+                width,
+                height,
+                longest = Resolution::LONGEST_IN_MEMORY,
+                most = Resolution::MOST_IN_MEMORY
+            ),
+            Self::Memory { mebibytes } => message!(
+                "the map needs {mebibytes} MiB of memory, which the system does not grant; fewer channels or a smaller region need less",
+                mebibytes
+            ),
+            Self::NoSuchLight { name } => message!("the scene has no light named \"{name}\"", name),
+            Self::NoColor => no_color(),
+            Self::NoTolerance => message!(
+                "there is no channel `sampling-error`: the scene has no tolerance; allowed with `sampling.tolerance`"
+            ),
+            Self::Overflow { pixel: Pixel { column, row }, value } => message!(
+                "column {column}, row {row}: {value} is more than single precision holds (3.4e38); double does",
+                column,
+                row,
+                value = format!("{value:e}")
+            ),
+            Self::Interrupted => message!("interrupted"),
+            Self::Threads(error) => Message::verbatim(error.to_string()),
+        }
+    }
+}
 
-/// Why there is no channel `sampling-error`.
-pub(crate) const NO_TOLERANCE: &str =
-    "there is no channel `sampling-error`: the scene has no tolerance; allowed with `sampling.tolerance`";
+/// Why there is no channel `color`.
+pub(crate) fn no_color() -> Message {
+    message!("there is no channel `color`: no coefficient and no strength of the scene is written as [R, G, B]")
+}
 
 impl Region {
     /// Whether a pixel of the image lies in it.

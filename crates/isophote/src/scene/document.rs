@@ -1,5 +1,7 @@
 //! A scene file as a tree that records where everything is in the text: TOML and JSON look the same from here on.
 
+use crate::message;
+use crate::text::{self, Message, ToValue};
 use std::fmt;
 use std::ops::Range;
 
@@ -43,21 +45,21 @@ pub enum Value {
     /// A table, or an object.
     Table(Vec<Entry>),
     /// A date, a time or null: a scene needs none of these.
-    Other(&'static str),
+    Other(Message),
 }
 
 impl Value {
     /// Its kind, for error messages.
     #[must_use]
-    pub fn describe(&self) -> String {
+    pub fn describe(&self) -> Message {
         match self {
-            Self::Boolean(value) => value.to_string(),
-            Self::Integer(number) => format!("the number {number}"),
-            Self::Float(number) => format!("the number {number:?}"),
-            Self::Text(_) => "a text".into(),
-            Self::Array(items) => format!("a list of {}", items.len()),
-            Self::Table(_) => "a table".into(),
-            Self::Other(kind) => (*kind).into(),
+            Self::Boolean(value) => Message::verbatim(value.to_string()),
+            Self::Integer(number) => message!("the number {number}", number),
+            Self::Float(number) => message!("the number {number}", number = format!("{number:?}")),
+            Self::Text(_) => message!("a text"),
+            Self::Array(items) => message!("a list of {count}", count = items.len()),
+            Self::Table(_) => message!("a table"),
+            Self::Other(kind) => kind.clone(),
         }
     }
 }
@@ -87,7 +89,7 @@ impl Document {
     #[must_use]
     pub fn parse(text: &str, syntax: Syntax) -> Self {
         if let Some(span) = too_deep(text, syntax) {
-            let message = format!("brackets are nested more than {DEEPEST} deep; a scene needs 4");
+            let message = message!("brackets are nested more than {deepest} deep; a scene needs 4", deepest = DEEPEST);
             let problem = Problem::at_span(ProblemKind::Syntax, Some(span), message);
             let root = Node { value: Value::Table(Vec::new()), span: 0..0 };
             return Self { root, syntax_problems: vec![problem] };
@@ -173,6 +175,12 @@ impl Path {
     }
 }
 
+impl ToValue for Path {
+    fn to_value(&self) -> text::Value {
+        self.to_string().to_value()
+    }
+}
+
 impl fmt::Display for Path {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (position, step) in self.0.iter().enumerate() {
@@ -240,7 +248,7 @@ fn parse_toml(text: &str) -> Document {
         .iter()
         .take(MOST_SYNTAX_PROBLEMS)
         .map(|error| {
-            let message = format!("not valid TOML: {}", error.message());
+            let message = message!("not valid TOML: {reason}", reason = error.message());
             let mut problem = Problem::at_span(ProblemKind::Syntax, error.span(), message);
             problem.help = decimal_comma(text, error.span());
             problem
@@ -251,7 +259,7 @@ fn parse_toml(text: &str) -> Document {
 }
 
 /// Advice on the line of a syntax problem if a number in it is written with a decimal comma.
-fn decimal_comma(text: &str, span: Option<Range<usize>>) -> Option<String> {
+fn decimal_comma(text: &str, span: Option<Range<usize>>) -> Option<Message> {
     let at = span?.start.min(text.len());
     let start = text.get(..at)?.rfind('\n').map_or(0, |end| end + 1);
     let line = text.get(start..)?.lines().next()?;
@@ -262,7 +270,8 @@ fn decimal_comma(text: &str, span: Option<Range<usize>>) -> Option<String> {
         let fraction = &after[..after.len() - rest.len()];
         let opening = before[..before.len() - whole.len()].trim_end_matches(['+', '-']).trim_end();
         let is_number = !whole.is_empty() && !fraction.is_empty() && opening.ends_with(['=', ':']);
-        is_number.then(|| format!("a number has a decimal point, not a comma: write {whole}.{fraction}"))
+        is_number
+            .then(|| message!("a number has a decimal point, not a comma: write {whole}.{fraction}", whole, fraction))
     })
 }
 
@@ -283,14 +292,14 @@ fn toml_node(value: Spanned<DeValue<'_>>) -> Node {
         DeValue::Float(float) => number(float.as_str()),
         DeValue::Array(items) => Value::Array(items.into_iter().map(toml_node).collect()),
         DeValue::Table(table) => Value::Table(toml_entries(table)),
-        DeValue::Datetime(_) => Value::Other("a date or time"),
+        DeValue::Datetime(_) => Value::Other(message!("a date or time")),
     };
     Node { value, span }
 }
 
 /// A decimal literal. One that exceeds the range of doubles becomes infinite and is rejected later.
 fn number(literal: &str) -> Value {
-    literal.parse().map_or(Value::Other("a number that cannot be read"), Value::Float)
+    literal.parse().map_or_else(|_| Value::Other(message!("a number that cannot be read")), Value::Float)
 }
 
 fn parse_json(text: &str) -> Document {
@@ -313,7 +322,7 @@ fn parse_json(text: &str) -> Document {
         Ok(parsed) => parsed.value.map_or_else(empty, |value| json_node(value, &mut syntax_problems)),
         Err(error) => {
             let span = error.range().start..error.range().end;
-            let message = format!("not valid JSON: {}", error.kind());
+            let message = message!("not valid JSON: {reason}", reason = error.kind().to_string());
             let mut problem = Problem::at_span(ProblemKind::Syntax, Some(span.clone()), message);
             problem.help = decimal_comma(text, Some(span));
             syntax_problems.push(problem);
@@ -321,7 +330,7 @@ fn parse_json(text: &str) -> Document {
         }
     };
     if !matches!(root.value, Value::Table(_)) {
-        let message = format!("a scene is an object {{…}}, not {}", root.value.describe());
+        let message = message!("a scene is an object {{…}}, not {found}", found = root.value.describe());
         syntax_problems.push(Problem::at_span(ProblemKind::Syntax, Some(root.span), message));
         return Document { root: empty(), syntax_problems };
     }
@@ -333,7 +342,7 @@ fn json_node(value: jsonc_parser::ast::Value<'_>, problems: &mut Vec<Problem>) -
     let span = value.range().start..value.range().end;
     let value = match value {
         Json::BooleanLit(literal) => Value::Boolean(literal.value),
-        Json::NullKeyword(_) => Value::Other("null"),
+        Json::NullKeyword(_) => Value::Other(Message::verbatim("null")),
         Json::StringLit(text) => Value::Text(text.value.into_owned()),
         Json::NumberLit(literal) => literal.value.parse().map_or_else(|_| number(literal.value), Value::Integer),
         Json::Array(array) => Value::Array(array.elements.into_iter().map(|item| json_node(item, problems)).collect()),
@@ -351,7 +360,7 @@ fn json_entries(object: jsonc_parser::ast::Object<'_>, problems: &mut Vec<Proble
         if keys.insert(key.clone()) {
             entries.push(Entry { key, key_span, node: json_node(property.value, problems) });
         } else {
-            let message = format!("the key `{key}` stands twice in this object");
+            let message = message!("the key `{key}` stands twice in this object", key);
             problems.push(Problem::at_span(ProblemKind::Syntax, Some(key_span), message));
         }
     }

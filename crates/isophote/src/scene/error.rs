@@ -5,7 +5,8 @@ use std::ops::Range;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 use super::document::{Document, Path};
-use crate::text::escaped;
+use crate::message;
+use crate::text::{Language, Message, escaped};
 
 /// Why a scene could not be used.
 #[derive(Debug, Clone, thiserror::Error)]
@@ -25,9 +26,9 @@ pub struct Problem {
     /// The item concerned, such as `sphere[0].radius`; empty for the file as a whole.
     pub path: String,
     /// What is wrong, with the value.
-    pub message: String,
+    pub message: Message,
     /// What is allowed, or what to do.
-    pub help: Option<String>,
+    pub help: Option<Message>,
     /// Its place in the text, if the scene came from a text that contains it.
     pub place: Option<TextPosition>,
     pub(super) target: Target,
@@ -96,7 +97,7 @@ pub struct TextPosition {
 impl SceneError {
     /// An error with one problem that concerns the file as a whole.
     #[must_use]
-    pub fn unreadable(name: &str, message: String, help: Option<String>) -> Self {
+    pub fn unreadable(name: &str, message: Message, help: Option<Message>) -> Self {
         let problem = Problem { help, ..Problem::new(ProblemKind::Unreadable, Target::Nothing, message) };
         Self { name: name.into(), problems: vec![problem] }
     }
@@ -112,7 +113,14 @@ impl SceneError {
     /// terminal colours.
     #[must_use]
     pub fn report(&self, color: bool) -> String {
-        report(&self.name, &self.problems, color)
+        self.report_in(Language::English, color)
+    }
+
+    /// The [report](Self::report) in a language. What the libraries that read TOML and JSON say of its syntax, and the
+    /// operating system of a file, stays in English.
+    #[must_use]
+    pub fn report_in(&self, language: Language, color: bool) -> String {
+        report_in(&self.name, &self.problems, language, color)
     }
 }
 
@@ -130,31 +138,39 @@ const SHOWN: usize = 30;
 /// Formats problems; see [`SceneError::report`].
 #[must_use]
 pub fn report(name: &str, problems: &[Problem], color: bool) -> String {
+    report_in(name, problems, Language::English, color)
+}
+
+/// Formats problems in a language; see [`SceneError::report_in`].
+#[must_use]
+pub fn report_in(name: &str, problems: &[Problem], language: Language, color: bool) -> String {
     let name = &escaped(name);
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
-    let mut drawn: Vec<String> = problems.iter().take(SHOWN).map(|problem| problem.draw(name, &renderer)).collect();
+    let mut drawn: Vec<String> =
+        problems.iter().take(SHOWN).map(|problem| problem.draw(name, language, &renderer)).collect();
     if problems.len() > SHOWN {
-        drawn.push(format!("… and {} more", count(problems) - SHOWN));
+        let more = message!("… and {count} more", count = count(problems) - SHOWN);
+        drawn.push(more.in_language(language));
     }
     drawn.join("\n\n")
 }
 
 impl Problem {
-    pub(super) fn new(kind: ProblemKind, target: Target, message: String) -> Self {
+    pub(super) fn new(kind: ProblemKind, target: Target, message: Message) -> Self {
         let path = match &target {
             Target::Value(path) | Target::Table(path) => path.to_string(),
             Target::Nothing | Target::Rest(_) | Target::Span(_) => String::new(),
         };
-        let [path, message] = [path, message].map(|text| escaped(&text).into_owned());
+        let path = escaped(&path).into_owned();
         Self { kind, path, message, help: None, place: None, target }
     }
 
-    pub(super) fn at_span(kind: ProblemKind, span: Option<Range<usize>>, message: String) -> Self {
+    pub(super) fn at_span(kind: ProblemKind, span: Option<Range<usize>>, message: Message) -> Self {
         Self::new(kind, span.map_or(Target::Nothing, Target::Span), message)
     }
 
-    pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(escaped(&help.into()).into_owned());
+    pub(super) fn with_help(mut self, help: Message) -> Self {
+        self.help = Some(help);
         self
     }
 
@@ -168,13 +184,14 @@ impl Problem {
         self.place = span.map(|span| text.place(&span));
     }
 
-    fn draw(&self, name: &str, renderer: &Renderer) -> String {
-        let level = if self.kind == ProblemKind::Warning { Level::WARNING } else { Level::ERROR };
+    fn draw(&self, name: &str, language: Language, renderer: &Renderer) -> String {
+        let (title, help) = self.levels(language);
+        let message = self.message.in_language(language);
         let Some(place) = &self.place else {
             let place = if self.path.is_empty() { name.into() } else { format!("{name}: {}", self.path) };
-            let title = level.primary_title(format!("{place}: {}", self.message));
-            return self
-                .add_help(title.elements(Vec::<Snippet<'_, annotate_snippets::Annotation<'_>>>::new()), renderer);
+            let title = title.primary_title(format!("{place}: {message}"));
+            let group = title.elements(Vec::<Snippet<'_, annotate_snippets::Annotation<'_>>>::new());
+            return self.with_help_drawn(group, help, language, renderer);
         };
         let Range { start, end } = place.highlight;
         let [before, marked, after] = [&place.text[..start], &place.text[start..end], &place.text[end..]].map(escaped);
@@ -184,12 +201,31 @@ impl Problem {
             .path(name)
             .line_start(place.line)
             .annotation(AnnotationKind::Primary.span(marked_place));
-        self.add_help(level.primary_title(self.message.as_str()).element(snippet), renderer)
+        self.with_help_drawn(title.primary_title(message).element(snippet), help, language, renderer)
     }
 
-    fn add_help(&self, group: annotate_snippets::Group<'_>, renderer: &Renderer) -> String {
+    /// The words before the message and before the help.
+    fn levels(&self, language: Language) -> (Level<'static>, Level<'static>) {
+        let (level, word) = match self.kind {
+            ProblemKind::Warning => (Level::WARNING, message!("warning")),
+            _ => (Level::ERROR, message!("error")),
+        };
+        if language == Language::English {
+            return (level, Level::HELP);
+        }
+        let help = message!("help").in_language(language);
+        (level.with_name(word.in_language(language)), Level::HELP.with_name(help))
+    }
+
+    fn with_help_drawn(
+        &self,
+        group: annotate_snippets::Group<'_>,
+        level: Level<'_>,
+        language: Language,
+        renderer: &Renderer,
+    ) -> String {
         match &self.help {
-            Some(help) => renderer.render(&[group.element(Level::HELP.message(help.as_str()))]),
+            Some(help) => renderer.render(&[group.element(level.message(help.in_language(language)))]),
             None => renderer.render(&[group]),
         }
     }

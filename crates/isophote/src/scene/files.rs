@@ -1,5 +1,7 @@
 //! Scenes and the files they name in the file system: the only module here that opens files.
 
+use crate::message;
+use crate::text::Message;
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
@@ -85,15 +87,20 @@ impl Scene {
             .read_to_end(&mut bytes)
             .map_err(|error| SceneError::unreadable(name, describe(&error), None))?;
         if bytes.len() as u64 > limits::FILE_BYTES {
-            return Err(too_large(name, &format!("more than {} bytes", limits::FILE_BYTES)));
+            return Err(too_large(name, &message!("more than {most} bytes", most = limits::FILE_BYTES)));
         }
         String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
             let line = String::from_utf8_lossy(&error.as_bytes()[..at]).matches('\n').count() + 1;
             let byte = error.as_bytes()[at];
-            let message = format!("not a text in UTF-8: byte 0x{byte:02X} at offset {at}, line {line}");
-            let help = "a scene is a TOML or JSON text; save it as UTF-8";
-            SceneError::unreadable(name, message, Some(help.into()))
+            let message = message!(
+                "not a text in UTF-8: byte 0x{byte} at offset {at}, line {line}",
+                byte = format!("{byte:02X}"),
+                at,
+                line
+            );
+            let help = message!("a scene is a TOML or JSON text; save it as UTF-8");
+            SceneError::unreadable(name, message, Some(help))
         })
     }
 }
@@ -104,24 +111,24 @@ fn open(path: &Path, name: &str) -> Result<File, SceneError> {
     let file = File::open(path).map_err(unreadable)?;
     let metadata = file.metadata().map_err(unreadable)?;
     if metadata.is_dir() {
-        return Err(SceneError::unreadable(name, "this is a directory, not a scene file".into(), None));
+        return Err(SceneError::unreadable(name, message!("this is a directory, not a scene file"), None));
     }
     if metadata.len() > limits::FILE_BYTES {
-        return Err(too_large(name, &format!("{} bytes", metadata.len())));
+        return Err(too_large(name, &message!("{count} bytes", count = metadata.len())));
     }
     Ok(file)
 }
 
-fn too_large(name: &str, size: &str) -> SceneError {
-    let message = format!("the file has {size}; a scene file may have {}", limits::FILE_BYTES);
+fn too_large(name: &str, size: &Message) -> SceneError {
+    let message = message!("the file has {size}; a scene file may have {most}", size, most = limits::FILE_BYTES);
     SceneError::unreadable(name, message, None)
 }
 
-fn describe(error: &Error) -> String {
+fn describe(error: &Error) -> Message {
     match error.kind() {
-        ErrorKind::NotFound => "there is no such file".into(),
-        ErrorKind::PermissionDenied => "this file may not be read: permission denied".into(),
-        _ => format!("this file cannot be read: {error}"),
+        ErrorKind::NotFound => message!("there is no such file"),
+        ErrorKind::PermissionDenied => message!("this file may not be read: permission denied"),
+        _ => message!("this file cannot be read: {reason}", reason = error.to_string()),
     }
 }
 

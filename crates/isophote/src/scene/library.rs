@@ -1,5 +1,6 @@
 //! The starter scenes built into the program, identical to the files in `scenes/`.
 
+pub use crate::text::Language;
 use crate::units::Keyword;
 
 /// A scene to start from.
@@ -17,27 +18,6 @@ pub enum Starter {
     TwoLights,
     /// Candela, lux and cd/m².
     Photometric,
-}
-
-/// The language of a starter's comments.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Language {
-    /// English.
-    #[default]
-    English,
-    /// Russian.
-    Russian,
-}
-
-impl Keyword for Language {
-    const ALL: &'static [Self] = &[Self::English, Self::Russian];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::English => "en",
-            Self::Russian => "ru",
-        }
-    }
 }
 
 impl Keyword for Starter {

@@ -5,6 +5,7 @@ use super::error::{Lines, Target};
 use super::problems::Problems;
 use super::{FileResolver, Problem, ProblemKind, Scene, SceneError, SceneSource, Syntax, validate};
 use crate::import::{NoFiles, Origin, Resolver};
+use crate::message;
 
 impl Scene {
     /// Reads a scene from text; `name` identifies it in error messages. The files it names are looked up in `files`; those
@@ -21,8 +22,8 @@ impl Scene {
     ) -> Result<Self, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
-            let help = "`isophote new lab` writes a scene to start from";
-            return Err(SceneError::unreadable(name, "the scene is empty".into(), Some(help.into())));
+            let help = message!("`isophote new lab` writes a scene to start from");
+            return Err(SceneError::unreadable(name, message!("the scene is empty"), Some(help)));
         }
         let mut document = Document::parse(text, syntax);
         let mut problems = Problems::default();
@@ -31,9 +32,9 @@ impl Scene {
         let is_unreadable = syntax_problems.len() > FOLLOWED_SYNTAX_PROBLEMS;
         if is_unreadable {
             syntax_problems.truncate(1);
-            let help = "what follows could not be read because of this; mend it and check again";
+            let help = message!("what follows could not be read because of this; mend it and check again");
             // Advice on the problem itself is better.
-            syntax_problems[0].help.get_or_insert_with(|| help.into());
+            syntax_problems[0].help.get_or_insert(help);
         }
         problems.extend(syntax_problems);
         let source = SceneSource { origin: files.origin(), ..SceneSource::read(&document, &mut problems) };

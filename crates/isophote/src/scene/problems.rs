@@ -1,5 +1,7 @@
 //! Collects the problems of a scene, and helps to word their messages.
 
+use crate::message;
+use crate::text::Message;
 use std::collections::HashSet;
 
 use super::document::Path;
@@ -16,24 +18,27 @@ pub struct Problems {
 
 impl Problems {
     /// Adds a problem, unless its place or something around it is already known to be wrong.
-    pub fn push(&mut self, kind: ProblemKind, path: &Path, message: impl Into<String>, help: impl Into<String>) {
+    pub fn push(&mut self, kind: ProblemKind, path: &Path, message: Message, help: Message) {
         if !self.reported.contains(path) {
             self.reported.insert(path.clone());
             if self.is_full() {
                 self.left_out += 1;
                 return;
             }
-            let problem = Problem::new(kind, Target::Value(path.clone()), message.into());
+            let problem = Problem::new(kind, Target::Value(path.clone()), message);
             self.add(problem.with_help(help));
         }
     }
 
     /// Adds a problem for a key that is missing from a table, unless the key is there and already known to be wrong.
-    pub fn missing(&mut self, table: &Path, key: &str, help: impl Into<String>) {
+    pub fn missing(&mut self, table: &Path, key: &str, help: Message) {
         if self.reported.insert(table.key(key)) {
             let target = Target::Table(table.clone());
-            let place = if *table == Path::root() { String::new() } else { format!(" in `{table}`") };
-            let message = format!("the key `{key}` is missing{place}");
+            let message = if *table == Path::root() {
+                message!("the key `{key}` is missing", key)
+            } else {
+                message!("the key `{key}` is missing in `{table}`", key, table)
+            };
             let mut problem = Problem::new(ProblemKind::MissingKey, target, message).with_help(help);
             problem.path = table.key(key).to_string();
             self.add(problem);
@@ -64,7 +69,7 @@ impl Problems {
     pub fn into_list(mut self) -> Vec<Problem> {
         let kind = self.list.last().map(|last| last.kind);
         if let Some(kind) = kind.filter(|_| self.left_out > 0) {
-            let message = format!("{} more were found and are not listed", self.left_out);
+            let message = message!("{count} more were found and are not listed", count = self.left_out);
             self.list.push(Problem::new(kind, Target::Rest(self.left_out), message));
         }
         self.list
@@ -96,8 +101,8 @@ pub(super) fn closest<'w>(written: &str, known: &[&'w str]) -> Option<&'w str> {
 }
 
 /// `; did you mean …?`
-pub(super) fn suggestion(meant: Option<&str>) -> String {
-    meant.map_or(String::new(), |word| format!("; did you mean `{word}`?"))
+pub(super) fn suggestion(meant: Option<&str>) -> Message {
+    meant.map_or_else(Message::empty, |word| message!("; did you mean `{word}`?", word))
 }
 
 /// A text from the file, shortened for a message.

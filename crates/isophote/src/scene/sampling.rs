@@ -1,6 +1,9 @@
 //! How many rays are averaged for a pixel's value.
 
 use super::Filter;
+use crate::message;
+use crate::text::Message;
+use crate::units::Keyword;
 
 /// How many rays are averaged for a pixel's value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,11 +36,13 @@ impl Sampling {
 
     /// The description in outputs.
     #[must_use]
-    pub fn describe(self) -> String {
-        let filter = crate::units::Keyword::name(self.filter);
+    pub fn describe(self) -> Message {
+        let (samples, filter) = (self.samples, self.filter.name());
         match self.tolerance {
-            Some(tolerance) => format!("up to {} samples, tolerance {tolerance}, {filter} filter", self.samples),
-            None => format!("{} samples, {filter} filter", self.samples),
+            Some(tolerance) => {
+                message!("up to {samples} samples, tolerance {tolerance}, {filter} filter", samples, tolerance, filter)
+            }
+            None => message!("{samples} samples, {filter} filter", samples, filter),
         }
     }
 }

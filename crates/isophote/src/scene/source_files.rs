@@ -14,6 +14,8 @@ use sha2::{Digest, Sha256};
 use super::FileResolver;
 use crate::import::{Origin, ReadFailure, Resolver};
 use crate::map::SourceFile;
+use crate::message;
+use crate::text::Message;
 
 /// The longest file, in bytes, that outputs carry as a whole.
 const CARRIED: usize = 64 << 10;
@@ -87,7 +89,7 @@ enum Place {
     Carried(Vec<u8>),
     At(PathBuf),
     /// Only files of other content, the first of which is this one, with its description.
-    Changed(PathBuf, String),
+    Changed(PathBuf, Message),
     Gone,
 }
 
@@ -126,7 +128,7 @@ impl Resolver for CarriedFiles {
             Some((file, Place::At(path))) => match std::fs::read(path) {
                 Ok(content) if hexadecimal(&Sha256::digest(&content)) == file.sha256 => Ok(content.into()),
                 Ok(_) => {
-                    Err(ReadFailure::Changed { was: file.describe(), at: path.clone(), is: "being written".into() })
+                    Err(ReadFailure::Changed { was: file.describe(), at: path.clone(), is: message!("being written") })
                 }
                 Err(error) => Err(ReadFailure::Unreadable(error)),
             },

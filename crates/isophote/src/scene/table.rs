@@ -1,5 +1,7 @@
 //! Reads a table of a scene file: types and keys. The allowed values are checked in `validate`.
 
+use crate::message;
+use crate::text::Message;
 use std::collections::BTreeMap;
 
 use super::document::{Document, Entry, Node, Path, Value};
@@ -36,59 +38,76 @@ impl<'t> Table<'t> {
     }
 
     /// The value of a key, converted by `convert`; if that fails, it is reported as not being `expected`.
-    fn value<T>(&mut self, key: &'static str, expected: &str, convert: impl FnOnce(&Value) -> Option<T>) -> Option<T> {
+    fn value<T>(
+        &mut self,
+        key: &'static str,
+        expected: impl Fn() -> Message,
+        convert: impl FnOnce(&Value) -> Option<T>,
+    ) -> Option<T> {
         let node = self.find(key)?;
         let value = convert(&node.value);
         if value.is_none() {
-            self.wrong_type(&self.path.key(key), &node.value, expected);
+            self.wrong_type(&self.path.key(key), &node.value, &expected());
         }
         value
     }
 
-    fn wrong_type(&mut self, path: &Path, value: &Value, expected: &str) {
-        let message = format!("`{path}` is {}", value.describe());
-        self.problems.push(ProblemKind::WrongType, path, message, format!("allowed: {expected}"));
+    fn wrong_type(&mut self, path: &Path, value: &Value, expected: &Message) {
+        let message = message!("`{path}` is {found}", path, found = value.describe());
+        self.problems.push(ProblemKind::WrongType, path, message, message!("allowed: {expected}", expected));
     }
 
     pub(super) fn text(&mut self, key: &'static str) -> Option<String> {
-        self.value(key, "a text in quotes", |value| match value {
-            Value::Text(text) => Some(text.clone()),
-            _ => None,
-        })
+        self.value(
+            key,
+            || message!("a text in quotes"),
+            |value| match value {
+                Value::Text(text) => Some(text.clone()),
+                _ => None,
+            },
+        )
     }
 
     pub(super) fn number(&mut self, key: &'static str) -> Option<f64> {
-        let number = self.value(key, "a number", as_number)?;
+        let number = self.value(key, || message!("a number"), as_number)?;
         self.finite(&self.path.key(key), number)
     }
 
     /// A number, or three.
     pub(super) fn amount(&mut self, key: &'static str) -> Option<Amount> {
-        const EXPECTED: &str = "a number, or a list of three: [red, green, blue]";
+        let expected = || message!("a number, or a list of three: [red, green, blue]");
         let entry = self.entries.iter().find(|entry| entry.key == key);
         if entry.is_some_and(|entry| matches!(entry.node.value, Value::Array(_))) {
-            return self.numbers_expected(key, EXPECTED).map(Amount::Rgb);
+            return self.numbers_expected(key, expected).map(Amount::Rgb);
         }
-        let number = self.value(key, EXPECTED, as_number)?;
+        let number = self.value(key, expected, as_number)?;
         self.finite(&self.path.key(key), number).map(Amount::Number)
     }
 
     pub(super) fn boolean(&mut self, key: &'static str) -> Option<bool> {
-        self.value(key, "true or false", |value| match value {
-            Value::Boolean(value) => Some(*value),
-            _ => None,
-        })
+        self.value(
+            key,
+            || message!("true or false"),
+            |value| match value {
+                Value::Boolean(value) => Some(*value),
+                _ => None,
+            },
+        )
     }
 
     pub(super) fn count(&mut self, key: &'static str) -> Option<u64> {
-        self.value(key, "a whole number, not negative", as_count)
+        self.value(key, || message!("a whole number, not negative"), as_count)
     }
 
     pub(super) fn numbers<const N: usize>(&mut self, key: &'static str) -> Option<[f64; N]> {
-        self.numbers_expected(key, &format!("a list of {N} numbers"))
+        self.numbers_expected(key, || message!("a list of {count} numbers", count = N))
     }
 
-    fn numbers_expected<const N: usize>(&mut self, key: &'static str, expected: &str) -> Option<[f64; N]> {
+    fn numbers_expected<const N: usize>(
+        &mut self,
+        key: &'static str,
+        expected: impl Fn() -> Message,
+    ) -> Option<[f64; N]> {
         let numbers: [f64; N] = self.list(key, expected, as_number)?;
         let mut all_finite = true;
         for (index, number) in numbers.into_iter().enumerate() {
@@ -102,7 +121,7 @@ impl<'t> Table<'t> {
 
     /// Three rows of three numbers.
     pub(super) fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]> {
-        let rows: [[f64; 3]; 3] = self.list(key, "a list of 3 rows, each a list of 3 numbers", as_row)?;
+        let rows: [[f64; 3]; 3] = self.list(key, || message!("a list of 3 rows, each a list of 3 numbers"), as_row)?;
         let path = self.path.key(key);
         for (number, row) in rows.iter().enumerate() {
             for (column, value) in row.iter().enumerate() {
@@ -117,7 +136,7 @@ impl<'t> Table<'t> {
 
     /// Any number of rows of three numbers.
     pub(super) fn rows(&mut self, key: &'static str) -> Option<Vec<[f64; 3]>> {
-        let rows = self.several(key, "a list of 3 numbers", as_row)?;
+        let rows = self.several(key, || message!("a list of 3 numbers"), as_row)?;
         for (number, row) in rows.iter().enumerate() {
             if let Some(column) = row.iter().position(|value| !value.is_finite()) {
                 let path = self.path.key(key);
@@ -131,30 +150,38 @@ impl<'t> Table<'t> {
 
     /// Any number of rows of three whole numbers.
     pub(super) fn rows_of_counts(&mut self, key: &'static str) -> Option<Vec<[u64; 3]>> {
-        self.several(key, "a list of 3 whole numbers, not negative", |value| {
-            let Value::Array(items) = value else { return None };
-            let [a, b, c] = items.as_slice() else { return None };
-            Some([as_count(&a.value)?, as_count(&b.value)?, as_count(&c.value)?])
-        })
+        self.several(
+            key,
+            || message!("a list of 3 whole numbers, not negative"),
+            |value| {
+                let Value::Array(items) = value else { return None };
+                let [a, b, c] = items.as_slice() else { return None };
+                Some([as_count(&a.value)?, as_count(&b.value)?, as_count(&c.value)?])
+            },
+        )
     }
 
     /// A list of any length. Only the first item that is not as expected is reported: there may be millions.
     fn several<T>(
         &mut self,
         key: &'static str,
-        expected: &str,
+        expected: impl Fn() -> Message,
         convert: impl Fn(&Value) -> Option<T>,
     ) -> Option<Vec<T>> {
         let node = self.find(key)?;
         let path = self.path.key(key);
         let Value::Array(items) = &node.value else {
-            self.wrong_type(&path, &node.value, &format!("a list, each of whose items is {expected}"));
+            self.wrong_type(
+                &path,
+                &node.value,
+                &message!("a list, each of whose items is {expected}", expected = expected()),
+            );
             return None;
         };
         let mut list = Vec::with_capacity(items.len());
         for (index, item) in items.iter().enumerate() {
             let Some(value) = convert(&item.value) else {
-                self.wrong_type(&path.index(index), &item.value, expected);
+                self.wrong_type(&path.index(index), &item.value, &expected());
                 self.problems.reported.insert(path);
                 return None;
             };
@@ -164,28 +191,28 @@ impl<'t> Table<'t> {
     }
 
     pub(super) fn counts<const N: usize>(&mut self, key: &'static str) -> Option<[u64; N]> {
-        self.list(key, &format!("a list of {N} whole numbers, not negative"), as_count)
+        self.list(key, || message!("a list of {count} whole numbers, not negative", count = N), as_count)
     }
 
     fn list<T: Copy + Default, const N: usize>(
         &mut self,
         key: &'static str,
-        expected: &str,
+        expected: impl Fn() -> Message,
         convert: impl Fn(&Value) -> Option<T>,
     ) -> Option<[T; N]> {
         let node = self.find(key)?;
         let path = self.path.key(key);
         let Value::Array(items) = &node.value else {
-            self.wrong_type(&path, &node.value, expected);
+            self.wrong_type(&path, &node.value, &expected());
             return None;
         };
         if items.len() != N {
             let comma = if items.len() > N && items.len() <= 2 * N && items.iter().all(is_whole) {
-                "; numbers have decimal points: a comma begins the next number"
+                message!("; numbers have decimal points: a comma begins the next number")
             } else {
-                ""
+                Message::empty()
             };
-            self.wrong_type(&path, &node.value, &format!("{expected}{comma}"));
+            self.wrong_type(&path, &node.value, &message!("{expected}{comma}", expected = expected(), comma));
             return None;
         }
         let mut list = [T::default(); N];
@@ -194,7 +221,11 @@ impl<'t> Table<'t> {
             if let Some(value) = convert(&item.value) {
                 list[index] = value;
             } else {
-                self.wrong_type(&path.index(index), &item.value, &format!("`{key}` is {expected}"));
+                self.wrong_type(
+                    &path.index(index),
+                    &item.value,
+                    &message!("`{key}` is {expected}", key, expected = expected()),
+                );
                 complete = false;
             }
         }
@@ -211,8 +242,12 @@ impl<'t> Table<'t> {
         if choice.is_none() {
             let names: Vec<&str> = C::ALL.iter().map(|choice| choice.name()).collect();
             let path = self.path.key(key);
-            let message = format!("`{path}` cannot be \"{}\"", short(&text));
-            let help = format!("allowed: {}{}", names.join(", "), suggestion(closest(&text, &names)));
+            let message = message!("`{path}` cannot be \"{text}\"", path, text = short(&text));
+            let help = message!(
+                "allowed: {names}{meant}",
+                names = names.join(", "),
+                meant = suggestion(closest(&text, &names))
+            );
             self.problems.push(ProblemKind::Value, &path, message, help);
         }
         choice
@@ -226,7 +261,7 @@ impl<'t> Table<'t> {
 
     fn read_table<T>(&mut self, node: &Node, path: Path, read: impl FnOnce(&mut Table<'_>) -> T) -> Option<T> {
         let Value::Table(entries) = &node.value else {
-            self.wrong_type(&path, &node.value, "a table");
+            self.wrong_type(&path, &node.value, &message!("a table"));
             return None;
         };
         let mut table = Table { entries, path, known: Vec::new(), problems: self.problems };
@@ -241,7 +276,7 @@ impl<'t> Table<'t> {
             return Vec::new();
         };
         let Value::Array(items) = &node.value else {
-            let help = format!("a list of tables, each headed by [[{key}]]");
+            let help = message!("a list of tables, each headed by [[{key}]]", key);
             self.wrong_type(&path, &node.value, &help);
             return Vec::new();
         };
@@ -263,7 +298,7 @@ impl<'t> Table<'t> {
             return BTreeMap::new();
         };
         let Value::Table(tables) = &node.value else {
-            self.wrong_type(&path, &node.value, &format!("tables with names, each headed by [{key}.NAME]"));
+            self.wrong_type(&path, &node.value, &message!("tables with names, each headed by [{key}.NAME]", key));
             return BTreeMap::new();
         };
         let read_entry = |entry: &Entry| {
@@ -277,8 +312,8 @@ impl<'t> Table<'t> {
         if number.is_finite() {
             return Some(number);
         }
-        let message = format!("`{path}` is {number}");
-        self.problems.push(ProblemKind::Value, path, message, "allowed: finite numbers");
+        let message = message!("`{path}` is {value}", path, value = number);
+        self.problems.push(ProblemKind::Value, path, message, message!("allowed: finite numbers"));
         None
     }
 
@@ -286,12 +321,17 @@ impl<'t> Table<'t> {
         for entry in self.entries {
             if !self.known.contains(&entry.key.as_str()) {
                 let path = self.path.key(&entry.key);
-                let place = if self.path == Path::root() { "a scene".into() } else { format!("`{}`", self.path) };
-                let message = format!("{place} has no key `{}`", short(&entry.key));
+                let key = short(&entry.key);
+                let message = if self.path == Path::root() {
+                    message!("a scene has no key `{key}`", key)
+                } else {
+                    message!("`{path}` has no key `{key}`", path = self.path, key)
+                };
                 let meant = closest(&entry.key, &self.known);
                 // The intended key is then not reported as missing too.
                 self.problems.reported.extend(meant.map(|key| self.path.key(key)));
-                let help = format!("allowed: {}{}", self.known.join(", "), suggestion(meant));
+                let help =
+                    message!("allowed: {names}{meant}", names = self.known.join(", "), meant = suggestion(meant));
                 let mut problem = Problem::at_span(ProblemKind::UnknownKey, Some(entry.key_span.clone()), message);
                 problem.path = path.to_string();
                 self.problems.add(problem.with_help(help));

@@ -1,7 +1,8 @@
 //! Finds the surface that a point lies on.
 
 use super::{Geometry, NearestPoint};
-use crate::text::significant;
+use crate::message;
+use crate::text::{Message, significant};
 use crate::units::{Keyword, LengthUnit};
 use crate::vector::Vector;
 
@@ -46,13 +47,29 @@ pub fn surface_at<'g>(shapes: impl Iterator<Item = &'g Geometry>, point: Vector)
 impl Miss {
     /// Describes where the nearest surface is, in the scene's unit. `name` is the nearest shape's.
     #[must_use]
-    pub fn describe(&self, name: &str, length: LengthUnit) -> String {
-        let side = if self.distance < 0.0 { "inside" } else { "outside" };
+    pub fn describe(&self, name: &str, length: LengthUnit) -> Message {
         let distance = length.from_metres(self.distance.abs());
         let [x, y, z] = self.point().map(|coordinate| length.from_metres(coordinate));
         let distance = significant(distance, 6);
         let unit = length.name();
-        format!("it is {distance} {unit} {side} the surface of \"{name}\"; the nearest point there is [{x}, {y}, {z}]")
+        let point = format!("[{x}, {y}, {z}]");
+        if self.distance < 0.0 {
+            message!(
+                "it is {distance} {unit} inside the surface of \"{name}\"; the nearest point there is {point}",
+                distance,
+                unit,
+                name,
+                point
+            )
+        } else {
+            message!(
+                "it is {distance} {unit} outside the surface of \"{name}\"; the nearest point there is {point}",
+                distance,
+                unit,
+                name,
+                point
+            )
+        }
     }
 
     /// The nearest surface point, in metres.

@@ -127,8 +127,9 @@ fn probe_json(probe: &Probe) -> Value {
 }
 
 fn warning_json(warning: &Problem) -> Value {
+    let (message, help) = (warning.message.to_string(), warning.help.as_ref().map(ToString::to_string));
     let line = warning.place.as_ref().map(|place| place.line);
-    json!({"path": warning.path, "message": warning.message, "help": warning.help, "line": line})
+    json!({"path": warning.path, "message": message, "help": help, "line": line})
 }
 
 /// An amount, per component if they differ.

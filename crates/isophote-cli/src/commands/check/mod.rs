@@ -11,6 +11,6 @@ use crate::{load, numbers};
 
 /// Checks a scene and prints it.
 pub fn run(arguments: &CheckArguments) -> Result<String> {
-    let scene = load::scene(&arguments.scene, arguments.quiet)?;
-    if arguments.json { numbers::json(&json::of(&scene)) } else { Ok(text::of(&scene)) }
+    let scene = load::scene(&arguments.scene, arguments.quiet, arguments.language.lang)?;
+    if arguments.json { numbers::json(&json::of(&scene)) } else { Ok(text::of(&scene, arguments.language.lang)) }
 }

@@ -4,10 +4,12 @@ use std::fmt::Write;
 
 use isophote::camera::{CameraFrame, Extent, Fisheye, Mapping, Projection, Screen};
 use isophote::light::{Emission, Light, LightKind};
+use isophote::map::Resolution;
+use isophote::message;
 use isophote::reflectance::Reflectance;
 use isophote::scene::{Lighting, Scene};
 use isophote::shape::Measure;
-use isophote::text::{escaped_line, significant};
+use isophote::text::{Language, Message, escaped_line, significant};
 use isophote::units::Keyword;
 use isophote::vector::Vector;
 
@@ -15,83 +17,105 @@ use super::amounts::{components, intensity_of, power_of, radiance_of};
 use crate::table::{Align, table};
 
 /// The scene as Isophote understands it.
-pub(super) fn of(scene: &Scene) -> String {
+pub(super) fn of(scene: &Scene, language: Language) -> String {
     let camera = scene.camera();
     let frame = CameraFrame::<f64>::new(camera);
     let convention = scene.convention();
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let mut row = |name: &str, value: String| {
+    let mut row = |name: Message, value: Message| {
+        let (name, value) = (name.in_language(language), value.in_language(language));
         let _ = writeln!(text, "  {name:<12}{}", escaped_line(&value));
     };
-    row("title", scene.title().to_owned());
-    row("length", format!("{} in the file; metres below", scene.length().name()));
-    row("handedness", format!("{} (2.3)", camera.handedness.name()));
-    row("convention", format!("{}: {}", convention.label(), convention.formula()));
-    row("quantities", format!("{}: B in {}", scene.unit_system().name(), convention.unit(scene.unit_system())));
+    row(message!("title"), Message::verbatim(scene.title()));
+    row(message!("length"), message!("{unit} in the file; metres below", unit = scene.length().name()));
+    row(message!("handedness"), Message::verbatim(format!("{} (2.3)", camera.handedness.name())));
+    row(message!("convention"), Message::verbatim(format!("{}: {}", convention.label(), convention.formula())));
+    let (quantities, unit) = (scene.unit_system().name(), convention.unit(scene.unit_system()));
+    row(message!("quantities"), message!("{quantities}: B in {unit}", quantities, unit));
     if let Some(color) = scene.color_label() {
-        row("color space", color);
+        row(message!("color space"), Message::verbatim(color));
     }
     if scene.shadows() {
-        row("shadows", "shapes stand in each other's light".into());
+        row(message!("shadows"), message!("shapes stand in each other's light"));
     }
     if scene.sampling().is_multisampled() {
-        row("sampling", scene.sampling().describe());
+        row(message!("sampling"), scene.sampling().describe());
     }
-    row("eye", vector(camera.eye));
-    row("forward", vector(frame.forward));
-    row("up", vector(frame.up));
-    row("right", vector(frame.right));
+    row(message!("eye"), Message::verbatim(vector(camera.eye)));
+    row(message!("forward"), Message::verbatim(vector(frame.forward)));
+    row(message!("up"), Message::verbatim(vector(frame.up)));
+    row(message!("right"), Message::verbatim(vector(frame.right)));
     let [name, projection] = projection_text(&camera.projection);
-    row(&name, projection);
-    row("resolution", format!("{} × {} pixels", camera.resolution.width, camera.resolution.height));
+    row(name, projection);
+    let Resolution { width, height } = camera.resolution;
+    row(message!("resolution"), message!("{width} × {height} pixels", width, height));
     if let Some(ambient) = scene.ambient() {
         let unit = scene.unit_system().radiance_unit();
-        let obstructed =
-            ambient.obstruction.map_or(String::new(), |samples| format!(", obstructed: {samples} directions a point"));
         let radiance = amount(scene, radiance_of, ambient.radiance);
-        row("ambient", format!("{radiance} {unit}{obstructed}"));
+        let value = match ambient.obstruction {
+            Some(samples) => {
+                message!("{radiance} {unit}, obstructed: {samples} directions a point", radiance, unit, samples)
+            }
+            None => Message::verbatim(format!("{radiance} {unit}")),
+        };
+        row(message!("ambient"), value);
     }
     for (title, table) in [
-        ("materials", materials(scene)),
-        ("shapes", shapes(scene)),
-        ("lights", lights(scene)),
-        ("probes", probes(scene)),
+        (message!("materials"), materials(scene, language)),
+        (message!("shapes"), shapes(scene, language)),
+        (message!("lights"), lights(scene, language)),
+        (message!("probes"), probes(scene, language)),
     ] {
-        let _ = write!(text, "\n{title}\n{}", table.unwrap_or_else(|| "  none\n".into()));
+        let none = || format!("  {}\n", message!("none").in_language(language));
+        let _ = write!(text, "\n{}\n{}", title.in_language(language), table.unwrap_or_else(none));
     }
     text
 }
 
 /// The name of the row and its content.
-fn projection_text(projection: &Projection) -> [String; 2] {
+fn projection_text(projection: &Projection) -> [Message; 2] {
     let edges = |[left, right]: [f64; 2], [bottom, top]: [f64; 2]| {
         let [left, right, bottom, top] = [left, right, bottom, top].map(short);
-        format!("x {left} to {right}, y {bottom} to {top}")
+        message!("x {left} to {right}, y {bottom} to {top}", left, right, bottom, top)
     };
     match *projection {
-        Projection::Perspective(Screen { distance, x, y }) => {
-            ["screen".into(), format!("distance {}, {}", short(distance), edges(x, y))]
-        }
+        Projection::Perspective(Screen { distance, x, y }) => [
+            message!("screen"),
+            message!("distance {distance}, {edges}", distance = short(distance), edges = edges(x, y)),
+        ],
         Projection::Orthographic(Extent { x, y }) => {
-            ["projection".into(), format!("orthographic (2.7), {}", edges(x, y))]
+            [message!("projection"), message!("orthographic (2.7), {edges}", edges = edges(x, y))]
         }
         Projection::Fisheye(Fisheye { mapping, field_of_view }) => {
             let mapping = match mapping {
-                Mapping::Equidistant => "equidistant (2.8)",
-                Mapping::EqualArea => "equal area (2.9)",
+                Mapping::Equidistant => message!("equidistant (2.8)"),
+                Mapping::EqualArea => message!("equal area (2.9)"),
             };
-            ["projection".into(), format!("fisheye, {mapping}, {}° across", short(field_of_view))]
+            [
+                message!("projection"),
+                message!("fisheye, {mapping}, {angle}° across", mapping, angle = short(field_of_view)),
+            ]
         }
         Projection::Panorama(Extent { x: [west, east], y: [low, high] }) => {
             let [west, east, low, high] = [west, east, low, high].map(short);
-            ["projection".into(), format!("panorama (2.10), longitude {west}° to {east}°, latitude {low}° to {high}°")]
+            [
+                message!("projection"),
+                message!(
+                    "panorama (2.10), longitude {west}° to {east}°, latitude {low}° to {high}°",
+                    west,
+                    east,
+                    low,
+                    high
+                ),
+            ]
         }
     }
 }
 
-fn materials(scene: &Scene) -> Option<String> {
-    let columns = [("name", Align::Left), ("k_d", Align::Right), ("k_s", Align::Right), ("n", Align::Right)];
+fn materials(scene: &Scene, language: Language) -> Option<String> {
+    let name = message!("name").in_language(language);
+    let columns = [(name.as_str(), Align::Left), ("k_d", Align::Right), ("k_s", Align::Right), ("n", Align::Right)];
     let rows = scene.materials().iter().enumerate().map(|(index, material)| {
         let Reflectance { diffuse, specular, shininess } = material.reflectance;
         let shininess = if specular == 0.0 { "–".into() } else { short(shininess) };
@@ -102,9 +126,10 @@ fn materials(scene: &Scene) -> Option<String> {
     filled(&columns, &rows.collect::<Vec<_>>())
 }
 
-fn shapes(scene: &Scene) -> Option<String> {
-    let columns =
-        [("name", Align::Left), ("shape", Align::Left), ("measures, m", Align::Left), ("material", Align::Left)];
+fn shapes(scene: &Scene, language: Language) -> Option<String> {
+    let headings = [message!("name"), message!("shape"), message!("measures, m"), message!("material")]
+        .map(|heading| heading.in_language(language));
+    let columns = headings.each_ref().map(|heading| (heading.as_str(), Align::Left));
     let rows = scene.shapes().iter().map(|shape| {
         let material = shape.material.map_or("–", |index| scene.materials()[index].name.as_str());
         let measures = shape.geometry.measures().into_iter().map(|(name, measure)| match measure {
@@ -118,21 +143,23 @@ fn shapes(scene: &Scene) -> Option<String> {
     filled(&columns, &rows.collect::<Vec<_>>())
 }
 
-fn lights(scene: &Scene) -> Option<String> {
+fn lights(scene: &Scene, language: Language) -> Option<String> {
     let intensity = format!("I₀, {}", scene.unit_system().intensity_unit());
-    let power = format!("power, {}", scene.unit_system().power_unit());
+    let power = message!("power, {unit}", unit = scene.unit_system().power_unit()).in_language(language);
+    let [name, position, emission] =
+        [message!("name"), message!("position, m"), message!("emission")].map(|heading| heading.in_language(language));
     let columns = [
-        ("name", Align::Left),
-        ("position, m", Align::Left),
+        (name.as_str(), Align::Left),
+        (position.as_str(), Align::Left),
         (intensity.as_str(), Align::Right),
         (power.as_str(), Align::Right),
-        ("emission", Align::Left),
+        (emission.as_str(), Align::Left),
     ];
     let rows = scene.lights().iter().enumerate().map(|(index, light)| {
         let strength = |of: fn(&Light) -> f64| amount(scene, |lighting| of(&lighting.lights[index]), of(light));
-        let off = if light.is_on { "" } else { "; switched off" };
-        let light_row = |position, intensity, power, emission| {
-            vec![light.name.clone(), position, intensity, power, format!("{emission}{off}")]
+        let light_row = |position, intensity, power, emission: Message| {
+            let emission = if light.is_on { emission } else { message!("{emission}; switched off", emission) };
+            vec![light.name.clone(), position, intensity, power, emission.in_language(language)]
         };
         match &light.kind {
             LightKind::Point(point) => {
@@ -141,7 +168,8 @@ fn lights(scene: &Scene) -> Option<String> {
             }
             LightKind::Parallel(parallel) => {
                 let irradiance = format!("{} {}", strength(intensity_of), scene.unit_system().irradiance_unit());
-                let emission = format!("parallel, direction {}, E₀ {irradiance}", vector(parallel.direction));
+                let direction = vector(parallel.direction);
+                let emission = message!("parallel, direction {direction}, E₀ {irradiance}", direction, irradiance);
                 light_row("–".into(), "–".into(), "–".into(), emission)
             }
         }
@@ -149,19 +177,21 @@ fn lights(scene: &Scene) -> Option<String> {
     filled(&columns, &rows.collect::<Vec<_>>())
 }
 
-fn emission_text(emission: &Emission) -> String {
+fn emission_text(emission: &Emission) -> Message {
     match emission {
-        Emission::Isotropic => "isotropic".into(),
-        Emission::Lambertian { axis } => format!("lambertian, axis {}", vector(*axis)),
+        Emission::Isotropic => message!("isotropic"),
+        Emission::Lambertian { axis } => message!("lambertian, axis {axis}", axis = vector(*axis)),
         Emission::Spot(spot) => {
             let [inner, outer] = [spot.inner_angle(), spot.outer_angle()].map(|angle| short(angle.to_degrees()));
-            format!("spot, axis {}, {inner}° to {outer}°", vector(spot.cone.axis))
+            message!("spot, axis {axis}, {inner}° to {outer}°", axis = vector(spot.cone.axis), inner, outer)
         }
     }
 }
 
-fn probes(scene: &Scene) -> Option<String> {
-    let columns = [("name", Align::Left), ("at, m", Align::Left), ("published", Align::Right)];
+fn probes(scene: &Scene, language: Language) -> Option<String> {
+    let [name, at, published] = [message!("name"), message!("at, {length}", length = "m"), message!("published")]
+        .map(|heading| heading.in_language(language));
+    let columns = [(name.as_str(), Align::Left), (at.as_str(), Align::Left), (published.as_str(), Align::Right)];
     let rows = scene
         .probes()
         .iter()

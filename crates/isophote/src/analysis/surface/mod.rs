@@ -12,9 +12,11 @@ mod totals;
 use crate::analysis::cells::{self, Cell, Layout};
 use crate::camera::{Sight, between};
 use crate::map::{Map, Pixel, Quantity, Resolution, Window};
+use crate::message;
 use crate::prepare::{Hit, PreparedScene};
 use crate::render::RenderError;
 use crate::shape::{Primitive, Side, SurfacePoint};
+use crate::text::Message;
 use crate::units::Keyword;
 use crate::vector::Vector;
 use chart::{Chart, ChartPoint};
@@ -58,15 +60,14 @@ impl Keyword for SurfaceProjection {
 
 /// Why there is no map of a surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.message())]
 pub enum SurfaceError {
     /// A shape whose surface has no coordinates.
-    #[error("the surface of a {kind} has no coordinates; allowed: a sphere, a rectangle, a disk, a cylinder")]
     NoCoordinates {
         /// The kind of the shape.
         kind: &'static str,
     },
     /// There is no such shape, or it has no such part.
-    #[error("there is no part {part}: the shape has {parts}, counted from 0")]
     NoSuchPart {
         /// The requested part.
         part: u32,
@@ -74,33 +75,58 @@ pub enum SurfaceError {
         parts: u32,
     },
     /// Only spheres allow an axis to be chosen.
-    #[error("an axis is chosen for a sphere only: a {kind} has its own")]
     AxisOfItsOwn {
         /// The kind of the shape.
         kind: &'static str,
     },
     /// No cells, or too many.
-    #[error("a map of {}×{} cells cannot be held in memory; allowed: sides of 1 to {}, together at most {} cells",
-        size.width, size.height, Resolution::LONGEST_IN_MEMORY, Resolution::MOST_IN_MEMORY)]
     Size {
         /// The requested size.
         size: Resolution,
     },
     /// A channel that exists only for a camera's rays.
-    #[error("a surface has no channel `{name}`: it belongs to a camera's map")]
     ChannelOfCamera {
         /// The channel.
         name: String,
     },
     /// The channel `color` of a scene without colours.
-    #[error("{}", crate::render::NO_COLOR)]
     NoColor,
     /// A channel for a light that the scene does not have.
-    #[error("the scene has no light named \"{name}\"")]
     NoSuchLight {
         /// The requested name.
         name: String,
     },
+}
+
+impl SurfaceError {
+    /// What is wrong, in either language.
+    #[must_use]
+    pub fn message(&self) -> Message {
+        match self {
+            Self::NoCoordinates { kind } => message!(
+                "the surface of a {kind} has no coordinates; allowed: a sphere, a rectangle, a disk, a cylinder",
+                kind
+            ),
+            Self::NoSuchPart { part, parts } => {
+                message!("there is no part {part}: the shape has {parts}, counted from 0", part, parts)
+            }
+            Self::AxisOfItsOwn { kind } => {
+                message!("an axis is chosen for a sphere only: a {kind} has its own", kind)
+            }
+            Self::Size { size: Resolution { width, height } } => message!(
+                "a map of {width}×{height} cells cannot be held in memory; allowed: sides of 1 to {longest}, together at most {most} cells",
+                width,
+                height,
+                longest = Resolution::LONGEST_IN_MEMORY,
+                most = Resolution::MOST_IN_MEMORY
+            ),
+            Self::ChannelOfCamera { name } => {
+                message!("a surface has no channel `{name}`: it belongs to a camera's map", name)
+            }
+            Self::NoColor => crate::render::no_color(),
+            Self::NoSuchLight { name } => message!("the scene has no light named \"{name}\"", name),
+        }
+    }
 }
 
 /// A surface divided into cells, each with an exactly known area.

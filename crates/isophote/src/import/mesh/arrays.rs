@@ -2,6 +2,7 @@
 
 use super::{MeshBuilder, NO_NORMALS, TriangleMesh};
 use crate::import::{Fault, FilePosition, FileProblem};
+use crate::text::Message;
 
 /// The mesh of these vertices, and of the three corners of each triangle.
 pub(in crate::import) fn read(
@@ -26,7 +27,7 @@ pub(in crate::import) fn read(
 
 fn place(index: u64, count: usize) -> Result<usize, FileProblem> {
     usize::try_from(index).ok().filter(|index| *index < count).ok_or_else(|| FileProblem::Index {
-        field: "vertices",
+        field: Message::verbatim("vertices"),
         index: i64::try_from(index).unwrap_or(i64::MAX),
         first: 0,
         count: count as u64,

@@ -2,6 +2,7 @@
 
 use super::{TriangleMesh, weld::Welder};
 use crate::import::{Fault, FilePosition, FileProblem, materials::SlotBook};
+use crate::message;
 use crate::shape::CornerNormals;
 
 /// Builds a mesh from triangles as stored in a file.
@@ -79,7 +80,9 @@ impl MeshBuilder {
 fn welded(welder: &mut Welder, vectors: [[f64; 3]; 3]) -> Result<[u32; 3], FileProblem> {
     let mut indices = [0; 3];
     for (index, vector) in indices.iter_mut().zip(vectors) {
-        *index = welder.index(vector).ok_or(FileProblem::TooMany { what: "vertices", most: u64::from(u32::MAX) })?;
+        *index = welder
+            .index(vector)
+            .ok_or_else(|| FileProblem::TooMany { what: message!("vertices"), most: u64::from(u32::MAX) })?;
     }
     Ok(indices)
 }

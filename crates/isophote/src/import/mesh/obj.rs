@@ -4,6 +4,8 @@
 //! the shape and are skipped; points and lines have no surface; curved surfaces are rejected. The normals used are those
 //! that the faces refer to (`f 1//1 …`).
 
+use crate::message;
+use crate::text::Message;
 use memchr::memchr;
 
 use super::{MeshBuilder, NO_NORMALS, TriangleMesh};
@@ -42,8 +44,11 @@ fn statements(bytes: &[u8], mut read: impl FnMut(&[u8], &[u8]) -> Result<(), Fil
     if continued.is_empty() {
         return Ok(());
     }
-    Err(FileProblem::Missing { what: "the line after the last ‘\\’".into(), needed: "it is continued there" }
-        .at(FilePosition::Whole))
+    Err(FileProblem::Missing {
+        what: message!("the line after the last ‘{mark}’", mark = '\\'),
+        needed: message!("it is continued there"),
+    }
+    .at(FilePosition::Whole))
 }
 
 #[derive(Debug, Default)]
@@ -58,16 +63,16 @@ impl Vertices {
         match keyword {
             b"v" => {
                 // A weight or a colour, or both, may follow.
-                self.positions.push(three(rest, "vertex", &[3, 4, 6, 7])?);
+                self.positions.push(three(rest, || message!("the vertex"), &[3, 4, 6, 7])?);
             }
-            b"vn" => self.normals.push(three(rest, "normal", &[3])?),
+            b"vn" => self.normals.push(three(rest, || message!("the normal"), &[3])?),
             b"vt" => self.textures += 1,
             b"f" | b"fo" | b"usemtl" | b"o" | b"g" | b"s" | b"mg" | b"mtllib" | b"p" | b"l" | b"lod" | b"bevel"
             | b"c_interp" | b"d_interp" | b"shadow_obj" | b"trace_obj" | b"usemap" | b"maplib" => {}
             b"vp" | b"cstype" | b"deg" | b"bmat" | b"step" | b"curv" | b"curv2" | b"surf" | b"parm" | b"trim"
             | b"hole" | b"scrv" | b"sp" | b"end" | b"con" | b"ctech" | b"stech" | b"call" | b"csh" => {
-                let what = format!("‘{}’ (curves, curved surfaces, other files)", shown(keyword));
-                return Err(FileProblem::Unsupported { what, instead: "export polygons" });
+                let what = message!("‘{keyword}’ (curves, curved surfaces, other files)", keyword = shown(keyword));
+                return Err(FileProblem::Unsupported { what, instead: message!("export polygons") });
             }
             _ => return Err(unknown(keyword)),
         }
@@ -77,13 +82,13 @@ impl Vertices {
 
 fn unknown(keyword: &[u8]) -> FileProblem {
     FileProblem::Unexpected {
-        what: "the line's first word".into(),
+        what: message!("the line's first word"),
         found: shown(keyword),
-        allowed: "the keywords of OBJ: v, vn, vt, f, usemtl, o, g, s, mtllib and others".into(),
+        allowed: message!("the keywords of OBJ: v, vn, vt, f, usemtl, o, g, s, mtllib and others"),
     }
 }
 
-fn three(rest: &[u8], what: &str, allowed: &[usize]) -> Result<[f64; 3], FileProblem> {
+fn three(rest: &[u8], what: fn() -> Message, allowed: &[usize]) -> Result<[f64; 3], FileProblem> {
     let mut vector = [0.0; 3];
     let mut parts = words(rest);
     let mut found = 0;
@@ -97,8 +102,8 @@ fn three(rest: &[u8], what: &str, allowed: &[usize]) -> Result<[f64; 3], FilePro
         return Ok(vector);
     }
     let counts: Vec<String> = allowed.iter().map(usize::to_string).collect();
-    let allowed = format!("allowed are {} numbers", counts.join(", "));
-    Err(FileProblem::Parts { what: format!("the {what}"), found: found as u64, allowed })
+    let allowed = message!("allowed are {counts} numbers", counts = counts.join(", "));
+    Err(FileProblem::Parts { what: what(), found: found as u64, allowed })
 }
 
 struct Faces<'a> {
@@ -154,9 +159,9 @@ impl<'a> Faces<'a> {
         let form = |corner: &Corner| (corner.has_texture, corner.normal.is_some());
         if let Some(other) = between.iter().position(|corner| form(corner) != form(first)) {
             return Err(FileProblem::Unexpected {
-                what: format!("corner {} of the face", other + 2),
+                what: message!("corner {number} of the face", number = other + 2),
                 found: words(rest).nth(other + 1).map(shown).unwrap_or_default(),
-                allowed: "the form of the first corner (v, v/vt, v//vn or v/vt/vn)".into(),
+                allowed: message!("the form of the first corner (v, v/vt, v//vn or v/vt/vn)"),
             });
         }
         let material = match self.material {
@@ -184,30 +189,35 @@ impl<'a> Faces<'a> {
         let normal = parts.next();
         let has_texture = texture.is_some_and(|texture| !texture.is_empty());
         if parts.next().is_some() || (texture.is_some() && !has_texture && normal.is_none()) {
-            let allowed = "v, v/vt, v//vn or v/vt/vn".into();
-            return Err(FileProblem::Unexpected { what: "a corner".into(), found: shown(word), allowed });
+            let allowed = message!("v, v/vt, v//vn or v/vt/vn");
+            return Err(FileProblem::Unexpected { what: message!("a corner"), found: shown(word), allowed });
         }
         let [positions, textures, normals] =
             [self.vertices.positions.len(), self.vertices.textures, self.vertices.normals.len()];
-        let vertex = index(vertex, "the vertex index", positions, self.so_far[0])?;
+        let vertex = index(vertex, || message!("the vertex index"), positions, self.so_far[0])?;
         if let Some(texture) = texture.filter(|_| has_texture) {
-            index(texture, "the texture index", textures, self.so_far[1])?;
+            index(texture, || message!("the texture index"), textures, self.so_far[1])?;
         }
-        let normal = normal.map(|normal| index(normal, "the normal index", normals, self.so_far[2])).transpose()?;
+        let normal =
+            normal.map(|normal| index(normal, || message!("the normal index"), normals, self.so_far[2])).transpose()?;
         Ok(Corner { vertex, has_texture, normal })
     }
 }
 
 fn too_few(found: usize) -> FileProblem {
-    FileProblem::Parts { what: "the face".into(), found: found as u64, allowed: "at least 3 corners are needed".into() }
+    FileProblem::Parts {
+        what: message!("the face"),
+        found: found as u64,
+        allowed: message!("at least 3 corners are needed"),
+    }
 }
 
 /// From 1 upwards, or from −1 downwards, counting back from the vertices so far.
-fn index(word: &[u8], field: &'static str, count: usize, so_far: usize) -> Result<usize, FileProblem> {
+fn index(word: &[u8], field: fn() -> Message, count: usize, so_far: usize) -> Result<usize, FileProblem> {
     let index = integer(word, field)?;
     let from_start = usize::try_from(index).ok().and_then(|index| index.checked_sub(1)).filter(|index| *index < count);
     let from_here = usize::try_from(index.unsigned_abs()).ok().and_then(|back| so_far.checked_sub(back));
     let found = if index < 0 { from_here } else { from_start };
     let (count, backwards) = (count as u64, so_far as u64);
-    found.ok_or(FileProblem::Index { field, index, first: 1, count, backwards })
+    found.ok_or_else(|| FileProblem::Index { field: field(), index, first: 1, count, backwards })
 }

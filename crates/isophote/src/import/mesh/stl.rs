@@ -8,6 +8,8 @@ use crate::import::{
     format::is_binary_stl,
     text::{finite, finite_number, lines, shown, words},
 };
+use crate::message;
+use crate::text::Message;
 
 /// The mesh of an STL file.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
@@ -18,19 +20,19 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
 
 fn read_binary(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
     let total = bytes.len() as u64;
-    let truncated = |what: String, needed, left| FileProblem::Truncated { what, needed, left }.at(FilePosition::Header);
+    let truncated =
+        |what: Message, needed, left| FileProblem::Truncated { what, needed, left }.at(FilePosition::Header);
     let Some((header, body)) = bytes.split_at_checked(84) else {
-        return Err(truncated("the header and the number of triangles".into(), 84, total));
+        return Err(truncated(message!("the header and the number of triangles"), 84, total));
     };
     let count = u64::from(u32::from_le_bytes(header[80..].try_into().expect("four bytes")));
     let (needed, left) = (50 * count, total - 84);
     if needed > left {
-        return Err(truncated(format!("{count} triangles"), needed.into(), left));
+        return Err(truncated(message!("{count} triangles", count), needed.into(), left));
     }
     if needed < left {
-        return Err(
-            FileProblem::Leftover { what: format!("{count} triangles"), left: left - needed }.at(FilePosition::Header)
-        );
+        return Err(FileProblem::Leftover { what: message!("{count} triangles", count), left: left - needed }
+            .at(FilePosition::Header));
     }
     let mut builder = MeshBuilder::default();
     let material = builder.materials.slot(None).expect("one slot is always free");
@@ -59,8 +61,8 @@ fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
         last = number;
     }
     if reader.expected != Expected::Solid {
-        let what = format!("‘{}’", reader.expected.keywords());
-        let needed = "the file ends within a solid";
+        let what = message!("‘{keywords}’", keywords = reader.expected.keywords());
+        let needed = message!("the file ends within a solid");
         return Err(FileProblem::Missing { what, needed }.at(FilePosition::Line(last)));
     }
     reader.builder.finish()
@@ -84,14 +86,14 @@ enum Expected {
 }
 
 impl Expected {
-    fn keywords(self) -> &'static str {
+    fn keywords(self) -> Message {
         match self {
-            Self::Solid => "solid",
-            Self::FacetOrEnd => "facet normal, or endsolid",
-            Self::OuterLoop => "outer loop",
-            Self::Vertex => "vertex",
-            Self::EndLoop => "endloop",
-            Self::EndFacet => "endfacet",
+            Self::Solid => Message::verbatim("solid"),
+            Self::FacetOrEnd => message!("facet normal, or endsolid"),
+            Self::OuterLoop => Message::verbatim("outer loop"),
+            Self::Vertex => Message::verbatim("vertex"),
+            Self::EndLoop => Message::verbatim("endloop"),
+            Self::EndFacet => Message::verbatim("endfacet"),
         }
     }
 }
@@ -118,7 +120,7 @@ impl AsciiReader {
                 Expected::FacetOrEnd
             }
             (expected, _) => {
-                let (what, allowed) = ("the line's first word".into(), expected.keywords().into());
+                let (what, allowed) = (message!("the line's first word"), expected.keywords());
                 return Err(FileProblem::Unexpected { what, found: shown(keyword), allowed });
             }
         };
@@ -137,5 +139,9 @@ fn position<'a>(mut parts: impl Iterator<Item = &'a [u8]>) -> Result<[f64; 3], F
     if found == 3 {
         return Ok(position);
     }
-    Err(FileProblem::Parts { what: "the vertex".into(), found, allowed: "allowed are 3 numbers".into() })
+    Err(FileProblem::Parts {
+        what: message!("the vertex"),
+        found,
+        allowed: message!("allowed are {counts} numbers", counts = 3),
+    })
 }

@@ -1,5 +1,7 @@
 //! The header of a PLY file.
 
+use crate::message;
+use crate::text::Message;
 use memchr::memchr;
 
 use crate::import::{
@@ -74,10 +76,10 @@ impl Header {
                 [b"element", name, count] => {
                     let element = Element::new(name, count).map_err(at)?;
                     if elements.iter().any(|other| other.name == element.name) {
-                        return Err(at(twice("an element", &element.name)));
+                        return Err(at(twice(message!("an element that is there twice"), &element.name)));
                     }
                     if elements.len() == MOST_ELEMENTS {
-                        return Err(at(too_many("elements in the header", MOST_ELEMENTS)));
+                        return Err(at(too_many(message!("elements in the header"), MOST_ELEMENTS)));
                     }
                     elements.push(element);
                 }
@@ -85,10 +87,10 @@ impl Header {
                     let element = elements.last_mut().ok_or_else(|| at(unexpected(line)))?;
                     let property = Property::new(parts).map_err(at)?;
                     if element.property(&[&property.name]).is_some() {
-                        return Err(at(twice("a property", &property.name)));
+                        return Err(at(twice(message!("a property that is there twice"), &property.name)));
                     }
                     if element.properties.len() == MOST_PROPERTIES {
-                        return Err(at(too_many("properties of one element", MOST_PROPERTIES)));
+                        return Err(at(too_many(message!("properties of one element"), MOST_PROPERTIES)));
                     }
                     element.properties.push(property);
                 }
@@ -99,14 +101,17 @@ impl Header {
                 _ => return Err(at(unexpected(line))),
             }
         }
-        Err(FileProblem::Missing { what: "the line ‘end_header’".into(), needed: "it ends the header" }
-            .at(FilePosition::Header))
+        Err(FileProblem::Missing {
+            what: message!("the line ‘{line}’", line = "end_header"),
+            needed: message!("it ends the header"),
+        }
+        .at(FilePosition::Header))
     }
 
     /// The element with this name, which is required.
-    pub fn element(&self, name: &str, needed: &'static str) -> Result<&Element, FileProblem> {
+    pub fn element(&self, name: &str, needed: fn() -> Message) -> Result<&Element, FileProblem> {
         let element = self.elements.iter().find(|element| element.name == name);
-        element.ok_or_else(|| FileProblem::Missing { what: format!("element {name}"), needed })
+        element.ok_or_else(|| FileProblem::Missing { what: message!("element {name}", name), needed: needed() })
     }
 }
 
@@ -117,8 +122,8 @@ impl Encoding {
             b"binary_little_endian" => Ok(Self::Little),
             b"binary_big_endian" => Ok(Self::Big),
             _ => {
-                let allowed = "ascii, binary_little_endian and binary_big_endian".into();
-                Err(FileProblem::Unexpected { what: "the format".into(), found: shown(name), allowed })
+                let allowed = message!("ascii, binary_little_endian and binary_big_endian");
+                Err(FileProblem::Unexpected { what: message!("the format"), found: shown(name), allowed })
             }
         }
     }
@@ -126,11 +131,11 @@ impl Encoding {
 
 impl Element {
     fn new(name: &[u8], count: &[u8]) -> Result<Self, FileProblem> {
-        let field = "the number of elements";
+        let field = || message!("the number of elements");
         let count = u64::try_from(integer(count, field)?).map_err(|_| FileProblem::NotANumber {
-            field: field.into(),
+            field: field(),
             text: shown(count),
-            allowed: "0 or more",
+            allowed: message!("0 or more"),
         })?;
         Ok(Self { name: shown(name), count, properties: Vec::new() })
     }
@@ -146,8 +151,8 @@ impl Element {
         for (place, name) in places.iter_mut().zip(names) {
             let found = self.property(&[name]).filter(|index| self.properties[*index].length.is_none());
             *place = found.ok_or_else(|| FileProblem::Missing {
-                what: format!("property {name} of element {}", self.name),
-                needed: "it must be a single number",
+                what: message!("property {name} of element {element}", name, element = self.name),
+                needed: message!("it must be a single number"),
             })?;
         }
         Ok(places)
@@ -162,8 +167,8 @@ impl Property {
             _ => return Err(unexpected(&parts.join(&b' '))),
         };
         if matches!(length, Some(Kind::F32 | Kind::F64)) {
-            let what = "the kind of a list's length".into();
-            return Err(FileProblem::Unexpected { what, found: "float".into(), allowed: "whole numbers".into() });
+            let what = message!("the kind of a list's length");
+            return Err(FileProblem::Unexpected { what, found: "float".into(), allowed: message!("whole numbers") });
         }
         Ok(Self { name: shown(name), kind: Kind::named(kind)?, length })
     }
@@ -181,9 +186,9 @@ impl Kind {
             b"float" | b"float32" => Ok(Self::F32),
             b"double" | b"float64" => Ok(Self::F64),
             _ => Err(FileProblem::Unexpected {
-                what: "the kind of a property".into(),
+                what: message!("the kind of a property"),
                 found: shown(name),
-                allowed: "char, uchar, short, ushort, int, uint, float, double (or int8 to float64)".into(),
+                allowed: message!("char, uchar, short, ushort, int, uint, float, double (or int8 to float64)"),
             }),
         }
     }
@@ -205,21 +210,23 @@ impl Kind {
 
 fn unexpected(line: &[u8]) -> FileProblem {
     FileProblem::Unexpected {
-        what: "a line of the header".into(),
+        what: message!("a line of the header"),
         found: shown(line),
-        allowed: "format, comment, obj_info, element, property (of an element), end_header".into(),
+        allowed: message!("format, comment, obj_info, element, property (of an element), end_header"),
     }
 }
 
-fn twice(what: &str, name: &str) -> FileProblem {
-    let what = format!("{what} that is there twice");
-    FileProblem::Unexpected { what, found: name.into(), allowed: "each name once".into() }
+fn twice(what: Message, name: &str) -> FileProblem {
+    FileProblem::Unexpected { what, found: name.into(), allowed: message!("each name once") }
 }
 
-fn too_many(what: &'static str, most: usize) -> FileProblem {
+fn too_many(what: Message, most: usize) -> FileProblem {
     FileProblem::TooMany { what, most: most as u64 }
 }
 
 fn no_format() -> FileProblem {
-    FileProblem::Missing { what: "the line ‘format … 1.0’".into(), needed: "it says how numbers are written" }
+    FileProblem::Missing {
+        what: message!("the line ‘{line}’", line = "format … 1.0"),
+        needed: message!("it says how numbers are written"),
+    }
 }

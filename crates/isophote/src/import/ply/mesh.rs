@@ -7,6 +7,7 @@ use crate::import::{
     mesh::{MeshBuilder, NO_NORMALS},
     text::finite,
 };
+use crate::message;
 
 /// The mesh of a PLY file.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
@@ -34,7 +35,7 @@ struct VertexLayout {
 
 impl VertexLayout {
     fn of(header: &Header) -> Result<Self, FileProblem> {
-        let element = header.element("vertex", "x, y and z stand there")?;
+        let element = header.element("vertex", || message!("x, y and z stand there"))?;
         let position = element.values(["x", "y", "z"])?;
         let has_normal = ["nx", "ny", "nz"].iter().any(|name| element.property(&[name]).is_some());
         let normal = has_normal.then(|| element.values(["nx", "ny", "nz"])).transpose()?;
@@ -44,9 +45,13 @@ impl VertexLayout {
 
 /// The property of the faces that holds the indices of their corners.
 fn face_indices(header: &Header) -> Result<usize, FileProblem> {
-    let face = header.element("face", "without faces there is no surface (points with a radius can be spheres)")?;
-    let needed = "a list of whole numbers, the indices of its corners";
-    let missing = || FileProblem::Missing { what: "property vertex_indices of element face".into(), needed };
+    let face = header
+        .element("face", || message!("without faces there is no surface (points with a radius can be spheres)"))?;
+    let needed = || message!("a list of whole numbers, the indices of its corners");
+    let missing = || FileProblem::Missing {
+        what: message!("property {name} of element {element}", name = "vertex_indices", element = "face"),
+        needed: needed(),
+    };
     let index = face.property(&["vertex_indices", "vertex_index"]).ok_or_else(missing)?;
     let property = &face.properties[index];
     if property.length.is_none() || !property.kind.is_integer() {
@@ -54,7 +59,10 @@ fn face_indices(header: &Header) -> Result<usize, FileProblem> {
     }
     let first = header.elements.iter().find(|element| matches!(element.name.as_str(), "vertex" | "face"));
     if first == Some(face) {
-        return Err(FileProblem::Unsupported { what: "faces before vertices".into(), instead: "write vertices first" });
+        return Err(FileProblem::Unsupported {
+            what: message!("faces before vertices"),
+            instead: message!("write vertices first"),
+        });
     }
     Ok(index)
 }
@@ -108,12 +116,22 @@ impl Faces {
 }
 
 fn too_few(found: usize) -> FileProblem {
-    FileProblem::Parts { what: "the face".into(), found: found as u64, allowed: "at least 3 corners are needed".into() }
+    FileProblem::Parts {
+        what: message!("the face"),
+        found: found as u64,
+        allowed: message!("at least 3 corners are needed"),
+    }
 }
 
 fn vertex_index(index: f64, count: usize) -> Result<usize, FileProblem> {
     #[expect(clippy::cast_possible_truncation, reason = "it is a whole number of 32 bits")]
     let index = index as i64;
     let allowed = usize::try_from(index).ok().filter(|index| *index < count);
-    allowed.ok_or(FileProblem::Index { field: "a vertex index", index, first: 0, count: count as u64, backwards: 0 })
+    allowed.ok_or_else(|| FileProblem::Index {
+        field: message!("a vertex index"),
+        index,
+        first: 0,
+        count: count as u64,
+        backwards: 0,
+    })
 }

@@ -1,5 +1,7 @@
 //! The values of a PLY file, row by row.
 
+use crate::message;
+use crate::text::Message;
 use memchr::memchr;
 
 use super::{
@@ -65,15 +67,15 @@ impl<'a> Rows<'a> {
         if left == 0 {
             return Ok(());
         }
-        Err(FileProblem::Leftover { what: "the last element that the header announces".into(), left }
+        Err(FileProblem::Leftover { what: message!("the last element that the header announces"), left }
             .at(FilePosition::Whole))
     }
 
     /// Checks that there are no more rows than the data has room for.
     fn check_length(&self, element: &Element) -> Result<(), FileProblem> {
         if element.properties.is_empty() {
-            let what = format!("a property of element {}", element.name);
-            return Err(FileProblem::Missing { what, needed: "an element without any has nothing to read" });
+            let what = message!("a property of element {element}", element = element.name);
+            return Err(FileProblem::Missing { what, needed: message!("an element without any has nothing to read") });
         }
         let row: usize = match self.encoding {
             // A digit and the separator after it.
@@ -87,7 +89,7 @@ impl<'a> Rows<'a> {
             return Ok(());
         }
         Err(FileProblem::Truncated {
-            what: format!("{} rows of element {}", element.count, element.name),
+            what: message!("{count} rows of element {element}", count = element.count, element = element.name),
             needed,
             left,
         })
@@ -96,8 +98,8 @@ impl<'a> Rows<'a> {
     fn source(&mut self, element: &Element, number: u64) -> Result<Source<'a>, Fault> {
         match self.encoding {
             Encoding::Ascii => self.line().map(|line| Source::Line { left: line, taken: 0 }).ok_or_else(|| {
-                let what = format!("element {}", element.name);
-                let allowed = format!("the header announces {} rows", element.count);
+                let what = message!("element {name}", name = element.name);
+                let allowed = message!("the header announces {count} rows", count = element.count);
                 FileProblem::Parts { what, found: number, allowed }.at(FilePosition::Line(self.line))
             }),
             encoding => Ok(Source::Bytes { rest: self.rest, is_big: encoding == Encoding::Big }),
@@ -155,21 +157,21 @@ impl Source<'_> {
         if more == 0 {
             return Ok(());
         }
-        let allowed = format!("its properties take {taken}");
-        Err(FileProblem::Parts { what: "the row, by its numbers,".into(), found: *taken + more, allowed })
+        let allowed = message!("its properties take {taken}", taken = *taken);
+        Err(FileProblem::Parts { what: message!("the row, by its numbers,"), found: *taken + more, allowed })
     }
 
     fn list(&mut self, property: &Property, length: f64, list: Option<&mut Vec<f64>>) -> Result<(), FileProblem> {
         if length < 0.0 {
-            let field = format!("the length of list {}", property.name);
-            return Err(FileProblem::NotANumber { field, text: length.to_string(), allowed: "0 or more" });
+            let field = message!("the length of list {name}", name = property.name);
+            return Err(FileProblem::NotANumber { field, text: length.to_string(), allowed: message!("0 or more") });
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number of 32 bits")]
         let length = length as u64;
         if let Self::Bytes { rest, .. } = self {
             let (needed, left) = (u128::from(length) * property.kind.size() as u128, rest.len() as u64);
             if needed > left.into() {
-                let what = format!("{length} values of list {}", property.name);
+                let what = message!("{count} values of list {name}", count = length, name = property.name);
                 return Err(FileProblem::Truncated { what, needed, left });
             }
         }
@@ -188,8 +190,8 @@ impl Source<'_> {
                 let end = start.iter().position(u8::is_ascii_whitespace).unwrap_or(start.len());
                 let (word, after) = start.split_at(end);
                 if word.is_empty() {
-                    let what = "the row, by its numbers,".into();
-                    let allowed = format!("property {name} is missing");
+                    let what = message!("the row, by its numbers,");
+                    let allowed = message!("property {name} is missing", name);
                     return Err(FileProblem::Parts { what, found: *taken, allowed });
                 }
                 (*left, *taken) = (after, *taken + 1);
@@ -197,7 +199,7 @@ impl Source<'_> {
             }
             Self::Bytes { rest, is_big } => {
                 let Some((bytes, after)) = rest.split_at_checked(kind.size()) else {
-                    let what = format!("the values of property {name}");
+                    let what = message!("the values of property {name}", name);
                     return Err(FileProblem::Truncated { what, needed: kind.size() as u128, left: rest.len() as u64 });
                 };
                 *rest = after;
@@ -209,10 +211,10 @@ impl Source<'_> {
 
 /// No integer type of PLY is wider than 32 bits, and a double holds all of these exactly.
 fn whole_number(word: &[u8], name: &str) -> Result<f64, FileProblem> {
-    let value = integer(word, name)?;
+    let value = integer(word, || Message::verbatim(name))?;
     let value = i32::try_from(value).map(f64::from).or_else(|_| u32::try_from(value).map(f64::from));
-    let allowed = "a whole number of 32 bits";
-    value.map_err(|_| FileProblem::NotANumber { field: name.into(), text: shown(word), allowed })
+    let allowed = || message!("a whole number of 32 bits");
+    value.map_err(|_| FileProblem::NotANumber { field: Message::verbatim(name), text: shown(word), allowed: allowed() })
 }
 
 /// All of these types fit into a double.

@@ -3,6 +3,7 @@
 
 use super::{Header, Rows};
 use crate::import::{Fault, FilePosition, FileProblem, SphereList, spheres::SpheresBuilder};
+use crate::message;
 
 /// The spheres of a PLY file.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
@@ -30,13 +31,13 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
 
 /// The indices of a sphere's numbers, and of its material if it has one.
 fn layout(header: &Header) -> Result<([usize; 4], Option<usize>), FileProblem> {
-    let vertex = header.element("vertex", "x, y, z and radius stand there")?;
+    let vertex = header.element("vertex", || message!("x, y, z and radius stand there"))?;
     let numbers = vertex.values(["x", "y", "z", "radius"])?;
     let Some(index) = vertex.property(&["material"]) else { return Ok((numbers, None)) };
     let property = &vertex.properties[index];
     if property.length.is_some() || !property.kind.is_integer() {
-        let what = "property material of element vertex as a whole number".into();
-        return Err(FileProblem::Missing { what, needed: "the number is the material's name" });
+        let what = message!("property material of element vertex as a whole number");
+        return Err(FileProblem::Missing { what, needed: message!("the number is the material's name") });
     }
     Ok((numbers, Some(index)))
 }

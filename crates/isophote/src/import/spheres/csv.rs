@@ -6,6 +6,8 @@ use crate::import::{
     Fault, FilePosition, FileProblem,
     text::{lines, number, shown},
 };
+use crate::message;
+use crate::text::Message;
 
 /// The spheres of a CSV file.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
@@ -35,30 +37,30 @@ enum Column {
 }
 
 const NUMBERS: [&str; 4] = ["x", "y", "z", "radius"];
-const ALLOWED: &str = "x, y, z, radius and, if wanted, material, separated by commas";
 
 fn columns(header: &[u8]) -> Result<Vec<Column>, FileProblem> {
     let mut columns = Vec::new();
     for field in fields(header) {
         let name = unquoted(field)?.unwrap_or_default();
         let number = NUMBERS.iter().position(|known| *known == name).map(Column::Number);
-        let unexpected = |what: &str| FileProblem::Unexpected {
-            what: what.into(),
+        let unexpected = |what: Message| FileProblem::Unexpected {
+            what,
             found: shown(name.as_bytes()),
-            allowed: ALLOWED.into(),
+            allowed: message!("x, y, z, radius and, if wanted, material, separated by commas"),
         };
-        let column =
-            number.or((name == "material").then_some(Column::Material)).ok_or_else(|| unexpected("a column"))?;
+        let column = number
+            .or((name == "material").then_some(Column::Material))
+            .ok_or_else(|| unexpected(message!("a column")))?;
         if columns.contains(&column) {
-            return Err(unexpected("a column that is there twice"));
+            return Err(unexpected(message!("a column that is there twice")));
         }
         columns.push(column);
     }
     for (index, name) in NUMBERS.iter().enumerate() {
         if !columns.contains(&Column::Number(index)) {
             return Err(FileProblem::Missing {
-                what: format!("column {name}"),
-                needed: "needed are x, y, z and radius",
+                what: message!("column {name}", name),
+                needed: message!("needed are x, y, z and radius"),
             });
         }
     }
@@ -85,8 +87,8 @@ fn row<'a>(line: &'a [u8], columns: &[Column]) -> Result<Row<'a>, FileProblem> {
     if found == columns.len() {
         return Ok(row);
     }
-    let allowed = format!("the first line has {}", columns.len());
-    Err(FileProblem::Parts { what: "the row, by its fields,".into(), found: found as u64, allowed })
+    let allowed = message!("the first line has {count}", count = columns.len());
+    Err(FileProblem::Parts { what: message!("the row, by its fields,"), found: found as u64, allowed })
 }
 
 /// The fields of a line, separated by commas; commas in double quotes do not separate.
@@ -100,14 +102,13 @@ fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> {
 
 /// A name without surrounding spaces and quotes; `None` if it is empty.
 fn unquoted(field: &[u8]) -> Result<Option<String>, FileProblem> {
-    let wrong =
-        |allowed: &str| FileProblem::Unexpected { what: "a name".into(), found: shown(field), allowed: allowed.into() };
-    let text = std::str::from_utf8(field).map_err(|_| wrong("text in UTF-8"))?.trim();
+    let wrong = |allowed: Message| FileProblem::Unexpected { what: message!("a name"), found: shown(field), allowed };
+    let text = std::str::from_utf8(field).map_err(|_| wrong(message!("text in UTF-8")))?.trim();
     if !text.contains('"') {
         return Ok(Some(text.to_owned()).filter(|name| !name.is_empty()));
     }
     let inner = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
     let inner = inner.filter(|inner| !inner.replace("\"\"", "").contains('"'));
-    let inner = inner.ok_or_else(|| wrong("quotes around the whole name, doubled within"))?;
+    let inner = inner.ok_or_else(|| wrong(message!("quotes around the whole name, doubled within")))?;
     Ok(Some(inner.replace("\"\"", "\"")).filter(|name| !name.is_empty()))
 }

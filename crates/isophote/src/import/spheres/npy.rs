@@ -3,6 +3,8 @@
 
 use super::{SphereList, SpheresBuilder};
 use crate::import::{Fault, FilePosition, FileProblem, text::shown};
+use crate::message;
+use crate::text::Message;
 
 /// The spheres of an NPY file. Anything after the array is ignored, as `NumPy` does.
 pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
@@ -11,7 +13,7 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<SphereList, Fault> {
     let needed = u128::from(array.rows) * 4 * array.number.size() as u128;
     let left = body.len() as u64;
     if needed > left.into() {
-        let what = format!("{} rows of 4 numbers", array.rows);
+        let what = message!("{count} rows of 4 numbers", count = array.rows);
         return Err(FileProblem::Truncated { what, needed, left }.at(FilePosition::Header));
     }
     let body = &body[..usize::try_from(needed).expect("it is shorter than the file")];
@@ -36,7 +38,7 @@ fn rows<T: Into<f64>, const SIZE: usize>(body: &[u8], number: fn([u8; SIZE]) -> 
 /// The dictionary and what follows it.
 fn split(bytes: &[u8]) -> Result<(&str, &[u8]), FileProblem> {
     let truncated = |needed: u64| FileProblem::Truncated {
-        what: "magic, version and header".into(),
+        what: message!("magic, version and header"),
         needed: needed.into(),
         left: bytes.len() as u64,
     };
@@ -46,7 +48,7 @@ fn split(bytes: &[u8]) -> Result<(&str, &[u8]), FileProblem> {
         (2 | 3, _, Some(length)) => (12, u32::from_le_bytes(length.try_into().expect("four bytes"))),
         (1..=3, ..) => return Err(truncated(12)),
         _ => {
-            let (what, allowed) = ("the version of the format".into(), "1, 2 and 3".into());
+            let (what, allowed) = (message!("the version of the format"), message!("1, 2 and 3"));
             return Err(FileProblem::Unexpected { what, found: version.to_string(), allowed });
         }
     };
@@ -91,7 +93,13 @@ impl Array {
             ">f4" => Number::F4Big,
             "<f8" => Number::F8Little,
             ">f8" => Number::F8Big,
-            _ => return Err(unexpected("the kind of its numbers", kind, "float32 and float64 (<f4, <f8, >f4, >f8)")),
+            _ => {
+                return Err(unexpected(
+                    message!("the kind of its numbers"),
+                    kind,
+                    message!("float32 and float64 (<f4, <f8, >f4, >f8)"),
+                ));
+            }
         };
         let sizes: Option<Vec<u64>> = shape
             .trim_matches(['(', ')'])
@@ -103,17 +111,22 @@ impl Array {
         let rows = match sizes.as_deref() {
             Some([rows, 4]) => *rows,
             Some([_, 3]) => {
-                let allowed = "(N, 4): x, y, z, radius. To give all points one radius: \
-                               numpy.column_stack([points, numpy.full(len(points), radius)])";
-                return Err(unexpected("its shape", shape, allowed));
+                let allowed = message!(
+                    "(N, 4): x, y, z, radius. To give all points one radius: numpy.column_stack([points, numpy.full(len(points), radius)])"
+                );
+                return Err(unexpected(message!("its shape"), shape, allowed));
             }
-            _ => return Err(unexpected("its shape", shape, "(N, 4): x, y, z, radius")),
+            _ => return Err(unexpected(message!("its shape"), shape, Message::verbatim("(N, 4): x, y, z, radius"))),
         };
         match order {
             "False" => Ok(Self { number, rows }),
             // A single row is the same in either order.
             "True" if rows == 1 => Ok(Self { number, rows }),
-            _ => Err(unexpected("fortran_order", order, "False (numpy.ascontiguousarray makes it so)")),
+            _ => Err(unexpected(
+                Message::verbatim("fortran_order"),
+                order,
+                message!("False (numpy.ascontiguousarray makes it so)"),
+            )),
         }
     }
 }
@@ -140,12 +153,12 @@ fn value<'a>(header: &'a str, key: &str) -> Result<&'a str, FileProblem> {
 fn dictionary(header: &[u8]) -> FileProblem {
     let header = header.trim_ascii();
     FileProblem::Unexpected {
-        what: "the header".into(),
+        what: message!("the header"),
         found: shown(header),
-        allowed: "a dictionary with descr, fortran_order and shape".into(),
+        allowed: message!("a dictionary with descr, fortran_order and shape"),
     }
 }
 
-fn unexpected(what: &str, found: &str, allowed: &str) -> FileProblem {
-    FileProblem::Unexpected { what: what.into(), found: shown(found.as_bytes()), allowed: allowed.into() }
+fn unexpected(what: Message, found: &str, allowed: Message) -> FileProblem {
+    FileProblem::Unexpected { what, found: shown(found.as_bytes()), allowed }
 }

@@ -27,7 +27,7 @@ fn a_file_that_is_not_at_hand_is_called_by_its_name() {
     let error = read_mesh(&files, "circle.obj").unwrap_err();
     assert_eq!(error.to_string(), "there is no file ‘circle.obj’ here");
     let ImportError::Unread { failure, .. } = error else { panic!("{error}") };
-    assert_eq!(failure.help(), "allowed: square.obj, triangle.obj");
+    assert_eq!(failure.help().to_string(), "allowed: square.obj, triangle.obj");
 }
 
 #[test]

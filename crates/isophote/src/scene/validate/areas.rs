@@ -1,9 +1,10 @@
 //! Validates areas of interest.
 
-use super::names::Names;
+use super::names::{Kind, Names};
 use super::numbers::vector_text;
 use super::{Checked, Validator};
 use crate::camera::Camera;
+use crate::message;
 use crate::scene::document::Path;
 use crate::scene::limits;
 use crate::scene::problems::{closest, short, suggestion};
@@ -26,7 +27,7 @@ impl Validator<'_> {
         if !self.few_enough("area", source.area.len(), limits::AREAS) {
             return Vec::new();
         }
-        let mut names = Names::new("area");
+        let mut names = Names::new(Kind::Area);
         let check = |(index, area): (usize, &AreaSource)| {
             let path = Path::root().key("area").index(index);
             let name = names.check(self, &path, area.name.as_deref());
@@ -47,8 +48,8 @@ impl Validator<'_> {
             let inside = unit.to_internal(written);
             let is_allowed = (limits::SMALLEST..=limits::COORDINATE).contains(&inside);
             if !is_allowed {
-                let help = format!("allowed: above 0, in {}", unit.name());
-                self.wrong(path, format!("`{path}` is {written}"), &help);
+                let help = message!("allowed: above 0, in {unit}", unit = unit.name());
+                self.wrong(path, message!("`{path}` is {value}", path, value = written), help);
             }
             is_allowed.then_some(inside)
         };
@@ -60,12 +61,16 @@ impl Validator<'_> {
                 Some(AreaOutline::Rectangle { half: [0.5 * width?, 0.5 * height?] })
             }
             (Some(_), Some(_)) => {
-                let message = format!("`{path}` has both `radius` and `size`");
-                self.wrong(&path.key("size"), message, "allowed: `radius` for a circle, or `size` for a rectangle");
+                let message = message!("`{path}` has both `radius` and `size`", path);
+                self.wrong(
+                    &path.key("size"),
+                    message,
+                    message!("allowed: `radius` for a circle, or `size` for a rectangle"),
+                );
                 None
             }
             (None, None) => {
-                let help = "write `radius = …` for a circle, or `size = [width, height]` for a rectangle";
+                let help = message!("write `radius = …` for a circle, or `size = [width, height]` for a rectangle");
                 self.problems.missing(path, "radius", help);
                 None
             }
@@ -75,17 +80,18 @@ impl Validator<'_> {
     fn area_on_screen(&mut self, path: &Path, area: &AreaSource, unit: ScreenUnit) -> Option<AreaPlace> {
         for (key, is_written) in [("center", area.center.is_some()), ("up", area.up.is_some())] {
             if is_written {
-                let message = format!("`{path}.{key}` means nothing for an area on the screen");
+                let message = message!("`{path}.{key}` means nothing for an area on the screen", path, key);
                 self.wrong(
                     &path.key(key),
                     message,
-                    "leave it out, or write `on = …` with the name of a plane, rectangle or disk",
+                    message!("leave it out, or write `on = …` with the name of a plane, rectangle or disk"),
                 );
             }
         }
         let Some(at) = area.at else {
-            let help =
-                "write `at = [x, y]`, its centre on the screen, or `on = …`, the surface that it is on, and `center`";
+            let help = message!(
+                "write `at = [x, y]`, its centre on the screen, or `on = …`, the surface that it is on, and `center`"
+            );
             self.problems.missing(path, "at", help);
             return None;
         };
@@ -106,11 +112,11 @@ impl Validator<'_> {
         outline: Option<AreaOutline>,
     ) -> Option<AreaPlace> {
         if area.at.is_some() {
-            let message = format!("`{path}` is on \"{}\", where `at` means nothing", short(on));
+            let message = message!("`{path}` is on \"{on}\", where `at` means nothing", path, on = short(on));
             self.wrong(
                 &path.key("at"),
                 message,
-                "write `center = [x, y, z]`, or leave out `on` for an area on the screen",
+                message!("write `center = [x, y, z]`, or leave out `on` for an area on the screen"),
             );
         }
         let center = self.required_point(path, "center", area.center);
@@ -122,10 +128,14 @@ impl Validator<'_> {
         let Some((index, shape)) = shapes.iter().flatten().enumerate().find(|(_, shape)| shape.name == on) else {
             let names: Vec<&str> = shapes.iter().flatten().map(|shape| shape.name.as_str()).take(20).collect();
             let help = match names.as_slice() {
-                [] => "the scene has no shapes".into(),
-                _ => format!("allowed: {}{}", names.join(", "), suggestion(closest(on, &names))),
+                [] => message!("the scene has no shapes"),
+                _ => message!(
+                    "allowed: {names}{meant}",
+                    names = names.join(", "),
+                    meant = suggestion(closest(on, &names))
+                ),
             };
-            self.wrong(&path.key("on"), format!("there is no shape \"{}\"", short(on)), &help);
+            self.wrong(&path.key("on"), message!("there is no shape \"{on}\"", on = short(on)), help);
             return None;
         };
         let is_flat = matches!(shape.geometry, Geometry::Plane(_) | Geometry::Rectangle(_) | Geometry::Disk(_));
@@ -134,23 +144,24 @@ impl Validator<'_> {
             _ => None,
         });
         let Some(normal) = normal else {
-            let message = format!("`{path}` is on \"{}\", a {}", short(on), shape.geometry.kind());
-            self.wrong(&path.key("on"), message, "allowed: the name of a plane, a rectangle or a disk");
+            let message =
+                message!("`{path}` is on \"{on}\", a {kind}", path, on = short(on), kind = shape.geometry.kind());
+            self.wrong(&path.key("on"), message, message!("allowed: the name of a plane, a rectangle or a disk"));
             return None;
         };
         let (center, up) = (center?, up?.normalized());
         let height = up - normal * normal.dot(up);
         if height.length() < 1e-6 {
-            let which = if area.up.is_some() { "" } else { " (by default)" };
-            let message = format!(
-                "`{path}.up` is{which} along the normal {} of \"{}\"",
-                vector_text(normal.to_array()),
-                short(on)
-            );
+            let (normal, on) = (vector_text(normal.to_array()), short(on));
+            let message = if area.up.is_some() {
+                message!("`{path}.up` is along the normal {normal} of \"{on}\"", path, normal, on)
+            } else {
+                message!("`{path}.up` is (by default) along the normal {normal} of \"{on}\"", path, normal, on)
+            };
             self.wrong(
                 &path.key("up"),
                 message,
-                "write `up = [x, y, z]`, any other direction: that of the area's height",
+                message!("write `up = [x, y, z]`, any other direction: that of the area's height"),
             );
             return None;
         }
@@ -160,8 +171,8 @@ impl Validator<'_> {
         let is_off = |point: Vector| distance(point) > shape.geometry.surface_tolerance(point);
         if is_off(center) {
             let away = self.length_text(distance(center));
-            let message = format!("`{path}.center` is not on \"{}\": it is {away} away", short(on));
-            self.wrong(&path.key("center"), message, "allowed: a point of the surface");
+            let message = message!("`{path}.center` is not on \"{on}\": it is {away} away", path, on = short(on), away);
+            self.wrong(&path.key("center"), message, message!("allowed: a point of the surface"));
             return None;
         }
         let outline = outline?;
@@ -173,8 +184,8 @@ impl Validator<'_> {
             AreaOutline::Rectangle { .. } => vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
         };
         if edge.into_iter().filter_map(|place_within| place.point(outline.offset(place_within))).any(is_off) {
-            let message = format!("`{path}` reaches beyond the edge of \"{}\"", short(on));
-            self.wrong(&path.key("center"), message, "allowed: an area that is wholly on the surface");
+            let message = message!("`{path}` reaches beyond the edge of \"{on}\"", path, on = short(on));
+            self.wrong(&path.key("center"), message, message!("allowed: an area that is wholly on the surface"));
             return None;
         }
         Some(place)

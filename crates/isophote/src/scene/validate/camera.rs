@@ -4,16 +4,22 @@ use super::numbers::{Aim, vector_text};
 use super::{Validator, rounded};
 use crate::camera::{Camera, Handedness};
 use crate::map::Resolution;
+use crate::message;
 use crate::scene::document::Path;
 use crate::scene::limits;
 use crate::scene::source::{CameraSource, PoseSource, SceneSource};
+use crate::text::Message;
 use crate::vector::Vector;
 
 impl Validator<'_> {
     pub(super) fn camera(&mut self, source: &SceneSource) -> Option<Camera> {
         let path = Path::root().key("camera");
         let Some(camera) = &source.camera else {
-            self.problems.missing(&Path::root(), "camera", "write a table [camera] with `eye`, `forward` and `screen`");
+            self.problems.missing(
+                &Path::root(),
+                "camera",
+                message!("write a table [camera] with `eye`, `forward` and `screen`"),
+            );
             return None;
         };
         let handedness = source.handedness.unwrap_or(Handedness::Right);
@@ -70,13 +76,13 @@ impl Validator<'_> {
             ("up", camera.up.is_some()),
         ];
         for (key, _) in others.into_iter().filter(|(_, is_written)| *is_written) {
-            let message = format!("`camera` has both `pose` and `{key}`");
-            self.wrong(&path.key(key), message, "allowed: one of the two");
+            let message = message!("`camera` has both `pose` and `{key}`", key);
+            self.wrong(&path.key(key), message, message!("allowed: one of the two"));
         }
         let path = path.key("pose");
         if handedness == Handedness::Left {
-            let message = "`camera.pose` is in a scene whose `handedness` is left".into();
-            self.wrong(&path, message, "allowed: `handedness = \"right\"`, which calibrations are for");
+            let message = message!("`camera.pose` is in a scene whose `handedness` is left");
+            self.wrong(&path, message, message!("allowed: `handedness = \"right\"`, which calibrations are for"));
         }
         let rotation = self.rotation_rows(&path, pose.rotation);
         let translation = self.required_point(&path, "translation", pose.translation);
@@ -87,7 +93,9 @@ impl Validator<'_> {
     /// The rows of a rotation.
     fn rotation_rows(&mut self, path: &Path, written: Option<[[f64; 3]; 3]>) -> Option<[Vector; 3]> {
         let Some(rows) = written else {
-            let help = "write `rotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]`: the camera's axes to the right, down and forward";
+            let help = message!(
+                "write `rotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]`: the camera's axes to the right, down and forward"
+            );
             self.problems.missing(path, "rotation", help);
             return None;
         };
@@ -101,15 +109,19 @@ impl Validator<'_> {
         }
         let path = path.key("rotation");
         let message = if x.cross(y).dot(z) < 0.0 {
-            format!("`{path}` mirrors: its determinant is {}", rounded(x.cross(y).dot(z)))
+            message!(
+                "`{path}` mirrors: its determinant is {determinant}",
+                path,
+                determinant = rounded(x.cross(y).dot(z))
+            )
         } else {
-            format!("`{path}` is no rotation")
+            message!("`{path}` is no rotation", path)
         };
-        let help = format!(
-            "allowed: three rows of length 1 at right angles to each other, to within {:e}, with the determinant 1",
-            limits::ROTATION
+        let help = message!(
+            "allowed: three rows of length 1 at right angles to each other, to within {tolerance}, with the determinant 1",
+            tolerance = format!("{:e}", limits::ROTATION)
         );
-        self.wrong(&path, message, &help);
+        self.wrong(&path, message, help);
         None
     }
 
@@ -118,19 +130,31 @@ impl Validator<'_> {
             let key = ["up", "target", "forward"];
             let written = [camera.up.is_some(), camera.target.is_some(), true];
             let key = key.into_iter().zip(written).find_map(|(key, written)| written.then_some(key)).unwrap_or("up");
-            let message =
-                format!("`camera.up` is parallel to the direction of view {}", vector_text(forward.to_array()));
+            let message = message!(
+                "`camera.up` is parallel to the direction of view {direction}",
+                direction = vector_text(forward.to_array())
+            );
             self.wrong(
                 &path.key(key),
                 message,
-                "allowed: any other direction; it shows where the top of the picture is",
+                message!("allowed: any other direction; it shows where the top of the picture is"),
             );
         }
     }
 
-    pub(super) fn edges(&mut self, path: &Path, key: &str, edges: Option<[f64; 2]>, which: &str) -> Option<[f64; 2]> {
+    pub(super) fn edges(
+        &mut self,
+        path: &Path,
+        key: &str,
+        edges: Option<[f64; 2]>,
+        which: &Message,
+    ) -> Option<[f64; 2]> {
         let Some(edges) = edges else {
-            self.problems.missing(path, key, format!("write `{key} = [a, b]`: the {which} edge of the window"));
+            self.problems.missing(
+                path,
+                key,
+                message!("write `{key} = [a, b]`: the {which} edge of the window", key, which),
+            );
             return None;
         };
         let path = path.key(key);
@@ -141,9 +165,10 @@ impl Validator<'_> {
         }
         if metres[1] - metres[0] < limits::SMALLEST {
             let [first, second] = edges;
-            let message = format!("`{path}` runs from {first} to {second}");
-            let help = format!("allowed: the {which} edge, the smaller one first; `handedness` mirrors the picture");
-            self.wrong(&path, message, &help);
+            let message = message!("`{path}` runs from {first} to {second}", path, first, second);
+            let help =
+                message!("allowed: the {which} edge, the smaller one first; `handedness` mirrors the picture", which);
+            self.wrong(&path, message, help);
             return None;
         }
         Some(metres)
@@ -153,8 +178,8 @@ impl Validator<'_> {
         let side = |side: u64| u32::try_from(side).ok().filter(|side| (1..=limits::SIDE).contains(side));
         let resolution = side(width).zip(side(height)).map(|(width, height)| Resolution { width, height });
         if resolution.is_none() {
-            let allowed = format!("allowed: width and height from 1 to {}", limits::SIDE);
-            self.wrong(path, format!("the resolution is {width} × {height} pixels"), &allowed);
+            let allowed = message!("allowed: width and height from 1 to {side}", side = limits::SIDE);
+            self.wrong(path, message!("the resolution is {width} × {height} pixels", width, height), allowed);
         }
         resolution
     }

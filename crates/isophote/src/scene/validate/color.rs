@@ -1,5 +1,7 @@
 //! Validates coefficients and strengths that may be three numbers.
 
+use crate::message;
+use crate::text::Message;
 use std::collections::HashMap;
 
 use super::Validator;
@@ -46,9 +48,11 @@ impl Validator<'_> {
         }
         // A triple that could not be parsed is already a mistake.
         if source.color_space.is_some() && self.problems.is_empty() {
-            let message = "`color_space` means nothing in a scene without colours";
-            let help = "leave it out, or write a coefficient, an intensity, an irradiance or a radiance as [R, G, B]";
-            self.wrong(&Path::root().key("color_space"), message.into(), help);
+            let message = message!("`color_space` means nothing in a scene without colours");
+            let help = message!(
+                "leave it out, or write a coefficient, an intensity, an irradiance or a radiance as [R, G, B]"
+            );
+            self.wrong(&Path::root().key("color_space"), message, help);
         }
         None
     }
@@ -77,25 +81,38 @@ impl Validator<'_> {
     /// A coefficient: between 0 and 1 if it is an albedo in the scene's convention.
     pub(super) fn coefficient(&mut self, path: &Path, amount: Amount, is_albedo: bool) -> Option<f64> {
         let convention = self.convention.name();
-        let (most, why) = if is_albedo {
-            let why = format!(": in the convention \"{convention}\" it is the fraction of light that is reflected");
-            (limits::ALBEDO, why)
+        let (most, help) = if is_albedo {
+            let most = limits::ALBEDO;
+            let help = message!(
+                "allowed: 0 to {most}: in the convention \"{convention}\" it is the fraction of light that is reflected",
+                most,
+                convention
+            );
+            (most, help)
         } else {
-            (limits::COEFFICIENT, format!(" in the convention \"{convention}\""))
+            let most = limits::COEFFICIENT;
+            // Not with all of its zeros.
+            let help = message!(
+                "allowed: 0 to {most} in the convention \"{convention}\"",
+                most = format!("{most:?}").replace(".0", ""),
+                convention
+            );
+            (most, help)
         };
-        self.amount(path, amount, most, &format!("allowed: 0 to {most:?}{why}").replace(".0", ""))
+        self.amount(path, amount, most, &help)
     }
 
     /// An intensity, power, irradiance or radiance.
     pub(super) fn strength(&mut self, path: &Path, amount: Amount) -> Option<f64> {
-        self.amount(path, amount, limits::INTENSITY, &format!("allowed: 0 to {:e}", limits::INTENSITY))
+        let help = message!("allowed: 0 to {most}", most = format!("{:e}", limits::INTENSITY));
+        self.amount(path, amount, limits::INTENSITY, &help)
     }
 
-    fn amount(&mut self, path: &Path, amount: Amount, most: f64, help: &str) -> Option<f64> {
+    fn amount(&mut self, path: &Path, amount: Amount, most: f64, help: &Message) -> Option<f64> {
         let mut is_allowed = |path: &Path, number: f64| {
             let is_allowed = (0.0..=most).contains(&number);
             if !is_allowed {
-                self.wrong(path, format!("`{path}` is {number}"), help);
+                self.wrong(path, message!("`{path}` is {value}", path, value = number), help.clone());
             }
             is_allowed
         };

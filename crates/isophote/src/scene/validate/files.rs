@@ -1,5 +1,6 @@
 //! Validates shapes that are read from files of their own.
 
+use crate::message;
 use std::sync::Arc;
 
 use super::Validator;
@@ -43,16 +44,20 @@ impl ShapeSource for MeshSource {
             Ok(mesh) => {
                 let without_area = degenerate + mesh.left_out() as u64;
                 if without_area > 0 {
-                    let message = format!("{without_area} triangles of `{path}` have no area and were left out");
-                    validator.warn(&path.key("file"), message, "mend the file if they were meant to be seen");
+                    let message = message!(
+                        "{without_area} triangles of `{path}` have no area and were left out",
+                        without_area,
+                        path
+                    );
+                    validator.warn(&path.key("file"), message, message!("mend the file if they were meant to be seen"));
                 }
                 Some(Geometry::Mesh(Arc::new(mesh)))
             }
             Err(error) => {
                 validator.wrong(
                     &path.key("file"),
-                    format!("`{path}` is no mesh: {error}"),
-                    "mend the file or the scale",
+                    message!("`{path}` is no mesh: {fault}", path, fault = error.message()),
+                    message!("mend the file or the scale"),
                 );
                 None
             }
@@ -81,11 +86,15 @@ impl ShapeSource for SpheresSource {
             let radius = length.to_metres(radius);
             let is_near = center.to_array().iter().all(|coordinate| coordinate.abs() <= limits::COORDINATE);
             if !is_near || !(limits::SMALLEST..=limits::COORDINATE).contains(&radius) {
-                let message = format!("sphere {} of `{path}` is too far away, too small or too large", spheres.len());
-                let bounds = [limits::SMALLEST, limits::COORDINATE].map(|bound| length.from_metres(bound));
-                let help =
-                    format!("allowed: radii from {:e} to {:e}, coordinates to {:e}", bounds[0], bounds[1], bounds[1]);
-                validator.wrong(&path.key("file"), message, &help);
+                let message = message!(
+                    "sphere {number} of `{path}` is too far away, too small or too large",
+                    number = spheres.len(),
+                    path
+                );
+                let [least, most] =
+                    [limits::SMALLEST, limits::COORDINATE].map(|bound| format!("{:e}", length.from_metres(bound)));
+                let help = message!("allowed: radii from {least} to {most}, coordinates to {most}", least, most);
+                validator.wrong(&path.key("file"), message, help);
                 return None;
             }
             spheres.push(Sphere { center, radius });
@@ -188,7 +197,7 @@ impl Validator<'_> {
         read: impl FnOnce(&dyn Resolver, &str) -> Result<T, ImportError>,
     ) -> Option<T> {
         let Some(file) = file else {
-            self.problems.missing(path, "file", "write `file = \"…\"`, a path that starts at the scene file");
+            self.problems.missing(path, "file", message!("write `file = \"…\"`, a path that starts at the scene file"));
             return None;
         };
         match read(&self.files, file) {
@@ -196,10 +205,10 @@ impl Validator<'_> {
             Err(error) => {
                 let help = match &error {
                     ImportError::Unread { failure, .. } => failure.help(),
-                    ImportError::Suffix { .. } => "the suffix says how the file is read".into(),
-                    ImportError::Content { .. } => "mend the file, or name another one".into(),
+                    ImportError::Suffix { .. } => message!("the suffix says how the file is read"),
+                    ImportError::Content { .. } => message!("mend the file, or name another one"),
                 };
-                self.wrong(&path.key("file"), error.to_string(), &help);
+                self.wrong(&path.key("file"), error.message(), help);
                 None
             }
         }
@@ -208,28 +217,45 @@ impl Validator<'_> {
     /// A mesh that is written out.
     fn mesh_of_arrays(&mut self, path: &Path, mesh: &MeshSource) -> Option<TriangleMesh> {
         if mesh.file.is_some() {
-            let message = format!("`{path}` has a `file`, and `vertices`, `faces` or `normals` too");
-            self.wrong(&path.key("file"), message, "allowed: a file, or the mesh itself");
+            let message = message!("`{path}` has a `file`, and `vertices`, `faces` or `normals` too", path);
+            self.wrong(&path.key("file"), message, message!("allowed: a file, or the mesh itself"));
             return None;
         }
         if mesh.vertices.is_none() {
-            self.problems.missing(path, "vertices", "write `vertices = [[x, y, z], …]`, the points of the mesh");
+            self.problems.missing(
+                path,
+                "vertices",
+                message!("write `vertices = [[x, y, z], …]`, the points of the mesh"),
+            );
         }
         if mesh.faces.is_none() {
-            self.problems.missing(path, "faces", "write `faces = [[0, 1, 2], …]`, the corners of each triangle");
+            self.problems.missing(
+                path,
+                "faces",
+                message!("write `faces = [[0, 1, 2], …]`, the corners of each triangle"),
+            );
         }
         let (vertices, faces) = (mesh.vertices.as_ref()?, mesh.faces.as_ref()?);
         if let Some(normals) = &mesh.normals
             && normals.len() != vertices.len()
         {
-            let message = format!("`{path}` has {} normals for {} vertices", normals.len(), vertices.len());
-            self.wrong(&path.key("normals"), message, "allowed: one for each vertex");
+            let message = message!(
+                "`{path}` has {normals} normals for {vertices} vertices",
+                path,
+                normals = normals.len(),
+                vertices = vertices.len()
+            );
+            self.wrong(&path.key("normals"), message, message!("allowed: one for each vertex"));
             return None;
         }
         match import::mesh_from_arrays(vertices, faces, mesh.normals.as_deref()) {
             Ok(mesh) => Some(mesh),
             Err(fault) => {
-                self.wrong(&path.key("faces"), format!("`{path}` is no mesh: {fault}"), "mend its arrays");
+                self.wrong(
+                    &path.key("faces"),
+                    message!("`{path}` is no mesh: {fault}", path, fault = fault.message()),
+                    message!("mend its arrays"),
+                );
                 None
             }
         }
@@ -253,12 +279,15 @@ impl Validator<'_> {
             if index.is_none() {
                 let message = match &name {
                     Some(name) => {
-                        format!("the file names the material \"{}\", which the scene does not have", short(name))
+                        message!(
+                            "the file names the material \"{name}\", which the scene does not have",
+                            name = short(name)
+                        )
                     }
-                    None => "the file names a material for some of its parts only".into(),
+                    None => message!("the file names a material for some of its parts only"),
                 };
-                let help = format!("write a table [material.NAME] for it, or `{path}.material` for all parts");
-                self.wrong(&path.key("file"), message, &help);
+                let help = message!("write a table [material.NAME] for it, or `{path}.material` for all parts", path);
+                self.wrong(&path.key("file"), message, help);
                 return None;
             }
             materials.push(index.and_then(|index| u32::try_from(index).ok()));
@@ -272,8 +301,12 @@ impl Validator<'_> {
         for (index, factor) in factors.into_iter().enumerate() {
             if !limits::SCALE.contains(&factor) {
                 let place = path.key("scale").index(index);
-                let help = format!("allowed: {:e} to {:e}", limits::SCALE.start(), limits::SCALE.end());
-                self.wrong(&place, format!("`{place}` is {factor}"), &help);
+                let help = message!(
+                    "allowed: {least} to {most}",
+                    least = format!("{:e}", limits::SCALE.start()),
+                    most = format!("{:e}", limits::SCALE.end())
+                );
+                self.wrong(&place, message!("`{path}` is {value}", path = place, value = factor), help);
                 all_allowed = false;
             }
         }

@@ -1,8 +1,9 @@
 //! Validates each grid by itself.
 
-use super::names::Names;
+use super::names::{Kind, Names};
 use super::{Checked, Validator};
 use crate::map::Resolution;
+use crate::message;
 use crate::scene::Grid;
 use crate::scene::document::Path;
 use crate::scene::limits;
@@ -17,7 +18,7 @@ impl Validator<'_> {
         if !self.few_enough("grid", source.grid.len(), limits::GRIDS) {
             return Vec::new();
         }
-        let mut names = Names::new("grid");
+        let mut names = Names::new(Kind::Grid);
         let check = |(index, grid): (usize, &GridSource)| {
             let path = Path::root().key("grid").index(index);
             let name = names.check(self, &path, grid.name.as_deref());
@@ -38,8 +39,9 @@ impl Validator<'_> {
         let cosine = u.normalized().dot(v.normalized());
         if cosine.abs() > RIGHT_ANGLE {
             let degrees = super::rounded(libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees());
-            let message = format!("`{path}.v` is not at right angles to `{path}.u`: {degrees}° are between them");
-            self.wrong(&path.key("v"), message, "a grid is a rectangle; write edges with u · v = 0");
+            let message =
+                message!("`{path}.v` is not at right angles to `{path}.u`: {degrees}° are between them", path, degrees);
+            self.wrong(&path.key("v"), message, message!("a grid is a rectangle; write edges with u · v = 0"));
             return None;
         }
         Some([u, v])
@@ -49,8 +51,12 @@ impl Validator<'_> {
         let edge = self.required_point(path, key, edge)?;
         if edge.length() < limits::SMALLEST {
             let smallest = self.length.from_metres(limits::SMALLEST);
-            let help = format!("allowed: an edge of at least {smallest:e} {}", self.unit());
-            self.wrong(&path.key(key), format!("`{path}.{key}` has no length"), &help);
+            let help = message!(
+                "allowed: an edge of at least {smallest} {unit}",
+                smallest = format!("{smallest:e}"),
+                unit = self.unit()
+            );
+            self.wrong(&path.key(key), message!("`{path}.{key}` has no length", path, key), help);
             return None;
         }
         Some(edge)
@@ -62,12 +68,13 @@ impl Validator<'_> {
             (Some(corner), None) => Some((self.point(&path.key("corner"), corner)?, true)),
             (None, Some(center)) => Some((self.point(&path.key("center"), center)?, false)),
             (Some(_), Some(_)) => {
-                let message = format!("`{path}` has both `corner` and `center`");
-                self.wrong(&path.key("center"), message, "allowed: one of the two");
+                let message = message!("`{path}` has both `corner` and `center`", path);
+                self.wrong(&path.key("center"), message, message!("allowed: one of the two"));
                 None
             }
             (None, None) => {
-                let help = "write `corner = [x, y, z]`, where both edges begin, or `center = [x, y, z]` instead";
+                let help =
+                    message!("write `corner = [x, y, z]`, where both edges begin, or `center = [x, y, z]` instead");
                 self.problems.missing(path, "corner", help);
                 None
             }
@@ -76,7 +83,11 @@ impl Validator<'_> {
 
     fn grid_points(&mut self, path: &Path, grid: &GridSource) -> Option<Resolution> {
         let Some([across, along]) = grid.points else {
-            self.problems.missing(path, "points", "write `points = [n, m]`: how many along `u` and along `v`");
+            self.problems.missing(
+                path,
+                "points",
+                message!("write `points = [n, m]`: how many along `u` and along `v`"),
+            );
             return None;
         };
         let side = |count: u64| u32::try_from(count).ok().filter(|count| *count > 0);
@@ -84,8 +95,12 @@ impl Validator<'_> {
         let points = points.filter(|points| points.fits_memory());
         if points.is_none() {
             let (longest, most) = (Resolution::LONGEST_IN_MEMORY, Resolution::MOST_IN_MEMORY);
-            let help = format!("allowed: 1 to {longest} each, together at most {most}");
-            self.wrong(&path.key("points"), format!("`{path}.points` is [{across}, {along}]"), &help);
+            let help = message!("allowed: 1 to {longest} each, together at most {most}", longest, most);
+            self.wrong(
+                &path.key("points"),
+                message!("`{path}.points` is [{across}, {along}]", path, across, along),
+                help,
+            );
         }
         points
     }

@@ -1,12 +1,15 @@
 //! Validates each light by itself.
 
-use super::names::Names;
+use super::leave_out_or_write;
+use super::names::{Kind, Names};
 use super::numbers::Aim;
 use super::{Checked, Validator};
 use crate::light::{Ambient, Emission, Light, LightKind, ParallelLight, PointLight, Spot};
+use crate::message;
 use crate::scene::document::Path;
 use crate::scene::limits;
 use crate::scene::source::{EmissionName, LightSource, SceneSource};
+use crate::text::Message;
 use crate::units::Keyword;
 use crate::vector::Vector;
 
@@ -15,7 +18,7 @@ impl Validator<'_> {
         if !self.few_enough("light", source.light.len(), limits::LIGHTS) {
             return Vec::new();
         }
-        let mut names = Names::new("light");
+        let mut names = Names::new(Kind::Light);
         let check = |(index, light): (usize, &LightSource)| {
             let path = Path::root().key("light").index(index);
             let name = names.check(self, &path, light.name.as_deref());
@@ -40,7 +43,7 @@ impl Validator<'_> {
         let ambient = source.ambient.as_ref()?;
         let path = Path::root().key("ambient");
         let Some(radiance) = ambient.radiance else {
-            self.problems.missing(&path, "radiance", "write `radiance = …`, in W/(m²·sr) or cd/m²");
+            self.problems.missing(&path, "radiance", message!("write `radiance = …`, in W/(m²·sr) or cd/m²"));
             return None;
         };
         let radiance = self.strength(&path.key("radiance"), radiance);
@@ -50,8 +53,8 @@ impl Validator<'_> {
         };
         let is_obstructed = ambient.obstructed.unwrap_or(false);
         if !is_obstructed && ambient.samples.is_some() {
-            let message = "`ambient.samples` means nothing where ambient light is not obstructed";
-            self.wrong(&path.key("samples"), message.into(), "leave it out, or write `obstructed = true`");
+            let message = message!("`ambient.samples` means nothing where ambient light is not obstructed");
+            self.wrong(&path.key("samples"), message, message!("leave it out, or write `obstructed = true`"));
         }
         Some(Ambient { radiance: radiance?, obstruction: samples.filter(|_| is_obstructed) })
     }
@@ -82,27 +85,35 @@ impl Validator<'_> {
 
     /// The half angles of a spot's cones, in radians.
     fn cones(&mut self, path: &Path, light: &LightSource) -> Option<[f64; 2]> {
-        let mut angle = |key: &str, angle: Option<f64>, what: &str| {
+        let mut angle = |key: &str, angle: Option<f64>, what: Message| {
             let Some(angle) = angle else {
-                self.problems.missing(path, key, format!("write `{key} = …`, in degrees from the axis: {what}"));
+                self.problems.missing(
+                    path,
+                    key,
+                    message!("write `{key} = …`, in degrees from the axis: {what}", key, what),
+                );
                 return None;
             };
             if (0.0..=limits::CONE).contains(&angle) {
                 return Some(angle);
             }
-            let message = format!("`{path}.{key}` is {angle}");
-            let help = format!("allowed: 0 to {} degrees, from the axis to the edge of the cone", limits::CONE);
-            self.wrong(&path.key(key), message, &help);
+            let message = message!("`{path}.{key}` is {angle}", path, key, angle);
+            let help =
+                message!("allowed: 0 to {cone} degrees, from the axis to the edge of the cone", cone = limits::CONE);
+            self.wrong(&path.key(key), message, help);
             None
         };
-        let inner = angle("inner_angle", light.inner_angle, "inside, the spot has its full intensity");
-        let outer = angle("outer_angle", light.outer_angle, "outside, the spot sends nothing");
+        let inner = angle("inner_angle", light.inner_angle, message!("inside, the spot has its full intensity"));
+        let outer = angle("outer_angle", light.outer_angle, message!("outside, the spot sends nothing"));
         let [inner, outer] = [inner?, outer?];
         // So that a difference written as half a degree counts as one.
         if outer - inner < limits::CONE_STEP * (1.0 - 1e-9) {
-            let message = format!("`{path}` has cones from {inner} to {outer} degrees");
-            let help = format!("allowed: `outer_angle` at least {} degrees more than `inner_angle`", limits::CONE_STEP);
-            self.wrong(&path.key("outer_angle"), message, &help);
+            let message = message!("`{path}` has cones from {inner} to {outer} degrees", path, inner, outer);
+            let help = message!(
+                "allowed: `outer_angle` at least {cone_step} degrees more than `inner_angle`",
+                cone_step = limits::CONE_STEP
+            );
+            self.wrong(&path.key("outer_angle"), message, help);
             return None;
         }
         Some([inner.to_radians(), outer.to_radians()])
@@ -113,12 +124,12 @@ impl Validator<'_> {
             (Some(intensity), None) => ("intensity", intensity),
             (None, Some(power)) => ("power", power),
             (Some(_), Some(_)) => {
-                let message = format!("`{path}` has both `intensity` and `power`");
-                self.wrong(&path.key("power"), message, "allowed: one of the two");
+                let message = message!("`{path}` has both `intensity` and `power`", path);
+                self.wrong(&path.key("power"), message, message!("allowed: one of the two"));
                 return None;
             }
             (None, None) => {
-                let help = "write `intensity` (W/sr or cd), or `power` (W or lm) instead";
+                let help = message!("write `intensity` (W/sr or cd), or `power` (W or lm) instead");
                 self.problems.missing(path, "intensity", help);
                 return None;
             }
@@ -129,8 +140,9 @@ impl Validator<'_> {
 
     fn parallel_light(&mut self, path: &Path, light: &LightSource) -> Option<ParallelLight> {
         let direction = if light.direction.is_none() && light.tilt.is_none() && light.azimuth.is_none() {
-            let help =
-                "write `direction = [x, y, z]`, the way that the light travels, or its angles, `tilt` and `azimuth`";
+            let help = message!(
+                "write `direction = [x, y, z]`, the way that the light travels, or its angles, `tilt` and `azimuth`"
+            );
             self.problems.missing(path, "direction", help);
             None
         } else {
@@ -140,7 +152,7 @@ impl Validator<'_> {
         let irradiance = if let Some(irradiance) = light.irradiance {
             self.strength(&path.key("irradiance"), irradiance)
         } else {
-            let help = "write `irradiance = …`, in W/m² or lx on a plane at right angles to the light";
+            let help = message!("write `irradiance = …`, in W/m² or lx on a plane at right angles to the light");
             self.problems.missing(path, "irradiance", help);
             None
         };
@@ -168,17 +180,15 @@ impl Validator<'_> {
         ];
         for (key, is_written, emissions) in keys {
             if is_written && !emissions.contains(&emission) {
-                let message = format!("`{path}.{key}` means nothing for {} light", with_article(emission));
-                let names: Vec<String> =
-                    emissions.iter().map(|emission| format!("`emission = \"{}\"`", emission.name())).collect();
-                let help = format!("leave it out, or write {}", names.join(" or "));
-                self.wrong(&path.key(key), message, &help);
+                let emission = emission.name();
+                let message = if emission == Isotropic.name() {
+                    message!("`{path}.{key}` means nothing for an {emission} light", path, key, emission)
+                } else {
+                    message!("`{path}.{key}` means nothing for a {emission} light", path, key, emission)
+                };
+                let help = leave_out_or_write("emission", emissions);
+                self.wrong(&path.key(key), message, help);
             }
         }
     }
-}
-
-fn with_article(emission: EmissionName) -> String {
-    let article = if emission == EmissionName::Isotropic { "an" } else { "a" };
-    format!("{article} {}", emission.name())
 }

@@ -14,6 +14,8 @@ mod probes;
 mod projection;
 mod shapes;
 
+use crate::message;
+use crate::text::Message;
 use std::collections::{HashMap, HashSet};
 
 use self::color::ComponentSelector;
@@ -27,7 +29,7 @@ use crate::camera::{Camera, Extent, Projection};
 use crate::import::Resolver;
 use crate::reflectance::Convention;
 use crate::scene::Sampling;
-use crate::units::{LengthUnit, ScreenUnit, UnitSystem};
+use crate::units::{Keyword, LengthUnit, ScreenUnit, UnitSystem};
 
 /// Checks a scene, given the problems that are already known. Files that an earlier scene has read in the same way are not
 /// read again.
@@ -116,16 +118,18 @@ impl Validator<'_> {
     fn head(&mut self, source: &SceneSource) {
         let root = Path::root();
         match source.version {
-            None => self.problems.missing(&root, "version", "write `version = 1` on top"),
+            None => self.problems.missing(&root, "version", message!("write `version = 1` on top")),
             Some(1) => {}
-            Some(version) => self.wrong(&root.key("version"), format!("`version` is {version}"), "allowed: 1"),
+            Some(version) => {
+                self.wrong(&root.key("version"), message!("`version` is {version}", version), message!("allowed: 1"));
+            }
         }
         if let Some(title) = source.title.as_ref().filter(|title| title.len() > limits::TITLE_BYTES) {
-            let help = format!("allowed: up to {}", limits::TITLE_BYTES);
-            self.wrong(&root.key("title"), format!("`title` has {} bytes", title.len()), &help);
+            let help = message!("allowed: up to {most}", most = limits::TITLE_BYTES);
+            self.wrong(&root.key("title"), message!("`title` has {bytes} bytes", bytes = title.len()), help);
         }
         if source.length.is_none() {
-            let help = "write `length = \"m\"`, \"cm\" or \"mm\": the unit of every length in the scene";
+            let help = message!("write `length = \"m\"`, \"cm\" or \"mm\": the unit of every length in the scene");
             self.problems.missing(&root, "length", help);
         }
     }
@@ -135,8 +139,12 @@ impl Validator<'_> {
         let Some(written) = &source.sampling else { return Sampling::default() };
         let path = Path::root().key("sampling");
         if let Some(tolerance) = written.tolerance.filter(|tolerance| !limits::TOLERANCE.contains(tolerance)) {
-            let help = format!("allowed: {} to {}", limits::TOLERANCE.start(), limits::TOLERANCE.end());
-            self.wrong(&path.key("tolerance"), format!("`sampling.tolerance` is {tolerance}"), &help);
+            let help = message!(
+                "allowed: {least} to {most}",
+                least = limits::TOLERANCE.start(),
+                most = limits::TOLERANCE.end()
+            );
+            self.wrong(&path.key("tolerance"), message!("`sampling.tolerance` is {tolerance}", tolerance), help);
         }
         let default = if written.tolerance.is_some() { Sampling::MOST } else { 1 };
         let samples = written.samples.map_or(Some(default), |samples| self.samples(&path, samples));
@@ -151,8 +159,8 @@ impl Validator<'_> {
     fn samples(&mut self, table: &Path, written: u64) -> Option<u32> {
         let samples = u32::try_from(written).ok().filter(|samples| (1..=limits::SAMPLES).contains(samples));
         if samples.is_none() {
-            let help = format!("allowed: 1 to {}", limits::SAMPLES);
-            self.wrong(&table.key("samples"), format!("`{table}.samples` is {written}"), &help);
+            let help = message!("allowed: 1 to {most}", most = limits::SAMPLES);
+            self.wrong(&table.key("samples"), message!("`{table}.samples` is {written}", table, written), help);
         }
         samples
     }
@@ -161,18 +169,22 @@ impl Validator<'_> {
         let root = Path::root();
         let count = shapes::count(source);
         if count == 0 && source.grid.is_empty() {
-            let help = "write a table [[sphere]], [[box]] or of another shape";
-            self.warn(&root.key("sphere"), "the scene has no shapes".into(), help);
+            let help = message!("write a table [[sphere]], [[box]] or of another shape");
+            self.warn(&root.key("sphere"), message!("the scene has no shapes"), help);
         }
         if source.light.is_empty() && source.ambient.is_none() {
-            self.warn(&root.key("light"), "the scene has no lights: all is black".into(), "write a table [[light]]");
+            self.warn(
+                &root.key("light"),
+                message!("the scene has no lights: all is black"),
+                message!("write a table [[light]]"),
+            );
         }
         if count > 1 && !source.light.is_empty() && source.shadows.is_none() {
-            let message = "the shapes cast no shadows on each other: each is lit as if it were alone";
+            let message = message!("the shapes cast no shadows on each other: each is lit as if it were alone");
             self.warn(
                 &root.key("shadows"),
-                message.into(),
-                "write `shadows = true`, or `shadows = false` if that is meant",
+                message,
+                message!("write `shadows = true`, or `shadows = false` if that is meant"),
             );
         }
         let used: HashSet<&str> = shapes::materials_in_use(source).collect();
@@ -182,8 +194,8 @@ impl Validator<'_> {
         }
         for (index, name) in source.material.keys().enumerate() {
             if !used.contains(name.as_str()) && !of_parts[index] {
-                let message = format!("no shape is made of the material \"{}\"", short(name));
-                self.warn(&root.key("material").key(name), message, "leave it out, or use it");
+                let message = message!("no shape is made of the material \"{name}\"", name = short(name));
+                self.warn(&root.key("material").key(name), message, message!("leave it out, or use it"));
             }
         }
         // The pixels of a calibrated camera are as they are.
@@ -204,40 +216,51 @@ impl Validator<'_> {
                 let separator = if unit == ScreenUnit::Degree { "" } else { " " };
                 format!("{}{separator}{}", rounded(unit.from_internal(side)), unit.name())
             });
-            let message = format!("pixels are not square: {width} wide, {height} high");
+            let message = message!("pixels are not square: {width} wide, {height} high", width, height);
             let edges = match projection {
-                Projection::Perspective(_) | Projection::Fisheye(_) => "`screen`",
-                Projection::Orthographic(_) => "`window`",
-                Projection::Panorama(_) => "`longitude` and `latitude`",
+                Projection::Perspective(_) | Projection::Fisheye(_) => Message::verbatim("`screen`"),
+                Projection::Orthographic(_) => Message::verbatim("`window`"),
+                Projection::Panorama(_) => message!("`longitude` and `latitude`"),
             };
-            let help = format!("pictures look stretched; give `resolution` the proportions of {edges}");
-            self.warn(&Path::root().key("camera").key("resolution"), message, &help);
+            let help = message!("pictures look stretched; give `resolution` the proportions of {edges}", edges);
+            self.warn(&Path::root().key("camera").key("resolution"), message, help);
         }
     }
 
     fn few_enough(&mut self, key: &str, count: usize, limit: usize) -> bool {
         if count > limit {
             let path = Path::root().key(key).index(limit);
-            self.wrong(&path, format!("the scene has {count} tables [[{key}]]"), &format!("allowed: at most {limit}"));
+            self.wrong(
+                &path,
+                message!("the scene has {count} tables [[{key}]]", count, key),
+                message!("allowed: at most {most}", most = limit),
+            );
         }
         count <= limit
     }
 
-    fn wrong(&mut self, path: &Path, message: String, help: &str) {
+    fn wrong(&mut self, path: &Path, message: Message, help: Message) {
         self.problems.push(ProblemKind::Value, path, message, help);
     }
 
-    fn warn(&mut self, path: &Path, message: String, help: &str) {
+    fn warn(&mut self, path: &Path, message: Message, help: Message) {
         self.warnings.push(ProblemKind::Warning, path, message, help);
     }
 
     fn unit(&self) -> &'static str {
-        crate::units::Keyword::name(self.length)
+        self.length.name()
     }
 
     fn length_text(&self, metres: f64) -> String {
         format!("{} {}", rounded(self.length.from_metres(metres)), self.unit())
     }
+}
+
+/// Help on a key that belongs to these words of another key.
+fn leave_out_or_write<C: Keyword>(key: &str, words: &[C]) -> Message {
+    let written = |word: &C| Message::verbatim(format!("`{key} = \"{}\"`", word.name()));
+    let all = words.iter().map(written).reduce(|first, second| message!("{first} or {second}", first, second));
+    message!("leave it out, or write {all}", all = all.unwrap_or_else(Message::empty))
 }
 
 /// A number with a few digits, for messages.

@@ -1,5 +1,7 @@
 //! Validates names, which must differ among items of one kind.
 
+use crate::message;
+use crate::text::Message;
 use std::collections::HashMap;
 
 use super::Validator;
@@ -14,19 +16,29 @@ pub(super) fn is_usable(name: &str) -> bool {
 }
 
 /// What names may be.
-pub(super) fn usable() -> String {
+pub(super) fn usable() -> Message {
     let most = limits::NAME_BYTES;
-    format!("allowed: any line of text of up to {most} bytes, without control and bidirectional characters")
+    message!("allowed: any line of text of up to {most} bytes, without control and bidirectional characters", most)
+}
+
+/// The kinds of items that have names.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    Shape,
+    Light,
+    Probe,
+    Area,
+    Grid,
 }
 
 /// Names of one kind of item, which must differ.
 pub(super) struct Names {
-    kind: &'static str,
+    kind: Kind,
     seen: HashMap<String, Path>,
 }
 
 impl Names {
-    pub(super) fn new(kind: &'static str) -> Self {
+    pub(super) fn new(kind: Kind) -> Self {
         Self { kind, seen: HashMap::new() }
     }
 
@@ -35,12 +47,19 @@ impl Names {
         let name = name.map_or_else(|| thing.to_string(), str::to_owned);
         let path = thing.key("name");
         if !is_usable(&name) {
-            validator.wrong(&path, format!("the name \"{}\" is not usable", short(&name)), &usable());
+            validator.wrong(&path, message!("the name \"{name}\" is not usable", name = short(&name)), usable());
             return None;
         }
         if let Some(first) = self.seen.insert(name.clone(), thing.clone()) {
-            let message = format!("there are two {}s named \"{}\"", self.kind, short(&name));
-            validator.wrong(&path, message, &format!("the other is {first}; names must differ"));
+            let name = short(&name);
+            let message = match self.kind {
+                Kind::Shape => message!("there are two shapes named \"{name}\"", name),
+                Kind::Light => message!("there are two lights named \"{name}\"", name),
+                Kind::Probe => message!("there are two probes named \"{name}\"", name),
+                Kind::Area => message!("there are two areas named \"{name}\"", name),
+                Kind::Grid => message!("there are two grids named \"{name}\"", name),
+            };
+            validator.wrong(&path, message, message!("the other is {first}; names must differ", first));
             return None;
         }
         Some(name)

@@ -1,14 +1,16 @@
 //! Validates points, sizes, directions and fractions.
 
 use super::Validator;
+use crate::message;
 use crate::scene::document::Path;
 use crate::scene::limits;
+use crate::text::Message;
 use crate::vector::Vector;
 
 impl Validator<'_> {
     pub(super) fn required_point(&mut self, path: &Path, key: &str, point: Option<[f64; 3]>) -> Option<Vector> {
         let Some(point) = point else {
-            self.problems.missing(path, key, format!("write `{key} = [x, y, z]`"));
+            self.problems.missing(path, key, message!("write `{key} = [x, y, z]`", key));
             return None;
         };
         self.point(&path.key(key), point)
@@ -25,13 +27,18 @@ impl Validator<'_> {
 
     pub(super) fn too_far(&mut self, path: &Path) {
         let bound = self.length.from_metres(limits::COORDINATE);
-        let help = format!("allowed: coordinates from {:e} to {bound:e} {}", -bound, self.unit());
-        self.wrong(path, format!("`{path}` is too far away"), &help);
+        let help = message!(
+            "allowed: coordinates from {least} to {most} {unit}",
+            least = format!("{:e}", -bound),
+            most = format!("{bound:e}"),
+            unit = self.unit()
+        );
+        self.wrong(path, message!("`{path}` is too far away", path), help);
     }
 
     pub(super) fn required_size(&mut self, path: &Path, key: &str, size: Option<f64>) -> Option<f64> {
         let Some(size) = size else {
-            self.problems.missing(path, key, format!("write `{key} = …`, a length above 0"));
+            self.problems.missing(path, key, message!("write `{key} = …`, a length above 0", key));
             return None;
         };
         self.size(&path.key(key), size)
@@ -40,7 +47,7 @@ impl Validator<'_> {
     /// Three sizes; all of their mistakes are reported.
     pub(super) fn required_sizes(&mut self, path: &Path, key: &str, sizes: Option<[f64; 3]>) -> Option<Vector> {
         let Some([x, y, z]) = sizes else {
-            self.problems.missing(path, key, format!("write `{key} = [x, y, z]`, lengths above 0"));
+            self.problems.missing(path, key, message!("write `{key} = [x, y, z]`, lengths above 0", key));
             return None;
         };
         let path = path.key(key);
@@ -54,14 +61,23 @@ impl Validator<'_> {
             return Some(metres);
         }
         let [smallest, largest] = [limits::SMALLEST, limits::COORDINATE].map(|bound| self.length.from_metres(bound));
-        let help = format!("allowed: above 0 ({smallest:e} to {largest:e} {})", self.unit());
-        self.wrong(path, format!("`{path}` is {size}"), &help);
+        let help = message!(
+            "allowed: above 0 ({smallest} to {largest} {unit})",
+            smallest = format!("{smallest:e}"),
+            largest = format!("{largest:e}"),
+            unit = self.unit()
+        );
+        self.wrong(path, message!("`{path}` is {value}", path, value = size), help);
         None
     }
 
     pub(super) fn required_direction(&mut self, path: &Path, key: &str, written: Option<[f64; 3]>) -> Option<Vector> {
         let Some(direction) = written else {
-            self.problems.missing(path, key, format!("write `{key} = [x, y, z]`, a direction of any length but zero"));
+            self.problems.missing(
+                path,
+                key,
+                message!("write `{key} = [x, y, z]`, a direction of any length but zero", key),
+            );
             return None;
         };
         self.direction(&path.key(key), direction)
@@ -70,9 +86,13 @@ impl Validator<'_> {
     pub(super) fn direction(&mut self, path: &Path, direction: [f64; 3]) -> Option<Vector> {
         let largest = direction.iter().fold(0.0_f64, |largest, component| largest.max(component.abs()));
         if !(1e-100..=1e100).contains(&largest) {
-            let what = if largest < 1.0 { "has no length" } else { "is too long" };
-            let message = format!("`{path}` {what}: {}", vector_text(direction));
-            self.wrong(path, message, "allowed: any direction, of any length from 1e-100 to 1e100");
+            let direction = vector_text(direction);
+            let message = if largest < 1.0 {
+                message!("`{path}` has no length: {direction}", path, direction)
+            } else {
+                message!("`{path}` is too long: {direction}", path, direction)
+            };
+            self.wrong(path, message, message!("allowed: any direction, of any length from 1e-100 to 1e100"));
             return None;
         }
         // Scaled by a power of two, which changes no digits, so that the squares neither underflow nor overflow.
@@ -87,8 +107,8 @@ impl Validator<'_> {
             let angle = if aim.tilt.is_some() { "tilt" } else { "azimuth" };
             let other = direction.map(|_| key).or_else(|| aim.target.map(|_| "target"));
             if let Some(other) = other {
-                let message = format!("`{path}` has both `{other}` and `{angle}`");
-                self.wrong(&path.key(angle), message, "allowed: one of the two");
+                let message = message!("`{path}` has both `{other}` and `{angle}`", path, other, angle);
+                self.wrong(&path.key(angle), message, message!("allowed: one of the two"));
                 return None;
             }
             return self.direction_by_angles(path, aim);
@@ -98,20 +118,21 @@ impl Validator<'_> {
             (None, Some(target)) => {
                 let to_target = self.point(&path.key("target"), target)? - from?;
                 if to_target.length() < limits::SMALLEST {
-                    let message = format!("`{path}.target` is where `{path}` itself is");
-                    self.wrong(&path.key("target"), message, "allowed: any other point");
+                    let message = message!("`{path}.target` is where `{path}` itself is", path);
+                    self.wrong(&path.key("target"), message, message!("allowed: any other point"));
                     return None;
                 }
                 Some(to_target)
             }
             (Some(_), Some(_)) => {
-                let message = format!("`{path}` has both `{key}` and `target`");
-                self.wrong(&path.key("target"), message, "allowed: one of the two");
+                let message = message!("`{path}` has both `{key}` and `target`", path, key);
+                self.wrong(&path.key("target"), message, message!("allowed: one of the two"));
                 None
             }
             (None, None) => {
-                let help = format!(
-                    "write `{key} = [x, y, z]`, a direction, `target = [x, y, z]`, a point, or angles: `tilt` and `azimuth`"
+                let help = message!(
+                    "write `{key} = [x, y, z]`, a direction, `target = [x, y, z]`, a point, or angles: `tilt` and `azimuth`",
+                    key
                 );
                 self.problems.missing(path, key, help);
                 None
@@ -124,27 +145,29 @@ impl Validator<'_> {
             self.problems.missing(
                 path,
                 "tilt",
-                "write `tilt = …`, in degrees from −z: 0 is straight down −z, 90 horizontal",
+                message!("write `tilt = …`, in degrees from −z: 0 is straight down −z, 90 horizontal"),
             );
             return None;
         };
-        let mut is_within = |key: &str, angle: f64, least: f64, most: f64, what: &str| {
+        let mut is_within = |key: &str, angle: f64, least: f64, most: f64, what: Message| {
             let is_within = (least..=most).contains(&angle);
             if !is_within {
-                let help = format!("allowed: {least} to {most} degrees, {what}");
-                self.wrong(&path.key(key), format!("`{path}.{key}` is {angle}"), &help);
+                let help = message!("allowed: {least} to {most} degrees, {what}", least, most, what);
+                self.wrong(&path.key(key), message!("`{path}.{key}` is {angle}", path, key, angle), help);
             }
             is_within
         };
-        let tilt_fits = is_within("tilt", tilt, 0.0, limits::TILT, "from −z: 0 is straight down −z, 90 horizontal");
+        let tilt_fits =
+            is_within("tilt", tilt, 0.0, limits::TILT, message!("from −z: 0 is straight down −z, 90 horizontal"));
         let azimuth = aim.azimuth.unwrap_or(Aim::DEFAULT_AZIMUTH);
-        let azimuth_fits = is_within("azimuth", azimuth, -limits::AZIMUTH, limits::AZIMUTH, "from +x towards +y");
+        let azimuth_fits =
+            is_within("azimuth", azimuth, -limits::AZIMUTH, limits::AZIMUTH, message!("from +x towards +y"));
         if !(tilt_fits && azimuth_fits) {
             return None;
         }
         let [cosine, sine] = cosine_and_sine(tilt);
         if aim.azimuth.is_none() && sine != 0.0 {
-            let help = "write `azimuth = …`, in degrees from +x towards +y: the way that it leans";
+            let help = message!("write `azimuth = …`, in degrees from +x towards +y: the way that it leans");
             self.problems.missing(path, "azimuth", help);
             return None;
         }

@@ -3,6 +3,7 @@
 use super::{Checked, Validator};
 use crate::camera::{Camera, Projection};
 use crate::light::Light;
+use crate::message;
 use crate::scene::document::Path;
 use crate::scene::limits;
 use crate::scene::{Probe, Shape};
@@ -26,14 +27,15 @@ impl Validator<'_> {
         for shape in shapes.iter().flatten() {
             let distance = shape.geometry.signed_distance(camera.eye);
             if is_a_start && distance.abs() <= shape.geometry.surface_tolerance(camera.eye) {
-                let message = format!("the eye is on the surface of \"{}\"", shape.name);
+                let message = message!("the eye is on the surface of \"{shape}\"", shape = shape.name);
                 let path = Path::root().key("camera").key("eye");
-                self.wrong(&path, message, "allowed: outside or inside a shape, not on its surface");
+                self.wrong(&path, message, message!("allowed: outside or inside a shape, not on its surface"));
             }
             if shape.geometry.relative_distance(camera.eye) > limits::RELATIVE_DISTANCE {
-                let message = format!("\"{}\" is too far from the eye for the promised digits", shape.name);
+                let message =
+                    message!("\"{shape}\" is too far from the eye for the promised digits", shape = shape.name);
                 let path = Path::root().key("camera").key("eye");
-                self.warn(&path, message, "they are kept up to a billion times the shape's size");
+                self.warn(&path, message, message!("they are kept up to a billion times the shape's size"));
             }
         }
     }
@@ -60,11 +62,12 @@ impl Validator<'_> {
             let around_light = light.position().map_or_else(Vec::new, |position| tree.around(position));
             if let Some(shape) = around_eye.iter().find(|&&shape| is_outside(light, shape, shapes, &around_light)) {
                 let name = shapes[*shape].as_ref().map_or("", |shape| &shape.name);
-                let message = format!(
-                    "the eye is inside \"{name}\" and the light \"{}\" outside: it lights nothing there",
-                    light.name
+                let message = message!(
+                    "the eye is inside \"{name}\" and the light \"{light}\" outside: it lights nothing there",
+                    name,
+                    light = light.name
                 );
-                self.warn(&path, message, "move the light in, or the eye out");
+                self.warn(&path, message, message!("move the light in, or the eye out"));
             }
             let Some(position) = light.position() else { continue };
             for shape in around_light {
@@ -72,8 +75,16 @@ impl Validator<'_> {
                 let Some(shape) = &shapes[shape] else { continue };
                 let distance = shape.geometry.signed_distance(position);
                 if distance.abs() <= shape.geometry.surface_tolerance(position) {
-                    let message = format!("the light \"{}\" is on the surface of \"{}\"", light.name, shape.name);
-                    self.wrong(&path, message, "move it away: the irradiance next to a point light has no bound");
+                    let message = message!(
+                        "the light \"{light}\" is on the surface of \"{shape}\"",
+                        light = light.name,
+                        shape = shape.name
+                    );
+                    self.wrong(
+                        &path,
+                        message,
+                        message!("move it away: the irradiance next to a point light has no bound"),
+                    );
                     break;
                 }
                 if distance < 0.0
@@ -90,17 +101,17 @@ impl Validator<'_> {
     /// Says that a light is inside a shape that the eye is not in; whether that is wrong.
     fn light_inside(&mut self, path: &Path, light: &Light, shape: &Shape, depth: f64) -> bool {
         let depth = self.length_text(depth);
-        let message = format!("the light \"{}\" is inside \"{}\"", light.name, shape.name);
+        let message = message!("the light \"{light}\" is inside \"{shape}\"", light = light.name, shape = shape.name);
         if self.shadows && shape.casts_shadow && light.casts_shadows {
-            let help = format!("it lights what is inside; the surface, {depth} away, lets no light out");
-            self.warn(path, message, &help);
+            let help = message!("it lights what is inside; the surface, {depth} away, lets no light out", depth);
+            self.warn(path, message, help);
             return false;
         }
-        let help = format!(
-            "its surface is {depth} away and lets no light out; move the light out, the eye in, or write \
-             `shadows = true`"
+        let help = message!(
+            "its surface is {depth} away and lets no light out; move the light out, the eye in, or write `shadows = true`",
+            depth
         );
-        self.wrong(path, message, &help);
+        self.wrong(path, message, help);
         true
     }
 
@@ -121,17 +132,17 @@ impl Validator<'_> {
             }
             missed += 1;
             let path = Path::root().key("probe").index(index).key("at");
-            let message = format!("the probe \"{}\" is on no surface", probe.name);
+            let message = message!("the probe \"{probe}\" is on no surface", probe = probe.name);
             if missed > EXPLAINED {
-                self.wrong(&path, message, "allowed: a point on a surface");
+                self.wrong(&path, message, message!("allowed: a point on a surface"));
                 continue;
             }
             if let Err(miss) = surface_at(shapes.iter().flatten().map(|shape| &shape.geometry), probe.at) {
-                let help = miss.map_or("the scene has no shapes".into(), |miss| {
+                let help = miss.map_or(message!("the scene has no shapes"), |miss| {
                     let name = shapes.iter().flatten().nth(miss.shape).map_or("", |shape| &shape.name);
                     miss.describe(name, self.length)
                 });
-                self.wrong(&path, message, &help);
+                self.wrong(&path, message, help);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Validates probes.
 
-use super::names::Names;
+use super::names::{Kind, Names};
 use super::{Checked, Validator};
 use crate::scene::Probe;
 use crate::scene::document::Path;
@@ -12,7 +12,7 @@ impl Validator<'_> {
         if !self.few_enough("probe", source.probe.len(), limits::PROBES) {
             return Vec::new();
         }
-        let mut names = Names::new("probe");
+        let mut names = Names::new(Kind::Probe);
         let check = |(index, probe): (usize, &ProbeSource)| {
             let path = Path::root().key("probe").index(index);
             let name = names.check(self, &path, probe.name.as_deref());

@@ -1,8 +1,10 @@
 //! Validates the projection of the camera, with the keys that belong to each kind.
 
 use super::Validator;
+use super::leave_out_or_write;
 use crate::camera::{Extent, Fisheye, Mapping, Projection, Screen};
 use crate::map::Resolution;
+use crate::message;
 use crate::scene::document::Path;
 use crate::scene::limits;
 use crate::scene::source::{CameraSource, IntrinsicsSource, ProjectionName, ScreenSource, WindowSource};
@@ -48,8 +50,9 @@ impl Validator<'_> {
             }
             (Some(screen), None, None) => self.screen(path, screen),
             (None, None, None) => {
-                let help =
-                    "write `screen = { distance = 5, x = [-4, 4], y = [-3, 3] }`, or `field_of_view = 40` instead";
+                let help = message!(
+                    "write `screen = {{ distance = 5, x = [-4, 4], y = [-3, 3] }}`, or `field_of_view = 40` instead"
+                );
                 self.problems.missing(path, "screen", help);
                 None
             }
@@ -57,7 +60,11 @@ impl Validator<'_> {
     }
 
     fn either<T>(&mut self, path: &Path, one: &str, other: &str) -> Option<T> {
-        self.wrong(&path.key(other), format!("`camera` has both `{one}` and `{other}`"), "allowed: one of the two");
+        self.wrong(
+            &path.key(other),
+            message!("`camera` has both `{one}` and `{other}`", one, other),
+            message!("allowed: one of the two"),
+        );
         None
     }
 
@@ -93,40 +100,44 @@ impl Validator<'_> {
         allowed: &std::ops::RangeInclusive<f64>,
     ) -> Option<f64> {
         let Some(value) = written else {
-            self.problems.missing(path, key, format!("write `{key} = …`, in pixels"));
+            self.problems.missing(path, key, message!("write `{key} = …`, in pixels", key));
             return None;
         };
         if allowed.contains(&value) {
             return Some(value);
         }
         let path = path.key(key);
-        let help = format!("allowed: {:e} to {:e} pixels", allowed.start(), allowed.end());
-        self.wrong(&path, format!("`{path}` is {value}"), &help);
+        let help = message!(
+            "allowed: {least} to {most} pixels",
+            least = format!("{:e}", allowed.start()),
+            most = format!("{:e}", allowed.end())
+        );
+        self.wrong(&path, message!("`{path}` is {value}", path, value), help);
         None
     }
 
     fn screen(&mut self, path: &Path, screen: &ScreenSource) -> Option<Screen> {
         let path = path.key("screen");
         let distance = self.required_size(&path, "distance", screen.distance);
-        let x = self.edges(&path, "x", screen.x, "left and right");
-        let y = self.edges(&path, "y", screen.y, "lower and upper");
+        let x = self.edges(&path, "x", screen.x, &message!("left and right"));
+        let y = self.edges(&path, "y", screen.y, &message!("lower and upper"));
         Some(Screen { distance: distance?, x: x?, y: y? })
     }
 
     fn window(&mut self, path: &Path, window: Option<&WindowSource>) -> Option<Extent> {
         let Some(window) = window else {
-            self.problems.missing(path, "window", "write `window = { x = [-4, 4], y = [-3, 3] }`");
+            self.problems.missing(path, "window", message!("write `window = {{ x = [-4, 4], y = [-3, 3] }}`"));
             return None;
         };
         let path = path.key("window");
-        let x = self.edges(&path, "x", window.x, "left and right");
-        let y = self.edges(&path, "y", window.y, "lower and upper");
+        let x = self.edges(&path, "x", window.x, &message!("left and right"));
+        let y = self.edges(&path, "y", window.y, &message!("lower and upper"));
         Some(Extent { x: x?, y: y? })
     }
 
     fn fisheye(&mut self, path: &Path, camera: &CameraSource, mapping: Mapping) -> Option<Fisheye> {
         let Some(field_of_view) = camera.field_of_view else {
-            let help = "write `field_of_view = 180`, the angle across the circle, in degrees";
+            let help = message!("write `field_of_view = 180`, the angle across the circle, in degrees");
             self.problems.missing(path, "field_of_view", help);
             return None;
         };
@@ -137,9 +148,9 @@ impl Validator<'_> {
         if allowed.contains(&value) {
             return Some(value);
         }
-        let message = format!("`camera.field_of_view` is {value}");
-        let help = format!("allowed: {} to {} degrees", allowed.start(), allowed.end());
-        self.wrong(&path.key("field_of_view"), message, &help);
+        let message = message!("`camera.field_of_view` is {value}", value);
+        let help = message!("allowed: {least} to {most} degrees", least = allowed.start(), most = allowed.end());
+        self.wrong(&path.key("field_of_view"), message, help);
         None
     }
 
@@ -155,9 +166,17 @@ impl Validator<'_> {
             return Some([first, second]);
         }
         let path = path.key(key);
-        let turn = if farthest > 180.0 { " and at most 360 apart" } else { "" };
-        let help = format!("allowed: from {} to {farthest} degrees, the smaller one first{turn}", -farthest);
-        self.wrong(&path, format!("`{path}` runs from {first} to {second}"), &help);
+        let (least, most) = (-farthest, farthest);
+        let help = if farthest > 180.0 {
+            message!(
+                "allowed: from {least} to {most} degrees, the smaller one first and at most 360 apart",
+                least,
+                most
+            )
+        } else {
+            message!("allowed: from {least} to {most} degrees, the smaller one first", least, most)
+        };
+        self.wrong(&path, message!("`{path}` runs from {first} to {second}", path, first, second), help);
         None
     }
 
@@ -173,11 +192,10 @@ impl Validator<'_> {
         ];
         for (key, is_written, projections) in keys {
             if is_written && !projections.contains(&name) {
-                let message = format!("`camera.{key}` means nothing for the projection \"{}\"", name.name());
-                let names: Vec<String> =
-                    projections.iter().map(|name| format!("`projection = \"{}\"`", name.name())).collect();
-                let help = format!("leave it out, or write {}", names.join(" or "));
-                self.wrong(&path.key(key), message, &help);
+                let message =
+                    message!("`camera.{key}` means nothing for the projection \"{name}\"", key, name = name.name());
+                let help = leave_out_or_write("projection", projections);
+                self.wrong(&path.key(key), message, help);
             }
         }
     }

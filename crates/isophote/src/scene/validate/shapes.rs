@@ -1,8 +1,9 @@
 //! Validates each shape by itself.
 
+use crate::message;
 use std::sync::Arc;
 
-use super::names::Names;
+use super::names::{Kind, Names};
 use super::numbers::vector_text;
 use super::{Checked, Validator};
 use crate::scene::Shape;
@@ -78,11 +79,11 @@ pub(super) fn count(source: &SceneSource) -> usize {
 impl Validator<'_> {
     pub(super) fn shapes(&mut self, source: &SceneSource) -> Checked<Shape> {
         if let Some((path, _)) = written(source).nth(limits::SHAPES) {
-            let message = format!("the scene has {} shapes", count(source));
-            self.wrong(&path, message, &format!("allowed: at most {}", limits::SHAPES));
+            let message = message!("the scene has {count} shapes", count = count(source));
+            self.wrong(&path, message, message!("allowed: at most {most}", most = limits::SHAPES));
             return Vec::new();
         }
-        let mut names = Names::new("shape");
+        let mut names = Names::new(Kind::Shape);
         let known: Vec<&str> = source.material.keys().map(String::as_str).collect();
         let check = |(path, shape): (Path, &dyn ShapeSource)| {
             let (name, material, shadow) = shape.head();
@@ -106,7 +107,11 @@ impl Validator<'_> {
         };
         let axis = self.required_direction(&path, "axis", axis);
         if degrees.is_none() {
-            self.problems.missing(&path, "degrees", "write `degrees = …`: how far it is turned about the axis");
+            self.problems.missing(
+                &path,
+                "degrees",
+                message!("write `degrees = …`: how far it is turned about the axis"),
+            );
         }
         Some(Rotation::about(axis?, degrees?))
     }
@@ -117,8 +122,9 @@ impl Validator<'_> {
         let second = self.required_point(path, keys[1], points[1]);
         let (first, second) = (first?, second?);
         if (second - first).length() < limits::SMALLEST {
-            let message = format!("`{path}.{}` is where `{path}.{}` is", keys[1], keys[0]);
-            self.wrong(&path.key(keys[1]), message, "allowed: any other point");
+            let message =
+                message!("`{path}.{second}` is where `{path}.{first}` is", path, second = keys[1], first = keys[0]);
+            self.wrong(&path.key(keys[1]), message, message!("allowed: any other point"));
             return None;
         }
         Some([first, second])
@@ -131,8 +137,16 @@ impl Validator<'_> {
         let (normal, up) = (normal?, up?);
         if normal.normalized().cross(up.normalized()).length() < 1e-6 {
             let key = if rectangle.up.is_some() { "up" } else { "normal" };
-            let message = format!("`{path}.up` is parallel to the normal {}", vector_text(normal.to_array()));
-            self.wrong(&path.key(key), message, "write for `up` any other direction: the height runs along it");
+            let message = message!(
+                "`{path}.up` is parallel to the normal {direction}",
+                path,
+                direction = vector_text(normal.to_array())
+            );
+            self.wrong(
+                &path.key(key),
+                message,
+                message!("write for `up` any other direction: the height runs along it"),
+            );
             return None;
         }
         Some([normal, up])
@@ -191,8 +205,8 @@ impl ShapeSource for ConeSource {
         let apex_radius = match self.apex_radius {
             None | Some(0.0) => Some(0.0),
             Some(negative) if negative < 0.0 => {
-                let message = format!("`{path}.apex_radius` is {negative}");
-                validator.wrong(&path.key("apex_radius"), message, "allowed: 0 for a pointed cone, or above");
+                let message = message!("`{path}.apex_radius` is {negative}", path, negative);
+                validator.wrong(&path.key("apex_radius"), message, message!("allowed: 0 for a pointed cone, or above"));
                 None
             }
             written => validator.required_size(path, "apex_radius", written),

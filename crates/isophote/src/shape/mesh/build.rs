@@ -1,7 +1,9 @@
 //! From the triangles of a file to a mesh in a scene.
 
 use super::Mesh;
+use crate::message;
 use crate::shape::{Bounds, Rotation};
+use crate::text::Message;
 use crate::vector::Vector;
 
 /// The triangles as stored in a file, in its own axes and unit.
@@ -42,15 +44,14 @@ pub struct MeshPlacing {
 
 /// Why the triangles do not make a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.message())]
 pub enum MeshError {
     /// A scale factor that would flatten or mirror the mesh.
-    #[error("the scale is {scale}; allowed: finite numbers above 0")]
     Scale {
         /// The factor.
         scale: f64,
     },
     /// A coordinate that is not finite.
-    #[error("{what} {index} has the coordinate {value}; allowed: finite numbers")]
     NotFinite {
         /// `vertex` or `normal`.
         what: &'static str,
@@ -60,7 +61,6 @@ pub enum MeshError {
         value: f64,
     },
     /// A corner that does not exist.
-    #[error("triangle {triangle} refers to {what} {index}; there are {count}, counted from 0")]
     OutOfRange {
         /// Index of the triangle.
         triangle: usize,
@@ -72,7 +72,6 @@ pub enum MeshError {
         count: usize,
     },
     /// A list that should have one entry per triangle but does not.
-    #[error("there are {count} {what} for {triangles} triangles")]
     Lengths {
         /// `triples of normals` or `material slots`.
         what: &'static str,
@@ -82,17 +81,56 @@ pub enum MeshError {
         triangles: usize,
     },
     /// A mesh with nothing visible.
-    #[error("it has no triangle with an area ({without_area} without)")]
     Empty {
         /// The number of triangles without area.
         without_area: usize,
     },
     /// More triangles than 32 bits can count.
-    #[error("it has {triangles} triangles; allowed: at most {}", u32::MAX)]
     TooMany {
         /// The number of triangles.
         triangles: usize,
     },
+}
+
+impl MeshError {
+    /// What is wrong, in either language.
+    #[must_use]
+    pub fn message(&self) -> Message {
+        match self {
+            Self::Scale { scale } => message!("the scale is {scale}; allowed: finite numbers above 0", scale),
+            Self::NotFinite { what: "vertex", index, value } => {
+                message!("vertex {index} has the coordinate {value}; allowed: finite numbers", index, value)
+            }
+            Self::NotFinite { index, value, .. } => {
+                message!("normal {index} has the coordinate {value}; allowed: finite numbers", index, value)
+            }
+            Self::OutOfRange { triangle, what, index, count } => {
+                let what = match *what {
+                    "vertex" => message!("vertex {index}", index),
+                    "normal" => message!("normal {index}", index),
+                    _ => message!("material slot {index}", index),
+                };
+                message!(
+                    "triangle {triangle} refers to {what}; there are {count}, counted from 0",
+                    triangle,
+                    what,
+                    count
+                )
+            }
+            Self::Lengths { what: "material slots", count, triangles } => {
+                message!("there are {count} material slots for {triangles} triangles", count, triangles)
+            }
+            Self::Lengths { count, triangles, .. } => {
+                message!("there are {count} triples of normals for {triangles} triangles", count, triangles)
+            }
+            Self::Empty { without_area } => {
+                message!("it has no triangle with an area ({without_area} without)", without_area)
+            }
+            Self::TooMany { triangles } => {
+                message!("it has {triangles} triangles; allowed: at most {most}", triangles, most = u32::MAX)
+            }
+        }
+    }
 }
 
 impl Mesh {

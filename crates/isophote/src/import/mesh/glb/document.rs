@@ -1,5 +1,7 @@
 //! The parts of a glTF document that affect the shape.
 
+use crate::message;
+use crate::text::Message;
 use serde::Deserialize;
 
 use super::{follow, transform::Transform};
@@ -120,38 +122,55 @@ pub(super) struct Material {
 impl Document {
     pub fn parse(json: &[u8]) -> Result<Self, Fault> {
         serde_json::from_slice(json).map_err(|error| {
-            let (what, allowed) = ("the JSON chunk".into(), "a document of glTF 2.0".into());
-            FileProblem::Unexpected { what, found: error.to_string(), allowed }.at(FilePosition::Json("JSON".into()))
+            let (what, allowed) = (message!("the JSON chunk"), message!("a document of glTF 2.0"));
+            FileProblem::Unexpected { what, found: error.to_string(), allowed }
+                .at(FilePosition::Json(Message::verbatim("JSON")))
         })
     }
 
     /// Checks that the numbers describe the shape directly: nothing is compressed, and no pose or morph target changes it.
     pub fn check_supported(&self) -> Result<(), Fault> {
-        let unsupported = |place: String, what: String, instead| {
-            Err(FileProblem::Unsupported { what, instead }.at(FilePosition::Json(place)))
+        let unsupported = |place: String, what: Message, instead: Message| {
+            Err(FileProblem::Unsupported { what, instead }.at(FilePosition::Json(Message::verbatim(place))))
         };
         if !self.asset.version.starts_with("2.") {
-            let what = format!("version {}", shown(self.asset.version.as_bytes()));
-            return unsupported("asset".into(), what, "export glTF 2.0");
+            let what = message!("version {version}", version = shown(self.asset.version.as_bytes()));
+            return unsupported("asset".into(), what, message!("export glTF 2.0"));
         }
         let shapeless = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_punctual"];
         let is_shapeless = |name: &&String| !shapeless.iter().any(|start| name.starts_with(start));
         if let Some(name) = self.extensions_required.iter().find(is_shapeless) {
-            let what = format!("extension {}", shown(name.as_bytes()));
-            return unsupported("extensionsRequired".into(), what, "export without compression or quantization");
+            let what = message!("extension {name}", name = shown(name.as_bytes()));
+            return unsupported(
+                "extensionsRequired".into(),
+                what,
+                message!("export without compression or quantization"),
+            );
         }
         let moves = |weights: &[f64]| weights.iter().any(|weight| *weight != 0.0);
         for (index, node) in self.nodes.iter().enumerate() {
             if node.skin.is_some() {
-                return unsupported(format!("nodes[{index}]"), "a skin".into(), "apply the pose before the export");
+                return unsupported(
+                    format!("nodes[{index}]"),
+                    message!("a skin"),
+                    message!("apply the pose before the export"),
+                );
             }
             if moves(&node.weights) {
-                return unsupported(format!("nodes[{index}]"), "morphing".into(), "apply it before the export");
+                return unsupported(
+                    format!("nodes[{index}]"),
+                    message!("morphing"),
+                    message!("apply it before the export"),
+                );
             }
         }
         for (index, mesh) in self.meshes.iter().enumerate() {
             if moves(&mesh.weights) {
-                return unsupported(format!("meshes[{index}]"), "morphing".into(), "apply it before the export");
+                return unsupported(
+                    format!("meshes[{index}]"),
+                    message!("morphing"),
+                    message!("apply it before the export"),
+                );
             }
         }
         Ok(())
@@ -159,7 +178,8 @@ impl Document {
 
     /// The nodes of the scene (the default one, otherwise the first) with their transforms, parents before children.
     pub fn placed_nodes(&self) -> Result<Vec<(usize, Transform)>, Fault> {
-        let scene = follow(&self.scenes, self.scene.unwrap_or(0), "document", "scene")?;
+        let scene =
+            follow(&self.scenes, self.scene.unwrap_or(0), &message!("document"), || Message::verbatim("scene"))?;
         let mut is_placed = vec![false; self.nodes.len()];
         let mut placed = Vec::new();
         let below = |children: &[usize], transform: Transform| -> Vec<(usize, Transform)> {
@@ -167,10 +187,10 @@ impl Document {
         };
         let mut waiting = below(&scene.nodes, Transform::IDENTITY);
         while let Some((index, parent)) = waiting.pop() {
-            let place = format!("nodes[{index}]");
-            let node = follow(&self.nodes, index, "a scene or node", "a node")?;
+            let place = Message::verbatim(format!("nodes[{index}]"));
+            let node = follow(&self.nodes, index, &message!("a scene or node"), || message!("a node"))?;
             if std::mem::replace(&mut is_placed[index], true) {
-                let (what, allowed) = ("the node's parents".into(), "one parent, and no circle".into());
+                let (what, allowed) = (message!("the node's parents"), message!("one parent, and no circle"));
                 return Err(
                     FileProblem::Unexpected { what, found: "two".into(), allowed }.at(FilePosition::Json(place))
                 );
@@ -183,8 +203,8 @@ impl Document {
         Ok(placed)
     }
 
-    pub fn material_name(&self, index: usize, place: &str) -> Result<String, Fault> {
-        let material = follow(&self.materials, index, place, "material")?;
+    pub fn material_name(&self, index: usize, place: &Message) -> Result<String, Fault> {
+        let material = follow(&self.materials, index, place, || Message::verbatim("material"))?;
         Ok(material.name.clone().unwrap_or_else(|| format!("material {index}")))
     }
 }

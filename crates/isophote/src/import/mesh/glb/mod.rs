@@ -7,6 +7,8 @@ mod accessor;
 mod document;
 mod transform;
 
+use crate::message;
+use crate::text::Message;
 use document::{Document, Node, Primitive};
 use transform::Transform;
 
@@ -33,15 +35,17 @@ pub(in crate::import) fn read(bytes: &[u8]) -> Result<TriangleMesh, Fault> {
 fn chunks(bytes: &[u8]) -> Result<(&[u8], &[u8]), FileProblem> {
     let word = |at: usize| bytes.get(at..at + 4).map(|word| u32::from_le_bytes(word.try_into().expect("four bytes")));
     let left = bytes.len() as u64;
-    let truncated = |what: &str, needed: u128| FileProblem::Truncated { what: what.into(), needed, left };
-    let (Some(version), Some(length)) = (word(4), word(8)) else { return Err(truncated("magic, version, length", 12)) };
+    let truncated = |what: Message, needed: u128| FileProblem::Truncated { what, needed, left };
+    let (Some(version), Some(length)) = (word(4), word(8)) else {
+        return Err(truncated(message!("magic, version, length"), 12));
+    };
     if version != 2 {
-        let (what, allowed) = ("the version of glTF".into(), "2".into());
+        let (what, allowed) = (message!("the version of glTF"), Message::verbatim("2"));
         return Err(FileProblem::Unexpected { what, found: version.to_string(), allowed });
     }
     if u64::from(length) < left {
         return Err(FileProblem::Leftover {
-            what: format!("{length} announced bytes"),
+            what: message!("{length} announced bytes", length),
             left: left - u64::from(length),
         });
     }
@@ -49,11 +53,11 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], &[u8]), FileProblem> {
     let mut at = 12;
     while at < bytes.len() {
         let (Some(length), Some(kind)) = (word(at), word(at + 4)) else {
-            return Err(truncated("length and kind of a chunk", at as u128 + 8));
+            return Err(truncated(message!("length and kind of a chunk"), at as u128 + 8));
         };
         let end = at as u128 + 8 + u128::from(length);
         let chunk = usize::try_from(end).ok().and_then(|end| bytes.get(at + 8..end));
-        let chunk = chunk.ok_or_else(|| truncated("the file with its chunk", end))?;
+        let chunk = chunk.ok_or_else(|| truncated(message!("the file with its chunk"), end))?;
         match kind {
             JSON if json.is_none() => json = Some(chunk),
             BINARY if binary.is_none() => binary = Some(chunk),
@@ -62,9 +66,12 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], &[u8]), FileProblem> {
         at += 8 + chunk.len();
     }
     if u64::from(length) > left {
-        return Err(truncated("the announced contents", length.into()));
+        return Err(truncated(message!("the announced contents"), length.into()));
     }
-    let json = json.ok_or(FileProblem::Missing { what: "the JSON chunk".into(), needed: "it describes the scene" })?;
+    let json = json.ok_or_else(|| FileProblem::Missing {
+        what: message!("the JSON chunk"),
+        needed: message!("it describes the scene"),
+    })?;
     Ok((json, binary.unwrap_or_default()))
 }
 
@@ -90,8 +97,8 @@ fn check_corners(document: &Document, nodes: &[(usize, Transform)], bytes: u64) 
         let mesh = document.nodes[*index].mesh.and_then(|mesh| of_meshes.get(mesh));
         all = all.saturating_add(mesh.copied().unwrap_or(0));
         if all > most {
-            let problem = FileProblem::TooMany { what: "corners, with all repetitions", most };
-            return Err(problem.at(FilePosition::Json(format!("nodes[{index}]"))));
+            let problem = FileProblem::TooMany { what: message!("corners, with all repetitions"), most };
+            return Err(problem.at(FilePosition::Json(Message::verbatim(format!("nodes[{index}]")))));
         }
     }
     Ok(())
@@ -106,26 +113,33 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn node(&mut self, index: usize, transform: &Transform) -> Result<(), Fault> {
         let Node { mesh: Some(mesh), .. } = &self.document.nodes[index] else { return Ok(()) };
-        let place = format!("nodes[{index}]");
+        let place = Message::verbatim(format!("nodes[{index}]"));
         transform.check().map_err(|problem| problem.at(FilePosition::Json(place.clone())))?;
-        let primitives = &follow(&self.document.meshes, *mesh, &place, "mesh")?.primitives;
+        let primitives = &follow(&self.document.meshes, *mesh, &place, || Message::verbatim("mesh"))?.primitives;
         for (number, primitive) in primitives.iter().enumerate() {
-            self.primitive(primitive, transform, &format!("meshes[{mesh}].primitives[{number}]"))?;
+            self.primitive(primitive, transform, &Message::verbatim(format!("meshes[{mesh}].primitives[{number}]")))?;
         }
         Ok(())
     }
 
-    fn primitive(&mut self, primitive: &Primitive, transform: &Transform, place: &str) -> Result<(), Fault> {
-        let at = |problem: FileProblem| problem.at(FilePosition::Json(place.into()));
+    fn primitive(&mut self, primitive: &Primitive, transform: &Transform, place: &Message) -> Result<(), Fault> {
+        let at = |problem: FileProblem| problem.at(FilePosition::Json(place.clone()));
         let Some(mode) = Mode::of(primitive.mode).map_err(at)? else { return Ok(()) };
         let Some(position) = primitive.attributes.position else {
-            return Err(at(FileProblem::Missing { what: "POSITION".into(), needed: "a surface needs vertices" }));
+            return Err(at(FileProblem::Missing {
+                what: Message::verbatim("POSITION"),
+                needed: message!("a surface needs vertices"),
+            }));
         };
         let positions = self.buffers.vectors(position)?;
         let normals = primitive.attributes.normal.map(|normal| self.buffers.vectors(normal)).transpose()?;
         if let Some(normals) = normals.as_ref().filter(|normals| normals.len() != positions.len()) {
-            let allowed = format!("POSITION has {}", positions.len());
-            return Err(at(FileProblem::Parts { what: "NORMAL".into(), found: normals.len() as u64, allowed }));
+            let allowed = message!("{other} has {count}", other = "POSITION", count = positions.len());
+            return Err(at(FileProblem::Parts {
+                what: Message::verbatim("NORMAL"),
+                found: normals.len() as u64,
+                allowed,
+            }));
         }
         let indices = match primitive.indices {
             Some(indices) => self.buffers.indices(indices, positions.len())?,
@@ -163,21 +177,21 @@ impl Mode {
             5 => Ok(Some(Self::Strip)),
             6 => Ok(Some(Self::Fan)),
             _ => Err(FileProblem::Unexpected {
-                what: "mode".into(),
+                what: Message::verbatim("mode"),
                 found: number.to_string(),
-                allowed: "0 to 6".into(),
+                allowed: message!("{least} to {most}", least = 0, most = 6),
             }),
         }
     }
 
     fn triangles(self, indices: &[usize]) -> Result<Box<dyn Iterator<Item = [usize; 3]> + '_>, FileProblem> {
-        let wrong = |allowed: &str| {
-            let what = "the list of corners".into();
-            Err(FileProblem::Parts { what, found: indices.len() as u64, allowed: allowed.into() })
+        let wrong = |allowed: Message| {
+            let what = message!("the list of corners");
+            Err(FileProblem::Parts { what, found: indices.len() as u64, allowed })
         };
         match self {
-            Self::List if !indices.len().is_multiple_of(3) => wrong("a multiple of 3 is needed"),
-            Self::Strip | Self::Fan if indices.len() < 3 => wrong("at least 3 are needed"),
+            Self::List if !indices.len().is_multiple_of(3) => wrong(message!("a multiple of 3 is needed")),
+            Self::Strip | Self::Fan if indices.len() < 3 => wrong(message!("at least 3 are needed")),
             Self::List => Ok(Box::new(indices.as_chunks::<3>().0.iter().copied())),
             Self::Strip => Ok(Box::new(indices.windows(3).enumerate().map(|(number, corners)| match number % 2 {
                 0 => [corners[0], corners[1], corners[2]],
@@ -189,9 +203,10 @@ impl Mode {
 }
 
 /// The element that a reference points to.
-fn follow<'a, T>(elements: &'a [T], index: usize, place: &str, field: &'static str) -> Result<&'a T, Fault> {
+fn follow<'a, T>(elements: &'a [T], index: usize, place: &Message, field: fn() -> Message) -> Result<&'a T, Fault> {
     elements.get(index).ok_or_else(|| {
         let (index, count) = (i64::try_from(index).unwrap_or(i64::MAX), elements.len() as u64);
-        FileProblem::Index { field, index, first: 0, count, backwards: 0 }.at(FilePosition::Json(place.into()))
+        FileProblem::Index { field: field(), index, first: 0, count, backwards: 0 }
+            .at(FilePosition::Json(place.clone()))
     })
 }

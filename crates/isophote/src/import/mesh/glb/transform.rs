@@ -2,6 +2,8 @@
 
 use super::document::Node;
 use crate::import::{FileProblem, text::finite};
+use crate::message;
+use crate::text::Message;
 use crate::vector::Vector;
 
 /// x ↦ Ax + t.
@@ -25,7 +27,7 @@ impl Transform {
         if let Some(m) = node.matrix {
             if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
                 let found = format!("{}, {}, {}, {}", m[3], m[7], m[11], m[15]);
-                let (what, allowed) = ("the last row of the matrix".into(), "0, 0, 0, 1".into());
+                let (what, allowed) = (message!("the last row of the matrix"), Message::verbatim("0, 0, 0, 1"));
                 return Err(FileProblem::Unexpected { what, found, allowed });
             }
             let rows = [0, 1, 2].map(|i| Vector::new(m[i], m[i + 4], m[i + 8]));
@@ -50,7 +52,7 @@ impl Transform {
         if determinant != 0.0 && determinant.is_finite() {
             return Ok(());
         }
-        let (what, allowed) = ("the determinant of its transform".into(), "a finite number other than 0".into());
+        let (what, allowed) = (message!("the determinant of its transform"), message!("a finite number other than 0"));
         Err(FileProblem::Unexpected { what, found: determinant.to_string(), allowed })
     }
 
@@ -88,7 +90,7 @@ impl Transform {
 fn rotation(quaternion: [f64; 4]) -> Result<[Vector; 3], FileProblem> {
     let length = quaternion.iter().map(|part| part * part).sum::<f64>().sqrt();
     if !((length - 1.0).abs() < 1e-3) {
-        let (what, allowed) = ("the length of the rotation".into(), "1".into());
+        let (what, allowed) = (message!("the length of the rotation"), Message::verbatim("1"));
         return Err(FileProblem::Unexpected { what, found: length.to_string(), allowed });
     }
     let [x, y, z, w] = quaternion.map(|part| part / length);

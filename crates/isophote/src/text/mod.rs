@@ -1,4 +1,13 @@
-//! Numbers and texts in readable form.
+//! Numbers and texts in readable form, in either language.
+
+mod language;
+mod message;
+mod russian;
+#[cfg(test)]
+mod tests;
+
+pub use language::Language;
+pub use message::{Message, ToValue, Value};
 
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -58,30 +67,4 @@ pub fn significant(value: f64, digits: usize) -> String {
 
 fn trimmed(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{escaped, escaped_line, significant};
-
-    #[test]
-    fn what_controls_a_terminal_is_escaped_and_nothing_else() {
-        assert_eq!(escaped("\u{1b}]0;x\u{7}\u{1b}[2J\r"), "\\u001B]0;x\\u0007\\u001B[2J\\u000D");
-        assert_eq!(escaped("a\u{202e}b\u{2066}c\u{9b}\u{7f}\u{200f}"), "a\\u202Eb\\u2066c\\u009B\\u007F\\u200F");
-        assert_eq!(escaped("two\nlines\tand"), "two\nlines\tand");
-        assert_eq!(escaped_line("two\nlines\tand"), "two\\u000Alines\\u0009and");
-        assert_eq!(escaped_line("Сфера «шар» 球 é W/m²"), "Сфера «шар» 球 é W/m²");
-    }
-
-    #[test]
-    fn numbers_have_the_digits_that_were_asked_for_and_no_more() {
-        assert_eq!(significant(0.316_677_297_547_092_75, 15), "0.316677297547093");
-        assert_eq!(significant(0.316_677_297_547_092_75, 4), "0.3167");
-        assert_eq!(significant(-100.0, 12), "-100");
-        assert_eq!(significant(0.999_999_99, 4), "1");
-        assert_eq!(significant(123_456.789, 3), "123457");
-        assert_eq!(significant(1.5e-9, 12), "1.5e-9");
-        assert_eq!(significant(-2.5e20, 12), "-2.5e20");
-        assert_eq!(significant(0.0, 12), "0");
-    }
 }
