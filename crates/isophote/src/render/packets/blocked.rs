@@ -2,7 +2,7 @@
 
 use super::body::PacketBody;
 use super::candidates::{Candidate, Search};
-use super::rays::{OCTET, RAYS, RayPacket};
+use super::rays::{OCTET, RAYS, RayPacket, has_any_of};
 use super::set_bits;
 use super::triangle::{Met, PacketTriangle};
 use crate::lanes::Lane;
@@ -51,7 +51,7 @@ impl Search for Blocked<'_> {
         while octets != 0 {
             let octet = octets.trailing_zeros() as usize;
             octets &= octets - 1;
-            if self.open() >> (octet * OCTET) & 0xff == 0 {
+            if !has_any_of(self.open(), octet) {
                 continue;
             }
             for at in (octet * OCTET..(octet + 1) * OCTET).step_by(V::COUNT) {

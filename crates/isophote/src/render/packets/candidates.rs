@@ -1,7 +1,7 @@
 //! The primitives that the rays of a packet may meet.
 
 use super::body::PacketBody;
-use super::rays::{OCTET, RAYS, RayPacket, splat};
+use super::rays::{OCTET, RAYS, RayPacket, has_any_of, splat};
 use crate::accelerate::{Shaft, Walk};
 use crate::lanes::Lane;
 use crate::prepare::PreparedScene;
@@ -97,12 +97,13 @@ fn test<V: Lane<Element = f64>>(
     }
 }
 
+/// A component of a unit vector that is smaller than this is taken for it, which moves the ray by less than the slack.
+const SMALLEST: f64 = 1e-10;
+
 /// The rays that may pass through a box with t in the packet's range, as bits.
 #[inline(always)]
 fn through<V: Lane<Element = f64>>(token: V::Token, packet: &RayPacket, bounds: &Bounds) -> u64 {
     let (least, greatest) = (bounds.least - packet.origin, bounds.greatest - packet.origin);
-    // A component smaller than this is taken for it, which moves the ray by less than the slack.
-    const SMALLEST: f64 = 1e-10;
     let reach = least.length() + greatest.length() + packet.reach;
     let slack = 4.0 * SMALLEST * reach;
     let slack = Vector::new(slack, slack, slack);
@@ -112,7 +113,7 @@ fn through<V: Lane<Element = f64>>(token: V::Token, packet: &RayPacket, bounds: 
     let one = V::splat(token, 1.0);
     let mut bits = 0;
     for at in (0..RAYS).step_by(V::COUNT) {
-        if packet.in_use >> (at / OCTET * OCTET) & 0xff == 0 {
+        if !has_any_of(packet.in_use, at / OCTET) {
             continue;
         }
         let [start, direction] = packet.rays::<V>(token, at);

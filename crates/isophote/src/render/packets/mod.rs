@@ -64,7 +64,7 @@ const SHARPEST: f64 = 1000.0;
 /// What each ray of a tile hits.
 type Hits = [Option<Hit>; RAYS];
 
-impl<'a> Packets<'a> {
+impl Packets<'_> {
     /// Fills a band, and returns what its pixels see.
     pub fn fill(&self, mut band: Band<'_>) -> Result<Vec<Run>, RenderError> {
         let mut work = Work {

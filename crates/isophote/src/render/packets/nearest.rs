@@ -2,7 +2,7 @@
 
 use super::body::{First, PacketBody};
 use super::candidates::{Candidate, Search};
-use super::rays::{OCTET, RAYS, RayPacket};
+use super::rays::{OCTET, RAYS, RayPacket, has_any_of};
 use super::triangle::{Met, PacketTriangle};
 use crate::lanes::Lane;
 use crate::prepare::ERROR_OF_DISTANCE;
@@ -37,7 +37,6 @@ pub enum Seen {
 
 impl Nearest {
     /// Nothing found yet.
-    #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
     pub fn new() -> Box<Self> {
         Box::new(Self {
             in_use: 0,
@@ -152,7 +151,7 @@ impl Search for Nearest {
         while octets != 0 {
             let octet = octets.trailing_zeros() as usize;
             octets &= octets - 1;
-            if packet.in_use >> (octet * OCTET) & 0xff != 0 {
+            if has_any_of(packet.in_use, octet) {
                 self.test_octet::<V>(token, packet, &triangle, octet, found.number);
             }
         }

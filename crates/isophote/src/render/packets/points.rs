@@ -57,7 +57,6 @@ struct Way<V> {
 
 impl PreciseRays {
     /// No rays.
-    #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
     pub fn new() -> Box<Self> {
         let zeros = [[0.0; RAYS]; 3];
         Box::new(Self {
@@ -185,7 +184,6 @@ fn exact<V: Lane<Element = f64>>(token: V::Token, vector: Vector<DoubleDouble>) 
 
 impl Points {
     /// No points.
-    #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
     pub fn new() -> Box<Self> {
         let zeros = [[0.0; RAYS]; 3];
         Box::new(Self {

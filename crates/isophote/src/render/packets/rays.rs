@@ -50,7 +50,6 @@ pub struct EdgeSide {
 
 impl RayPacket {
     /// Without rays.
-    #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
     pub fn new() -> Box<Self> {
         let zeros = [[0.0; RAYS]; 3];
         Box::new(Self {
@@ -111,13 +110,13 @@ impl RayPacket {
             let rays = octet * OCTET..(octet + 1) * OCTET;
             for (of, vectors) in [&self.direction, &self.moment].into_iter().enumerate() {
                 let mut square = 0.0;
-                for axis in 0..3 {
-                    let numbers = &vectors[axis][rays.clone()];
+                for (numbers, middle) in vectors.iter().zip(&mut self.middle[of]) {
+                    let numbers = &numbers[rays.clone()];
                     let (mut low, mut high) = (numbers[0], numbers[0]);
                     for number in numbers {
                         (low, high) = (low.min(*number), high.max(*number));
                     }
-                    self.middle[of][axis][octet] = 0.5 * (low + high);
+                    middle[octet] = 0.5 * (low + high);
                     let half = 0.5 * (high - low);
                     square += half * half;
                 }
@@ -209,6 +208,12 @@ impl<V: Lane<Element = f64>> Range<V> {
 #[inline(always)]
 fn of_octets<V: Lane<Element = f64>>(token: V::Token, [x, y, z]: &[[f64; OCTETS]; 3], at: usize) -> Vector<V> {
     Vector::new(V::load(token, &x[at..]), V::load(token, &y[at..]), V::load(token, &z[at..]))
+}
+
+/// Whether any bit of an octet is set.
+#[inline(always)]
+pub fn has_any_of(bits: u64, octet: usize) -> bool {
+    bits >> (octet * OCTET) << (RAYS - OCTET) != 0
 }
 
 /// Writes a vector.

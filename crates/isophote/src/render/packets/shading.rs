@@ -94,7 +94,9 @@ impl<'a> Shader<'a> {
             let has_formula =
                 |ray: &usize| hits[*ray].as_ref().is_some_and(|hit| scene.formula_index(hit.primitive) == formula);
             let rays: Vec<usize> = set_bits(left).filter(has_formula).collect();
-            rays.iter().for_each(|ray| left &= !(1 << ray));
+            for ray in &rays {
+                left &= !(1 << ray);
+            }
             self.shade_some(hits, &rays, tile, band)?;
         }
         Ok(())

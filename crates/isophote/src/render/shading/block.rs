@@ -160,7 +160,6 @@ impl<E: Element> SurfaceBlock<E> {
 
 impl SurfaceBlock<f64> {
     /// Room for points that have anchors of their own, in metres.
-    #[expect(clippy::unnecessary_box_returns, reason = "too large for the stack")]
     pub fn anchored() -> Box<Self> {
         let mut block = Self::new();
         block.anchors = Some(Box::new([[0.0; SIZE]; 3]));
