@@ -142,32 +142,24 @@ impl Work<'_> {
     /// Sets the rays of a tile.
     fn aim(&mut self, tile: Tile) {
         let Self { packets: Packets { scene, instructions, .. }, packet, is_precise, precise, nearest, .. } = self;
-        let is_in_tile = |index: usize| {
+        packet.range = [0.0, f64::INFINITY];
+        packet.in_use = bits((0..RAYS).map(|index| {
             let (column, row) = place_of(index);
             column < tile.width && row < tile.height
-        };
+        }));
         if *is_precise {
             precise.aim(tile);
-            instructions.run_wide(Combine { rays: precise });
-        }
-        let ray = |index: usize| {
-            if *is_precise {
-                Some(precise.ray(index))
-            } else {
-                scene.frame().ray(ScreenPosition::PixelCenter(pixel_of(tile, index)))
-            }
-        };
-        let rays: [Option<Ray>; RAYS] = std::array::from_fn(|index| if is_in_tile(index) { ray(index) } else { None });
-        packet.in_use = bits(rays.iter().map(Option::is_some));
-        packet.range = [0.0, f64::INFINITY];
-        let Some(first) = rays.iter().flatten().next().copied() else { return };
-        packet.origin = first.anchor;
-        for (index, ray) in rays.iter().enumerate() {
-            if let Some(ray) = ray {
-                packet.set(index, ray.start_from(first.anchor), ray.direction);
+            instructions.run_wide(Combine { rays: precise, packet });
+        } else {
+            packet.origin = scene.frame().eye;
+            for index in set_bits(packet.in_use) {
+                match scene.frame().ray(ScreenPosition::PixelCenter(pixel_of(tile, index))) {
+                    Some(ray) => packet.set(index, ray.start_from(packet.origin), ray.direction),
+                    None => packet.in_use &= !(1 << index),
+                }
             }
         }
-        nearest.start(packet.in_use, rays.iter().map(|ray| ray.unwrap_or(first)));
+        nearest.clear(packet.in_use);
     }
 
     /// The points that the rays hit; returns the rays for which a double is not enough, as bits.
@@ -215,7 +207,7 @@ impl Work<'_> {
                     points.hit(index, primitive, points::anchor_of(geometry, primitive.part), precise)
                 } else {
                     let position = ScreenPosition::PixelCenter(pixel_of(tile, index));
-                    let hit = scene.hit_on(primitive, nearest.ray(index));
+                    let hit = scene.hit_on(primitive, &packet.ray(index));
                     hit.or_else(|| scene.precise_hit_on(primitive, position))
                 };
                 doubtful |= u64::from(hits[index].is_none()) << index;

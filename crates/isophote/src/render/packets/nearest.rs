@@ -6,7 +6,6 @@ use super::rays::{OCTET, RAYS, RayPacket, has_any_of};
 use super::triangle::{Met, PacketTriangle};
 use crate::lanes::Lane;
 use crate::prepare::ERROR_OF_DISTANCE;
-use crate::ray::Ray;
 use crate::shape::{Accuracy, Geometry};
 
 /// The nearest hits so far.
@@ -19,8 +18,6 @@ pub struct Nearest {
     number: [f64; RAYS],
     /// The least t at which a double may have decided wrongly.
     doubtful_from: [f64; RAYS],
-    /// The rays themselves.
-    rays: Vec<Ray>,
     /// The largest distance of a ray, unless it has to be found again.
     farthest: Option<f64>,
 }
@@ -44,26 +41,18 @@ impl Nearest {
             error: [0.0; RAYS],
             number: [0.0; RAYS],
             doubtful_from: [0.0; RAYS],
-            rays: Vec::with_capacity(RAYS),
             farthest: None,
         })
     }
 
-    /// Starts again, with other rays.
-    pub fn start(&mut self, in_use: u64, rays: impl Iterator<Item = Ray>) {
+    /// Forgets everything; these rays are in use.
+    pub fn clear(&mut self, in_use: u64) {
         self.in_use = in_use;
-        self.rays.clear();
-        self.rays.extend(rays);
         self.distance.fill(f64::INFINITY);
         self.error.fill(0.0);
         self.number.fill(-1.0);
         self.doubtful_from.fill(f64::INFINITY);
         self.farthest = None;
-    }
-
-    /// A ray.
-    pub fn ray(&self, index: usize) -> &Ray {
-        &self.rays[index]
     }
 
     /// What a ray hits.
@@ -181,7 +170,7 @@ impl Search for Nearest {
             }
         }
         if doubtful != 0 {
-            self.test_rays(found, doubtful);
+            self.test_rays(packet, found, doubtful);
         }
     }
 
@@ -206,12 +195,12 @@ impl Search for Nearest {
 impl Nearest {
     /// Tests rays one by one.
     #[inline(never)]
-    fn test_rays(&mut self, found: &Candidate<'_>, mut rays: u64) {
+    fn test_rays(&mut self, packet: &RayPacket, found: &Candidate<'_>, mut rays: u64) {
         while rays != 0 {
             let index = rays.trailing_zeros() as usize;
             rays &= rays - 1;
             let intersection =
-                found.geometry.intersect(found.primitive.part, &self.rays[index], Accuracy::OF_VISIBILITY);
+                found.geometry.intersect(found.primitive.part, &packet.ray(index), Accuracy::OF_VISIBILITY);
             if let Some(from) = intersection.doubtful_from {
                 self.doubt(index, from);
             }

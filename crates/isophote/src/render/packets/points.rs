@@ -2,13 +2,12 @@
 //!
 //! They are computed in lanes of 32 digits: the accuracy of a double, which the result has, is then enough for any highlight.
 
-use super::rays::{OCTET, RAYS, Vectors, get, load, put, splat, store};
+use super::rays::{OCTET, RAYS, RayPacket, Vectors, get, load, put, splat, store};
 use super::{place_of, set_bits};
 use crate::double_double::DoubleDouble;
 use crate::lanes::{Lane, LaneJob, SimdToken};
 use crate::map::Pixel;
 use crate::prepare::{Hit, PreparedScene};
-use crate::ray::Ray;
 use crate::real::Real;
 use crate::render::band::{Band, Tile};
 use crate::shape::{Cone, Cuboid, Ellipsoid, Geometry, Placement, Primitive, Sphere, SurfacePoint};
@@ -100,17 +99,6 @@ impl PreciseRays {
         }
     }
 
-    /// A ray.
-    pub fn ray(&self, index: usize) -> Ray {
-        let direction = get(&self.directions, index);
-        let common = self.common.map(DoubleDouble::rounded);
-        if self.is_parallel {
-            Ray { anchor: get(&self.sums[0], index), offset: get(&self.sums[1], index), direction }
-        } else {
-            Ray { anchor: common, offset: Vector::default(), direction }
-        }
-    }
-
     #[inline(always)]
     fn way<V: Lane<Element = f64>>(&self, token: V::Token, at: usize) -> Way<V> {
         let sum = pairs::<V>(token, &self.sums, at);
@@ -124,10 +112,12 @@ impl PreciseRays {
     }
 }
 
-/// Adds what columns and rows contribute.
+/// Adds what columns and rows contribute, and sets the rays of a packet.
 pub struct Combine<'c> {
     /// The rays.
     pub rays: &'c mut PreciseRays,
+    /// The packet.
+    pub packet: &'c mut RayPacket,
 }
 
 impl LaneJob for Combine<'_> {
@@ -148,13 +138,29 @@ impl Combine<'_> {
     fn combine<V: Lane<Element = f64>>(self, token: V::Token) {
         let PreciseRays { is_parallel, common, of_columns, of_rows, sums, directions, .. } = self.rays;
         let parallel = nearest(exact::<V>(token, *common));
+        let packet = self.packet;
+        packet.origin = common.map(DoubleDouble::rounded);
+        if *is_parallel {
+            // The first start.
+            let first = |halves: &[Vectors; 2]| get(&halves[0], 0);
+            packet.origin = first(of_columns) + first(of_rows);
+        }
+        let origin = exactly(splat::<V>(token, packet.origin));
+        let zero = V::splat(token, 0.0);
         for at in (0..RAYS).step_by(V::COUNT) {
             let sum = pairs::<V>(token, of_columns, at) + pairs(token, of_rows, at);
             let high = nearest(sum);
             store(&mut sums[0], at, high);
             let low = sum + -exactly(high);
             store(&mut sums[1], at, nearest(low));
-            store(directions, at, if *is_parallel { parallel } else { high.normalized() });
+            let (start, direction) = if *is_parallel {
+                (nearest(sum + -origin), parallel)
+            } else {
+                (Vector::new(zero, zero, zero), high.normalized())
+            };
+            store(directions, at, direction);
+            store(&mut packet.start, at, start);
+            store(&mut packet.direction, at, direction);
         }
     }
 }

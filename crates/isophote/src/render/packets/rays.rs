@@ -1,6 +1,7 @@
 //! Rays that are traced together.
 
 use crate::lanes::Lane;
+use crate::ray::Ray;
 use crate::shape::Bounds;
 use crate::vector::Vector;
 
@@ -71,6 +72,11 @@ impl RayPacket {
     pub fn set(&mut self, ray: usize, start: Vector, direction: Vector) {
         put(&mut self.start, ray, start);
         put(&mut self.direction, ray, direction);
+    }
+
+    /// A ray, whose direction is a unit vector.
+    pub fn ray(&self, index: usize) -> Ray {
+        Ray { anchor: self.origin, offset: self.start_of(index), direction: self.direction_of(index) }
     }
 
     /// The start of a ray, relative to the origin.
