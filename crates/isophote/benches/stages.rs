@@ -1,6 +1,8 @@
 //! One benchmark per stage from a scene file to a map.
 
+use std::fs;
 use std::hint::black_box;
+use std::path::Path;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use isophote::analysis::statistics::statistics;
@@ -100,5 +102,60 @@ fn large(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(stages, read, prepare, kernel, samples, many_lights, large);
+/// Every way of finding what pixels see but the sphere's: the shapes that fill most of the view, by each camera.
+fn shapes(criterion: &mut Criterion) {
+    let shapes = [
+        ("sphere", "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1.1"),
+        ("ellipsoid", "[[ellipsoid]]\ncenter = [0, 0, 0]\nradii = [1.1, 1.0, 0.8]"),
+        ("box", "[[box]]\ncenter = [0, 0, 0]\nsize = [2, 2, 2]\nrotation = { axis = [0, 1, 0], degrees = 20 }"),
+        ("cylinder", "[[cylinder]]\nfrom = [0, -1, 0]\nto = [0, 1, 0.2]\nradius = 1"),
+        ("cone", "[[cone]]\nbase = [0, -1, 0]\napex = [0, 1.2, 0]\nradius = 1.2"),
+        ("plane", "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0.2, 1]"),
+    ];
+    let cameras = [
+        ("perspective", "screen = { distance = 1, x = [-0.4, 0.4], y = [-0.3, 0.3] }"),
+        ("orthographic", "projection = \"orthographic\"\nwindow = { x = [-1.2, 1.2], y = [-0.9, 0.9] }"),
+        ("fisheye", "projection = \"fisheye-equidistant\"\nfield_of_view = 46"),
+    ];
+    let lanes = SimdRenderer::new(Precision::Double, None);
+    let mut group = criterion.benchmark_group("shapes 800×600");
+    group.sample_size(10);
+    for (shape, text) in shapes {
+        for (camera, view) in cameras {
+            let text = format!(
+                "version = 1\nlength = \"m\"\nconvention = \"radiance\"\n\
+                 [camera]\neye = [0, 0, 3]\ntarget = [0, 0, 0]\nresolution = [800, 600]\n{view}\n\
+                 [material.chalk]\ndiffuse = 0.6\nspecular = 0.3\nshininess = 20\n\
+                 [[light]]\nposition = [2, 3, 4]\nintensity = 20\n\
+                 {text}\nmaterial = \"chalk\"\n"
+            );
+            let scene = Scene::from_text(shape, &text, Syntax::Toml).expect("it is valid");
+            let scene = PreparedScene::new(&scene);
+            group.bench_function(format!("{shape}, {camera}"), |bencher| {
+                bencher.iter(|| black_box(render(&lanes, &scene, &[Quantity::Brightness])));
+            });
+        }
+    }
+    group.finish();
+}
+
+/// Shapes of all kinds with shadows, and a mesh, as in the gallery, with one ray through each pixel.
+fn gallery(criterion: &mut Criterion) {
+    let lanes = SimdRenderer::new(Precision::Double, None);
+    let mut group = criterion.benchmark_group("gallery 800×600");
+    group.sample_size(10);
+    for name in ["solids", "room", "mesh", "sun", "orthographic"] {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+        let text = fs::read_to_string(folder.join(name).with_extension("toml")).expect("it is there");
+        let text: Vec<&str> = text.lines().filter(|line| !line.starts_with("tolerance")).collect();
+        let scene = Scene::from_text_in(&folder, name, &text.join("\n"), Syntax::Toml).expect("it is valid");
+        let scene = PreparedScene::new(&scene).at_resolution(Resolution { width: 800, height: 600 });
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| black_box(render(&lanes, &scene, &[Quantity::Brightness])));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(stages, read, prepare, kernel, samples, many_lights, large, shapes, gallery);
 criterion_main!(stages);
