@@ -38,10 +38,16 @@ test: python-env ## Run every test (those that use Python need 3.10 or later)
 WASM := wasm32-wasip1
 WASM_RUNNER := node --no-warnings $(CURDIR)/validation/wasm/run.mjs
 
-test-wasm: ## Run the conformance suite as WebAssembly (needs Node 20 or later; installs the Rust target)
+WASM_TEST := CARGO_TARGET_WASM32_WASIP1_RUSTFLAGS="-C target-feature=+simd128" \
+	CARGO_TARGET_WASM32_WASIP1_RUNNER="$(WASM_RUNNER)" $(CARGO) test --target $(WASM) -p isophote-wasm
+
+test-wasm: test-wasm-build ## Run the conformance suite as WebAssembly (needs Node 20 or later; installs the Rust target)
+	$(WASM_TEST)
+
+.PHONY: test-wasm-build
+test-wasm-build:
 	@rustup target list --installed 2>/dev/null | grep -qx $(WASM) || rustup target add $(WASM)
-	CARGO_TARGET_WASM32_WASIP1_RUSTFLAGS="-C target-feature=+simd128" CARGO_TARGET_WASM32_WASIP1_RUNNER="$(WASM_RUNNER)" \
-		$(CARGO) test --target $(WASM) -p isophote-wasm
+	$(WASM_TEST) --no-run
 
 BROWSER := wasm32-unknown-unknown
 APP_MODULE := $(or $(CARGO_TARGET_DIR),target)/$(BROWSER)/dist/isophote_web.wasm

@@ -124,7 +124,8 @@ impl SimdRenderer {
                 let job = RowsJob { scene, band, candidates, lighting, asked_for, precision, observer };
                 self.instructions.run(job)
             }
-            None if packets::supports(scene, instructions) => {
+            // WebAssembly has narrow vectors, and compiling packets for it would double the time that the app takes to build.
+            None if !cfg!(target_arch = "wasm32") && packets::supports(scene, instructions) => {
                 Packets { scene, lighting, asked_for, instructions, observer }.fill(band)
             }
             None => rays::fill(&mut band, scene, asked_for, observer),
