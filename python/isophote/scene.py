@@ -33,9 +33,9 @@ __all__ = ["Area", "Grid", "Probe", "Scene"]
 class Probe(Part):
     """A point on a surface whose values are reported.
 
-    - ``at``: the point, in the scene's unit
+    - ``at``: the point, in the scene's unit, each coordinate within ±1e15 m
     - ``name``: unique among the probes
-    - ``published``: a value that has been published for it, in the unit of the brightness
+    - ``published``: a value that has been published for it, in the unit of the brightness, any finite number
     """
 
     at: Vector
@@ -48,11 +48,11 @@ class Area(Part):
     """A circle or a rectangle whose largest, smallest and mean brightness are wanted; see :func:`areas`.
 
     - ``on``: the plane, rectangle or disk that it lies on; without it, it is on the screen
-    - ``center``: its centre, a point of that shape
-    - ``at``: its centre on the screen, (x, y)
-    - ``radius``: that of a circle
-    - ``size``: instead, width and height of a rectangle
-    - ``up``: the direction of a rectangle's height, on a shape
+    - ``center``: its centre, a point of that shape, each coordinate within ±1e15 m
+    - ``at``: its centre on the screen, (x, y) within ±1e15 m, or in degrees on the screen of a fisheye or a panorama
+    - ``radius``: that of a circle, a length, 1e-12 to 1e15 m, or degrees above 0 on such a screen
+    - ``size``: instead, width and height of a rectangle, likewise lengths, 1e-12 to 1e15 m
+    - ``up``: the direction of a rectangle's height, on a shape; of any length but 0
     - ``name``: unique among the areas
     """
 
@@ -69,10 +69,11 @@ class Area(Part):
 class Grid(Part):
     """Points on a rectangle at which the irradiance is computed.
 
-    - ``u``, ``v``: its edges, vectors in the scene's unit
-    - ``points``: their number along u and along v, from 1
-    - ``corner``: where both edges begin, a point
-    - ``center``: instead, the centre of the rectangle
+    - ``u``, ``v``: its edges, vectors at right angles in the scene's unit, at least 1e-12 m long, each coordinate within
+      ±1e15 m
+    - ``points``: their number along u and along v, 1 to 65,536 each
+    - ``corner``: where both edges begin, a point, each coordinate within ±1e15 m
+    - ``center``: instead, the centre of the rectangle, each coordinate within ±1e15 m
     - ``name``: unique among the grids
     - ``side``: ``"front"`` (towards u × v) or ``"back"``
     """
@@ -129,7 +130,7 @@ class Scene(Part):
 
     - ``length``: the unit of all lengths, ``"m"``, ``"cm"`` or ``"mm"``
     - ``camera``: the observer
-    - ``title``: a line that says what the scene is
+    - ``title``: a line that says what the scene is, up to 10,000 bytes
     - ``convention``: the formula of the brightness, one of :class:`Convention`
     - ``handedness``: ``"right"`` or ``"left"``: which way x runs on the screen (2.3)
     - ``quantities``: ``"radiometric"`` (W) or ``"photometric"`` (lm)
@@ -140,8 +141,8 @@ class Scene(Part):
     - ``shapes``: in the order of maps and probes, grouped by kind; up to 100,000
     - ``lights``: up to 100,000
     - ``ambient``: light from all around
-    - ``probes``, ``grids``: points whose values are asked for
-    - ``areas``: circles and rectangles whose extremes and mean are
+    - ``probes``, ``grids``: points whose values are asked for; up to 100,000 and 1000
+    - ``areas``: circles and rectangles whose extremes and mean are; up to 1000
     - ``directory``: where relative file names start
     """
 

@@ -59,8 +59,8 @@ class Shape(Part):
 class Sphere(Shape):
     """A sphere (2.2).
 
-    - ``center``: a point
-    - ``radius``: a length
+    - ``center``: a point, each coordinate within ±1e15 m
+    - ``radius``: a length, 1e-12 to 1e15 m
     """
 
     KEY = "sphere"
@@ -72,8 +72,8 @@ class Sphere(Shape):
 class Ellipsoid(Shape):
     """An ellipsoid.
 
-    - ``center``: a point
-    - ``radii``: three lengths, along its own x, y and z
+    - ``center``: a point, each coordinate within ±1e15 m
+    - ``radii``: three lengths, along its own x, y and z, 1e-12 to 1e15 m each
     - ``rotation``: by which it is turned
     """
 
@@ -87,8 +87,8 @@ class Ellipsoid(Shape):
 class Box(Shape):
     """A box.
 
-    - ``center``: a point
-    - ``size``: three lengths, along its own x, y and z
+    - ``center``: a point, each coordinate within ±1e15 m
+    - ``size``: three lengths, along its own x, y and z, 1e-12 to 1e15 m each
     - ``rotation``: by which it is turned
     """
 
@@ -102,8 +102,9 @@ class Box(Shape):
 class Cylinder(Shape):
     """A cylinder with both end caps.
 
-    - ``start``, ``end``: the centres of the caps (``from`` and ``to`` in scene files)
-    - ``radius``: a length
+    - ``start``, ``end``: the centres of the caps (``from`` and ``to`` in scene files), points at least 1e-12 m apart, each
+      coordinate within ±1e15 m
+    - ``radius``: a length, 1e-12 to 1e15 m
     """
 
     KEY = "cylinder"
@@ -118,9 +119,9 @@ class Cylinder(Shape):
 class Cone(Shape):
     """A cone with its base.
 
-    - ``base``, ``apex``: the centre of the base, and the tip
-    - ``radius``: of the base, a length
-    - ``apex_radius``: 0, or a length: then the cone is truncated and has a cap there too
+    - ``base``, ``apex``: the centre of the base and the tip, points at least 1e-12 m apart, each coordinate within ±1e15 m
+    - ``radius``: of the base, a length, 1e-12 to 1e15 m
+    - ``apex_radius``: 0, or a length, 1e-12 to 1e15 m: then the cone is truncated and has a cap there too
     """
 
     KEY = "cone"
@@ -134,7 +135,7 @@ class Cone(Shape):
 class Plane(Shape):
     """An infinite plane.
 
-    - ``point``: any of its points
+    - ``point``: any of its points, each coordinate within ±1e15 m
     - ``normal``: a direction of any length but 0
     """
 
@@ -147,10 +148,10 @@ class Plane(Shape):
 class Rectangle(Shape):
     """A rectangle, visible from both sides.
 
-    - ``center``: a point
+    - ``center``: a point, each coordinate within ±1e15 m
     - ``normal``: the direction to its front, of any length but 0
-    - ``width``, ``height``: lengths
-    - ``up``: the direction along which its height runs, not parallel to the normal
+    - ``width``, ``height``: lengths, 1e-12 to 1e15 m
+    - ``up``: the direction along which its height runs, of any length but 0, not parallel to the normal
     """
 
     KEY = "rectangle"
@@ -165,9 +166,9 @@ class Rectangle(Shape):
 class Disk(Shape):
     """A disk, visible from both sides.
 
-    - ``center``: a point
+    - ``center``: a point, each coordinate within ±1e15 m
     - ``normal``: the direction to its front, of any length but 0
-    - ``radius``: a length
+    - ``radius``: a length, 1e-12 to 1e15 m
     """
 
     KEY = "disk"
@@ -181,13 +182,13 @@ class Mesh(Shape):
     """A triangle mesh (2.5); it is scaled, then rotated, then moved.
 
     - ``file``: an OBJ, PLY, STL or binary glTF file, by its path from the scene's ``directory``
-    - ``vertices``: instead, the points of the mesh, n × 3
-    - ``faces``: with them, the three corners of each triangle, m × 3, as indices of vertices from 0; counter-clockwise as seen
-      from outside
-    - ``normals``: with them, a direction at each vertex for smooth shading, n × 3
+    - ``vertices``: instead, the points of the mesh, n × 3 finite numbers; once placed, within ±1e15 m
+    - ``faces``: with them, the three corners of each triangle, m × 3, as indices of vertices, 0 to n − 1; counter-clockwise as
+      seen from outside
+    - ``normals``: with them, a direction at each vertex for smooth shading, n × 3, of any length but 0
     - ``scale``: a factor along each of its own axes, 1e-12 to 1e12
     - ``rotation``: by which it is turned
-    - ``position``: where the file's origin goes, a point
+    - ``position``: where the file's origin goes, a point, each coordinate within ±1e15 m
     - ``smooth``: whether the file's normals are used, if it has any
     """
 
