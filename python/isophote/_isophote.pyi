@@ -85,6 +85,7 @@ class Map:
         path: str | os.PathLike[str],
         name: str,
         range: Sequence[float] | None,
+        normalize: str,
         gamma: float,
         bits: int,
         colormap: str | None,

@@ -12,7 +12,7 @@ use isophote::map::{Channel, Coordinates, Map as CoreMap, Quantity, Region, Reso
 use isophote::units::Keyword;
 use isophote_export::colormap::Colormap;
 use isophote_export::csv::Rows;
-use isophote_export::png::{Depth, PictureColor, PictureOptions};
+use isophote_export::png::{Depth, Normalization, PictureColor, PictureOptions};
 use isophote_export::{ExportError, FileMetadata, Format, csv, exr, npy, npz, png, write_atomically};
 use numpy::ndarray::{ArrayView, Dimension, ShapeBuilder};
 use numpy::{
@@ -163,13 +163,15 @@ impl Map {
     }
 
     /// Writes a file in the format given by its suffix; `name` is the channel for formats that hold only one.
-    #[pyo3(signature = (path, name, range, gamma, bits, colormap))]
+    #[pyo3(signature = (path, name, range, normalize, gamma, bits, colormap))]
+    #[expect(clippy::too_many_arguments, reason = "the options of a picture, as keywords of Python")]
     fn save(
         &self,
         py: Python<'_>,
         path: PathBuf,
         name: &str,
         range: Option<[f64; 2]>,
+        normalize: &str,
         gamma: f64,
         bits: u8,
         colormap: Option<&str>,
@@ -184,6 +186,7 @@ impl Map {
         let style = Style {
             quantity: self.quantity(name)?.clone(),
             range,
+            normalization: keyword(py, "normalization", normalize)?,
             gamma,
             depth: depth(py, bits)?,
             colormap: colormap_named(py, colormap)?,
@@ -229,6 +232,7 @@ impl Map {
         let style = Style {
             quantity: self.quantity(name)?.clone(),
             range: None,
+            normalization: Normalization::Max,
             gamma: 1.0,
             depth: Depth::Eight,
             colormap: colormap_named(py, colormap)?,
@@ -317,6 +321,7 @@ fn copy_runs<T: Copy>(runs: &[Run], values: &[T], out: &mut [T], width: usize) {
 struct Style {
     quantity: Quantity,
     range: Option<[f64; 2]>,
+    normalization: Normalization,
     gamma: f64,
     depth: Depth,
     colormap: Option<Colormap>,
@@ -328,6 +333,7 @@ impl Style {
         let name = self.colormap.map_or("", Colormap::name);
         let options = PictureOptions {
             range: self.range,
+            normalization: self.normalization,
             gamma: self.gamma,
             depth: self.depth,
             color: color.as_ref().map(|color| PictureColor { name, color }),
