@@ -76,7 +76,8 @@ class Map(Mapping[str, NDArray[Any]]):
         self._scene = scene
         self._units = FrozenDict(core.units())
 
-    __hash__ = object.__hash__
+    def __hash__(self) -> int:
+        return object.__hash__(self)
 
     def __eq__(self, other: object) -> bool:
         return self is other

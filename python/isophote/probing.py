@@ -56,7 +56,8 @@ class Values(Mapping[str, NDArray[Any]]):
             array.flags.writeable = False
         self._names = list(names)
 
-    __hash__ = object.__hash__
+    def __hash__(self) -> int:
+        return object.__hash__(self)
 
     def __eq__(self, other: object) -> bool:
         return self is other

@@ -63,7 +63,7 @@ class Sphere(Shape):
     - ``radius``: a length, 1e-12 to 1e15 m
     """
 
-    KEY = "sphere"
+    KEY: ClassVar[str] = "sphere"
     center: Vector
     radius: Number
 
@@ -77,7 +77,7 @@ class Ellipsoid(Shape):
     - ``rotation``: by which it is turned
     """
 
-    KEY = "ellipsoid"
+    KEY: ClassVar[str] = "ellipsoid"
     center: Vector
     radii: Vector
     rotation: Rotation | None = None
@@ -92,7 +92,7 @@ class Box(Shape):
     - ``rotation``: by which it is turned
     """
 
-    KEY = "box"
+    KEY: ClassVar[str] = "box"
     center: Vector
     size: Vector
     rotation: Rotation | None = None
@@ -107,7 +107,7 @@ class Cylinder(Shape):
     - ``radius``: a length, 1e-12 to 1e15 m
     """
 
-    KEY = "cylinder"
+    KEY: ClassVar[str] = "cylinder"
     # `from` is a keyword in Python.
     _KEYS = MappingProxyType({"start": "from", "end": "to"})
     start: Vector
@@ -124,7 +124,7 @@ class Cone(Shape):
     - ``apex_radius``: 0, or a length, 1e-12 to 1e15 m: then the cone is truncated and has a cap there too
     """
 
-    KEY = "cone"
+    KEY: ClassVar[str] = "cone"
     base: Vector
     apex: Vector
     radius: Number
@@ -139,7 +139,7 @@ class Plane(Shape):
     - ``normal``: a direction of any length but 0
     """
 
-    KEY = "plane"
+    KEY: ClassVar[str] = "plane"
     point: Vector
     normal: Vector
 
@@ -154,7 +154,7 @@ class Rectangle(Shape):
     - ``up``: the direction along which its height runs, of any length but 0, not parallel to the normal
     """
 
-    KEY = "rectangle"
+    KEY: ClassVar[str] = "rectangle"
     center: Vector
     normal: Vector
     width: Number
@@ -171,7 +171,7 @@ class Disk(Shape):
     - ``radius``: a length, 1e-12 to 1e15 m
     """
 
-    KEY = "disk"
+    KEY: ClassVar[str] = "disk"
     center: Vector
     normal: Vector
     radius: Number
@@ -192,7 +192,7 @@ class Mesh(Shape):
     - ``smooth``: whether the file's normals are used, if it has any
     """
 
-    KEY = "mesh"
+    KEY: ClassVar[str] = "mesh"
     file: File | None = None
     vertices: Vectors | None = None
     faces: Triples | None = None
@@ -210,7 +210,7 @@ class Spheres(Shape):
     - ``file``: a CSV, NPY or PLY file of centres and radii, by its path from the scene's ``directory``
     """
 
-    KEY = "spheres"
+    KEY: ClassVar[str] = "spheres"
     file: File
 
 
