@@ -17,6 +17,7 @@ mod source_files;
 mod table;
 mod validate;
 
+pub use change::PartPlace;
 pub use color::{Lighting, SceneColor};
 pub use document::Syntax;
 pub use error::{Problem, ProblemKind, SceneError, TextPosition};
