@@ -16,6 +16,8 @@ pub struct Document {
     pub root: Node,
     /// Violations of the file's syntax; the tree holds what could be read in spite of them.
     pub syntax_problems: Vec<Problem>,
+    /// Whether nothing was kept because of the first of them, in a text that is too long for looking at what follows.
+    pub ends_at_problem: bool,
 }
 
 /// A value and its place in the text, in bytes.
@@ -90,7 +92,7 @@ impl Document {
             let message = format!("brackets are nested more than {DEEPEST} deep; a scene needs 4");
             let problem = Problem::at_span(ProblemKind::Syntax, Some(span), message);
             let root = Node { value: Value::Table(Vec::new()), span: 0..0 };
-            return Self { root, syntax_problems: vec![problem] };
+            return Self { root, syntax_problems: vec![problem], ends_at_problem: false };
         }
         match syntax {
             Syntax::Toml => parse_toml(text),
@@ -234,8 +236,19 @@ fn end_of_text(bytes: &[u8], start: usize, syntax: Syntax) -> usize {
 /// More violations of the syntax than this are not looked at: one of them has caused the others.
 const MOST_SYNTAX_PROBLEMS: usize = 100;
 
+/// The longest text, in bytes, that is read on after a violation of the syntax. There may be one for every second byte, and
+/// the parser keeps them all, at 300 bytes each.
+const LONGEST_RECOVERED: usize = 256 << 10;
+
 fn parse_toml(text: &str) -> Document {
-    let (root, errors) = DeTable::parse_recoverable(text);
+    let (root, errors, ends_at_problem) = match DeTable::parse(text) {
+        Ok(root) => (root, Vec::new(), false),
+        Err(first) if text.len() > LONGEST_RECOVERED => (Spanned::new(0..0, DeTable::new()), vec![first], true),
+        Err(_) => {
+            let (root, errors) = DeTable::parse_recoverable(text);
+            (root, errors, false)
+        }
+    };
     let syntax_problems = errors
         .iter()
         .take(MOST_SYNTAX_PROBLEMS)
@@ -247,7 +260,8 @@ fn parse_toml(text: &str) -> Document {
         })
         .collect();
     let span = root.span();
-    Document { root: Node { value: Value::Table(toml_entries(root.into_inner())), span }, syntax_problems }
+    let root = Node { value: Value::Table(toml_entries(root.into_inner())), span };
+    Document { root, syntax_problems, ends_at_problem }
 }
 
 /// Advice on the line of a syntax problem if a number in it is written with a decimal comma.
@@ -323,9 +337,9 @@ fn parse_json(text: &str) -> Document {
     if !matches!(root.value, Value::Table(_)) {
         let message = format!("a scene is an object {{…}}, not {}", root.value.describe());
         syntax_problems.push(Problem::at_span(ProblemKind::Syntax, Some(root.span), message));
-        return Document { root: empty(), syntax_problems };
+        return Document { root: empty(), syntax_problems, ends_at_problem: false };
     }
-    Document { root, syntax_problems }
+    Document { root, syntax_problems, ends_at_problem: false }
 }
 
 fn json_node(value: jsonc_parser::ast::Value<'_>, problems: &mut Vec<Problem>) -> Node {
@@ -350,7 +364,7 @@ fn json_entries(object: jsonc_parser::ast::Object<'_>, problems: &mut Vec<Proble
         let key = property.name.into_string();
         if keys.insert(key.clone()) {
             entries.push(Entry { key, key_span, node: json_node(property.value, problems) });
-        } else {
+        } else if problems.len() < MOST_SYNTAX_PROBLEMS {
             let message = format!("the key `{key}` stands twice in this object");
             problems.push(Problem::at_span(ProblemKind::Syntax, Some(key_span), message));
         }
