@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::available_parallelism;
 
-use isophote::analysis::isophotes::{isophotes, nice_levels};
+use isophote::analysis::isophotes::{isophotes_observed, nice_levels};
 use isophote::analysis::statistics::{Extreme, statistics};
 use isophote::map::{Channel, Coordinates, Map as CoreMap, Quantity, Region, Resolution, Run, Values};
 use isophote::units::Keyword;
@@ -148,7 +148,7 @@ impl Map {
     fn isophotes<'py>(&self, py: Python<'py>, name: &str, levels: Vec<f64>) -> PyResult<Vec<(f64, Vec<Line<'py>>)>> {
         let quantity = self.quantity(name)?.clone();
         let map = Arc::clone(&self.map);
-        let found = job::run(py, &Progress::none(), move |_| isophotes(&map, &quantity, &levels))?;
+        let found = job::run(py, &Progress::none(), move |watch| isophotes_observed(&map, &quantity, &levels, watch))?;
         let found = found.map_err(|error| error::value(py, error))?;
         let mut all = Vec::with_capacity(found.len());
         for isophote in found {

@@ -13,7 +13,7 @@ use crate::analysis::cells::{self, Cell, Layout};
 use crate::camera::{Sight, between};
 use crate::map::{Map, Pixel, Quantity, Resolution, Window};
 use crate::prepare::{Hit, PreparedScene};
-use crate::render::RenderError;
+use crate::render::{Observer, RenderError};
 use crate::shape::{Primitive, Side, SurfacePoint};
 use crate::units::Keyword;
 use crate::vector::Vector;
@@ -101,6 +101,9 @@ pub enum SurfaceError {
         /// The requested name.
         name: String,
     },
+    /// The observer asked to stop.
+    #[error("interrupted")]
+    Interrupted,
 }
 
 /// A surface divided into cells, each with an exactly known area.
@@ -153,6 +156,14 @@ impl Surface<'_> {
     /// # Errors
     /// A channel of a camera, of a light that does not exist, or of colours in a scene without colours.
     pub fn map(&self, quantities: &[Quantity]) -> Result<Map, SurfaceError> {
+        self.map_observed(quantities, None)
+    }
+
+    /// As [`map`](Self::map), with an observer, which hears of cells and may end the work.
+    ///
+    /// # Errors
+    /// Those of [`map`](Self::map), or the observer's wish to end.
+    pub fn map_observed(&self, quantities: &[Quantity], observer: Option<&dyn Observer>) -> Result<Map, SurfaceError> {
         let of_camera = |quantity: &&Quantity| {
             quantity.is_derived() || **quantity == Quantity::Depth || Quantity::OF_SAMPLING.contains(quantity)
         };
@@ -169,11 +180,12 @@ impl Surface<'_> {
             renderer: self.description(),
             shape: self.request.primitive.shape,
         };
-        let map = cells::map(self.scene, layout, quantities, |cell| {
+        let map = cells::map(self.scene, layout, quantities, observer, |cell| {
             let hit = self.hit(cell);
             (!needs_eye || hit.point.cos_theta_o > 0.0).then_some(Cell::OnShape(hit))
         });
         map.map_err(|error| match error {
+            RenderError::Interrupted => SurfaceError::Interrupted,
             RenderError::NoSuchLight { name } => SurfaceError::NoSuchLight { name },
             error => unreachable!("a surface is a map of known size: {error}"),
         })
