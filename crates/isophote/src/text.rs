@@ -25,7 +25,8 @@ pub fn escaped_line(text: &str) -> Cow<'_, str> {
 
 fn escaped_but<'t>(text: &'t str, kept: &[char]) -> Cow<'t, str> {
     let is_escaped = |character: char| is_control(character) && !kept.contains(&character);
-    if !text.contains(is_escaped) {
+    let is_plain = text.bytes().all(|byte| matches!(byte, b' '..=b'~' | b'\n'));
+    if (is_plain && (kept.contains(&'\n') || !text.contains('\n'))) || !text.contains(is_escaped) {
         return text.into();
     }
     let mut escaped = String::with_capacity(text.len() + 16);
@@ -46,14 +47,27 @@ pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".into();
     }
-    let scientific = format!("{value:.*e}", digits - 1);
+    let mut scientific = String::with_capacity(digits + 8);
+    // Writing to a string cannot fail.
+    let _ = write!(scientific, "{value:.*e}", digits - 1);
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     if !(-5..15).contains(&exponent) {
         return format!("{}e{exponent}", trimmed(mantissa));
     }
-    let decimals = usize::try_from(i32::try_from(digits).unwrap_or(17) - 1 - exponent).unwrap_or(0);
-    trimmed(&format!("{value:.decimals$}")).to_owned()
+    let whole = usize::try_from(exponent).unwrap_or(0);
+    if exponent < 0 || whole >= digits {
+        let decimals = usize::try_from(i32::try_from(digits).unwrap_or(17) - 1 - exponent).unwrap_or(0);
+        return trimmed(&format!("{value:.decimals$}")).to_owned();
+    }
+    // The digits are the same: the point moves.
+    scientific.truncate(mantissa.len());
+    if let Some(point) = scientific.find('.') {
+        scientific.remove(point);
+        scientific.insert(point + whole, '.');
+        scientific.truncate(trimmed(&scientific).len());
+    }
+    scientific
 }
 
 fn trimmed(number: &str) -> &str {
@@ -83,5 +97,21 @@ mod tests {
         assert_eq!(significant(1.5e-9, 12), "1.5e-9");
         assert_eq!(significant(-2.5e20, 12), "-2.5e20");
         assert_eq!(significant(0.0, 12), "0");
+    }
+
+    #[test]
+    fn numbers_are_rounded_once() {
+        let numbers = [9.9996, 99.9995, 999.95, 0.5, 1e14, 123_456.5, 2.5, 1.005, 65_535.0, 4.1e-5, 7.0, 100.25];
+        for value in numbers.into_iter().flat_map(|value| [value, -value]) {
+            for digits in 1..=17 {
+                let scientific = format!("{value:.*e}", digits - 1);
+                let exponent: i32 = scientific.split_once('e').unwrap().1.parse().unwrap();
+                let decimals = usize::try_from(i32::try_from(digits).unwrap() - 1 - exponent).unwrap_or(0);
+                let fixed = format!("{value:.decimals$}");
+                let shown =
+                    if fixed.contains('.') { fixed.trim_end_matches('0').trim_end_matches('.') } else { &fixed };
+                assert_eq!(significant(value, digits), shown, "{value} with {digits} digits");
+            }
+        }
     }
 }

@@ -102,9 +102,9 @@ impl PartPlace<'_> {
     fn path(self) -> Path {
         let root = Path::root();
         match self {
-            Self::Top(key) => root.key(key),
-            Self::Item(key, index) => root.key(key).index(index),
-            Self::Material(name) => root.key("material").key(name),
+            Self::Top(key) => root.key(key.to_owned()),
+            Self::Item(key, index) => root.key(key.to_owned()).index(index),
+            Self::Material(name) => root.key("material").key(name.to_owned()),
         }
     }
 
@@ -120,7 +120,8 @@ impl PartPlace<'_> {
 
 /// Puts a part in its place in a source; `None` if there is no such place.
 fn put(source: &mut SceneSource, place: PartPlace<'_>, text: Option<&str>, problems: &mut Problems) -> Option<()> {
-    let mut document = Document::parse(&text.map_or_else(|| "{}".into(), |text| place.alone(text)), Syntax::Json);
+    let text = text.map_or_else(|| "{}".into(), |text| place.alone(text));
+    let mut document = Document::parse(&text, Syntax::Json);
     problems.extend(std::mem::take(&mut document.syntax_problems));
     let mut part = SceneSource::read(&document, problems);
     macro_rules! top {

@@ -29,7 +29,7 @@ impl Problems {
     }
 
     /// Adds a problem for a key that is missing from a table, unless the key is there and already known to be wrong.
-    pub fn missing(&mut self, table: &Path, key: &str, help: impl Into<String>) {
+    pub fn missing(&mut self, table: &Path, key: &'static str, help: impl Into<String>) {
         if self.reported.insert(table.key(key)) {
             let target = Target::Table(table.clone());
             let place = if *table == Path::root() { String::new() } else { format!(" in `{table}`") };

@@ -10,7 +10,7 @@ use crate::units::Keyword;
 
 /// Reads the table at the root of a document.
 pub fn read_root<T: Default>(
-    document: &Document,
+    document: &Document<'_>,
     problems: &mut Problems,
     read: impl FnOnce(&mut Table<'_>) -> T,
 ) -> T {
@@ -23,20 +23,25 @@ pub fn read_root<T: Default>(
 
 /// A table being read.
 pub struct Table<'t> {
-    entries: &'t [Entry],
+    entries: &'t [Entry<'t>],
     path: Path,
     known: Vec<&'static str>,
     problems: &'t mut Problems,
 }
 
 impl<'t> Table<'t> {
-    fn find(&mut self, key: &'static str) -> Option<&'t Node> {
+    fn find(&mut self, key: &'static str) -> Option<&'t Node<'t>> {
         self.known.push(key);
         self.entries.iter().find(|entry| entry.key == key).map(|entry| &entry.node)
     }
 
     /// The value of a key, converted by `convert`; if that fails, it is reported as not being `expected`.
-    fn value<T>(&mut self, key: &'static str, expected: &str, convert: impl FnOnce(&Value) -> Option<T>) -> Option<T> {
+    fn value<T>(
+        &mut self,
+        key: &'static str,
+        expected: &str,
+        convert: impl FnOnce(&Value<'_>) -> Option<T>,
+    ) -> Option<T> {
         let node = self.find(key)?;
         let value = convert(&node.value);
         if value.is_none() {
@@ -45,21 +50,21 @@ impl<'t> Table<'t> {
         value
     }
 
-    fn wrong_type(&mut self, path: &Path, value: &Value, expected: &str) {
+    fn wrong_type(&mut self, path: &Path, value: &Value<'_>, expected: &str) {
         let message = format!("`{path}` is {}", value.describe());
         self.problems.push(ProblemKind::WrongType, path, message, format!("allowed: {expected}"));
     }
 
     pub(super) fn text(&mut self, key: &'static str) -> Option<String> {
         self.value(key, "a text in quotes", |value| match value {
-            Value::Text(text) => Some(text.clone()),
+            Value::Text(text) => Some(text.clone().into_owned()),
             _ => None,
         })
     }
 
     pub(super) fn number(&mut self, key: &'static str) -> Option<f64> {
         let number = self.value(key, "a number", as_number)?;
-        self.finite(&self.path.key(key), number)
+        self.finite(|path| path.key(key), number)
     }
 
     /// A number, or three.
@@ -67,10 +72,10 @@ impl<'t> Table<'t> {
         const EXPECTED: &str = "a number, or a list of three: [red, green, blue]";
         let entry = self.entries.iter().find(|entry| entry.key == key);
         if entry.is_some_and(|entry| matches!(entry.node.value, Value::Array(_))) {
-            return self.numbers_expected(key, EXPECTED).map(Amount::Rgb);
+            return self.numbers_expected(key, || EXPECTED.into()).map(Amount::Rgb);
         }
         let number = self.value(key, EXPECTED, as_number)?;
-        self.finite(&self.path.key(key), number).map(Amount::Number)
+        self.finite(|path| path.key(key), number).map(Amount::Number)
     }
 
     pub(super) fn boolean(&mut self, key: &'static str) -> Option<bool> {
@@ -85,14 +90,18 @@ impl<'t> Table<'t> {
     }
 
     pub(super) fn numbers<const N: usize>(&mut self, key: &'static str) -> Option<[f64; N]> {
-        self.numbers_expected(key, &format!("a list of {N} numbers"))
+        self.numbers_expected(key, || format!("a list of {N} numbers"))
     }
 
-    fn numbers_expected<const N: usize>(&mut self, key: &'static str, expected: &str) -> Option<[f64; N]> {
+    fn numbers_expected<const N: usize>(
+        &mut self,
+        key: &'static str,
+        expected: impl Fn() -> String,
+    ) -> Option<[f64; N]> {
         let numbers: [f64; N] = self.list(key, expected, as_number)?;
         let mut all_finite = true;
         for (index, number) in numbers.into_iter().enumerate() {
-            all_finite &= self.finite(&self.path.key(key).index(index), number).is_some();
+            all_finite &= self.finite(|path| path.key(key).index(index), number).is_some();
         }
         if !all_finite {
             self.problems.reported.insert(self.path.key(key));
@@ -102,12 +111,11 @@ impl<'t> Table<'t> {
 
     /// Three rows of three numbers.
     pub(super) fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]> {
-        let rows: [[f64; 3]; 3] = self.list(key, "a list of 3 rows, each a list of 3 numbers", as_row)?;
-        let path = self.path.key(key);
+        let rows: [[f64; 3]; 3] = self.list(key, || "a list of 3 rows, each a list of 3 numbers".into(), as_row)?;
         for (number, row) in rows.iter().enumerate() {
             for (column, value) in row.iter().enumerate() {
-                if self.finite(&path.index(number).index(column), *value).is_none() {
-                    self.problems.reported.insert(path);
+                if self.finite(|path| path.key(key).index(number).index(column), *value).is_none() {
+                    self.problems.reported.insert(self.path.key(key));
                     return None;
                 }
             }
@@ -120,9 +128,8 @@ impl<'t> Table<'t> {
         let rows = self.several(key, "a list of 3 numbers", as_row)?;
         for (number, row) in rows.iter().enumerate() {
             if let Some(column) = row.iter().position(|value| !value.is_finite()) {
-                let path = self.path.key(key);
-                self.finite(&path.index(number).index(column), row[column]);
-                self.problems.reported.insert(path);
+                self.finite(|path| path.key(key).index(number).index(column), row[column]);
+                self.problems.reported.insert(self.path.key(key));
                 return None;
             }
         }
@@ -143,7 +150,7 @@ impl<'t> Table<'t> {
         &mut self,
         key: &'static str,
         expected: &str,
-        convert: impl Fn(&Value) -> Option<T>,
+        convert: impl Fn(&Value<'_>) -> Option<T>,
     ) -> Option<Vec<T>> {
         let node = self.find(key)?;
         let path = self.path.key(key);
@@ -164,19 +171,18 @@ impl<'t> Table<'t> {
     }
 
     pub(super) fn counts<const N: usize>(&mut self, key: &'static str) -> Option<[u64; N]> {
-        self.list(key, &format!("a list of {N} whole numbers, not negative"), as_count)
+        self.list(key, || format!("a list of {N} whole numbers, not negative"), as_count)
     }
 
     fn list<T: Copy + Default, const N: usize>(
         &mut self,
         key: &'static str,
-        expected: &str,
-        convert: impl Fn(&Value) -> Option<T>,
+        expected: impl Fn() -> String,
+        convert: impl Fn(&Value<'_>) -> Option<T>,
     ) -> Option<[T; N]> {
         let node = self.find(key)?;
-        let path = self.path.key(key);
         let Value::Array(items) = &node.value else {
-            self.wrong_type(&path, &node.value, expected);
+            self.wrong_type(&self.path.key(key), &node.value, &expected());
             return None;
         };
         if items.len() != N {
@@ -185,7 +191,7 @@ impl<'t> Table<'t> {
             } else {
                 ""
             };
-            self.wrong_type(&path, &node.value, &format!("{expected}{comma}"));
+            self.wrong_type(&self.path.key(key), &node.value, &format!("{}{comma}", expected()));
             return None;
         }
         let mut list = [T::default(); N];
@@ -194,13 +200,14 @@ impl<'t> Table<'t> {
             if let Some(value) = convert(&item.value) {
                 list[index] = value;
             } else {
-                self.wrong_type(&path.index(index), &item.value, &format!("`{key}` is {expected}"));
+                let path = self.path.key(key).index(index);
+                self.wrong_type(&path, &item.value, &format!("`{key}` is {}", expected()));
                 complete = false;
             }
         }
         // The whole key is then known to be wrong, rather than missing.
         if !complete {
-            self.problems.reported.insert(path);
+            self.problems.reported.insert(self.path.key(key));
         }
         complete.then_some(list)
     }
@@ -224,12 +231,12 @@ impl<'t> Table<'t> {
         self.read_table(node, path, read)
     }
 
-    fn read_table<T>(&mut self, node: &Node, path: Path, read: impl FnOnce(&mut Table<'_>) -> T) -> Option<T> {
+    fn read_table<T>(&mut self, node: &Node<'_>, path: Path, read: impl FnOnce(&mut Table<'_>) -> T) -> Option<T> {
         let Value::Table(entries) = &node.value else {
             self.wrong_type(&path, &node.value, "a table");
             return None;
         };
-        let mut table = Table { entries, path, known: Vec::new(), problems: self.problems };
+        let mut table = Table { entries, path, known: Vec::with_capacity(KEYS), problems: self.problems };
         let value = read(&mut table);
         table.refuse_unknown_keys();
         Some(value)
@@ -266,17 +273,19 @@ impl<'t> Table<'t> {
             self.wrong_type(&path, &node.value, &format!("tables with names, each headed by [{key}.NAME]"));
             return BTreeMap::new();
         };
-        let read_entry = |entry: &Entry| {
-            let value = self.read_table(&entry.node, path.key(&entry.key), &read)?;
-            Some((entry.key.clone(), value))
+        let read_entry = |entry: &Entry<'_>| {
+            let value = self.read_table(&entry.node, path.key(entry.key.clone().into_owned()), &read)?;
+            Some((entry.key.clone().into_owned(), value))
         };
         tables.iter().filter_map(read_entry).collect()
     }
 
-    fn finite(&mut self, path: &Path, number: f64) -> Option<f64> {
+    /// A number that is finite; `place` makes the path to it from that of the table.
+    fn finite(&mut self, place: impl FnOnce(&Path) -> Path, number: f64) -> Option<f64> {
         if number.is_finite() {
             return Some(number);
         }
+        let path = &place(&self.path);
         let message = format!("`{path}` is {number}");
         self.problems.push(ProblemKind::Value, path, message, "allowed: finite numbers");
         None
@@ -284,8 +293,8 @@ impl<'t> Table<'t> {
 
     fn refuse_unknown_keys(&mut self) {
         for entry in self.entries {
-            if !self.known.contains(&entry.key.as_str()) {
-                let path = self.path.key(&entry.key);
+            if !self.known.contains(&&*entry.key) {
+                let path = self.path.key(entry.key.clone().into_owned());
                 let place = if self.path == Path::root() { "a scene".into() } else { format!("`{}`", self.path) };
                 let message = format!("{place} has no key `{}`", short(&entry.key));
                 let meant = closest(&entry.key, &self.known);
@@ -300,8 +309,11 @@ impl<'t> Table<'t> {
     }
 }
 
+/// The most keys that a table of a list has, so that what is known of them need not grow.
+const KEYS: usize = 20;
+
 #[allow(clippy::cast_precision_loss, reason = "a number with more than 15 digits is rounded, as every double is")]
-fn as_number(value: &Value) -> Option<f64> {
+fn as_number(value: &Value<'_>) -> Option<f64> {
     match value {
         Value::Integer(number) => Some(*number as f64),
         Value::Float(number) => Some(*number),
@@ -309,13 +321,13 @@ fn as_number(value: &Value) -> Option<f64> {
     }
 }
 
-fn as_row(value: &Value) -> Option<[f64; 3]> {
+fn as_row(value: &Value<'_>) -> Option<[f64; 3]> {
     let Value::Array(items) = value else { return None };
     let [x, y, z] = items.as_slice() else { return None };
     Some([as_number(&x.value)?, as_number(&y.value)?, as_number(&z.value)?])
 }
 
-fn as_count(value: &Value) -> Option<u64> {
+fn as_count(value: &Value<'_>) -> Option<u64> {
     match value {
         Value::Integer(number) => u64::try_from(*number).ok(),
         _ => None,
@@ -323,6 +335,6 @@ fn as_count(value: &Value) -> Option<u64> {
 }
 
 /// Whether it is written without a fraction, as both halves of a number with a decimal comma are.
-fn is_whole(item: &Node) -> bool {
+fn is_whole(item: &Node<'_>) -> bool {
     matches!(item.value, Value::Integer(_))
 }

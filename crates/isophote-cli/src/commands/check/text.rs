@@ -108,8 +108,8 @@ fn shapes(scene: &Scene) -> Option<String> {
     let rows = scene.shapes().iter().map(|shape| {
         let material = shape.material.map_or("–", |index| scene.materials()[index].name.as_str());
         let measures = shape.geometry.measures().into_iter().map(|(name, measure)| match measure {
-            Measure::Vector(value) => format!("{name} {}", vector(value)),
-            Measure::Number(value) => format!("{name} {}", short(value)),
+            Measure::Vector(value) => [name, " ", &vector(value)].concat(),
+            Measure::Number(value) => [name, " ", &short(value)].concat(),
             Measure::Count(count) => format!("{name} {count}"),
         });
         let measures = measures.collect::<Vec<_>>().join(", ");
@@ -131,9 +131,8 @@ fn lights(scene: &Scene) -> Option<String> {
     let rows = scene.lights().iter().enumerate().map(|(index, light)| {
         let strength = |of: fn(&Light) -> f64| amount(scene, |lighting| of(&lighting.lights[index]), of(light));
         let off = if light.is_on { "" } else { "; switched off" };
-        let light_row = |position, intensity, power, emission| {
-            vec![light.name.clone(), position, intensity, power, format!("{emission}{off}")]
-        };
+        let light_row =
+            |position, intensity, power, emission| vec![light.name.clone(), position, intensity, power, emission + off];
         match &light.kind {
             LightKind::Point(point) => {
                 let emission = emission_text(&point.emission);
@@ -179,7 +178,7 @@ fn short(value: f64) -> String {
 
 fn vector(vector: Vector) -> String {
     let [x, y, z] = vector.to_array().map(short);
-    format!("({x}, {y}, {z})")
+    ["(", &x, ", ", &y, ", ", &z, ")"].concat()
 }
 
 /// An amount, per component if they differ.

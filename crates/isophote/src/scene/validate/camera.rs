@@ -128,7 +128,13 @@ impl Validator<'_> {
         }
     }
 
-    pub(super) fn edges(&mut self, path: &Path, key: &str, edges: Option<[f64; 2]>, which: &str) -> Option<[f64; 2]> {
+    pub(super) fn edges(
+        &mut self,
+        path: &Path,
+        key: &'static str,
+        edges: Option<[f64; 2]>,
+        which: &str,
+    ) -> Option<[f64; 2]> {
         let Some(edges) = edges else {
             self.problems.missing(path, key, format!("write `{key} = [a, b]`: the {which} edge of the window"));
             return None;

@@ -82,7 +82,7 @@ impl Validator<'_> {
 
     /// The half angles of a spot's cones, in radians.
     fn cones(&mut self, path: &Path, light: &LightSource) -> Option<[f64; 2]> {
-        let mut angle = |key: &str, angle: Option<f64>, what: &str| {
+        let mut angle = |key: &'static str, angle: Option<f64>, what: &str| {
             let Some(angle) = angle else {
                 self.problems.missing(path, key, format!("write `{key} = …`, in degrees from the axis: {what}"));
                 return None;

@@ -17,7 +17,7 @@ impl Validator<'_> {
     }
 
     fn material(&mut self, name: &str, material: &MaterialSource) -> Option<Material> {
-        let path = Path::root().key("material").key(name);
+        let path = Path::root().key("material").key(name.to_owned());
         if !is_usable(name) {
             self.wrong(&path, format!("the name \"{}\" is not usable", short(name)), &usable());
             return None;

@@ -183,7 +183,7 @@ impl Validator<'_> {
         for (index, name) in source.material.keys().enumerate() {
             if !used.contains(name.as_str()) && !of_parts[index] {
                 let message = format!("no shape is made of the material \"{}\"", short(name));
-                self.warn(&root.key("material").key(name), message, "leave it out, or use it");
+                self.warn(&root.key("material").key(name.clone()), message, "leave it out, or use it");
             }
         }
         // The pixels of a calibrated camera are as they are.
@@ -215,7 +215,7 @@ impl Validator<'_> {
         }
     }
 
-    fn few_enough(&mut self, key: &str, count: usize, limit: usize) -> bool {
+    fn few_enough(&mut self, key: &'static str, count: usize, limit: usize) -> bool {
         if count > limit {
             let path = Path::root().key(key).index(limit);
             self.wrong(&path, format!("the scene has {count} tables [[{key}]]"), &format!("allowed: at most {limit}"));

@@ -33,14 +33,13 @@ impl Names {
     /// The name of the item at a path, or the default, which is that path.
     pub(super) fn check(&mut self, validator: &mut Validator<'_>, thing: &Path, name: Option<&str>) -> Option<String> {
         let name = name.map_or_else(|| thing.to_string(), str::to_owned);
-        let path = thing.key("name");
         if !is_usable(&name) {
-            validator.wrong(&path, format!("the name \"{}\" is not usable", short(&name)), &usable());
+            validator.wrong(&thing.key("name"), format!("the name \"{}\" is not usable", short(&name)), &usable());
             return None;
         }
         if let Some(first) = self.seen.insert(name.clone(), thing.clone()) {
             let message = format!("there are two {}s named \"{}\"", self.kind, short(&name));
-            validator.wrong(&path, message, &format!("the other is {first}; names must differ"));
+            validator.wrong(&thing.key("name"), message, &format!("the other is {first}; names must differ"));
             return None;
         }
         Some(name)

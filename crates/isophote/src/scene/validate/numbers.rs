@@ -6,7 +6,7 @@ use crate::scene::limits;
 use crate::vector::Vector;
 
 impl Validator<'_> {
-    pub(super) fn required_point(&mut self, path: &Path, key: &str, point: Option<[f64; 3]>) -> Option<Vector> {
+    pub(super) fn required_point(&mut self, path: &Path, key: &'static str, point: Option<[f64; 3]>) -> Option<Vector> {
         let Some(point) = point else {
             self.problems.missing(path, key, format!("write `{key} = [x, y, z]`"));
             return None;
@@ -29,7 +29,7 @@ impl Validator<'_> {
         self.wrong(path, format!("`{path}` is too far away"), &help);
     }
 
-    pub(super) fn required_size(&mut self, path: &Path, key: &str, size: Option<f64>) -> Option<f64> {
+    pub(super) fn required_size(&mut self, path: &Path, key: &'static str, size: Option<f64>) -> Option<f64> {
         let Some(size) = size else {
             self.problems.missing(path, key, format!("write `{key} = …`, a length above 0"));
             return None;
@@ -38,7 +38,7 @@ impl Validator<'_> {
     }
 
     /// Three sizes; all of their mistakes are reported.
-    pub(super) fn required_sizes(&mut self, path: &Path, key: &str, sizes: Option<[f64; 3]>) -> Option<Vector> {
+    pub(super) fn required_sizes(&mut self, path: &Path, key: &'static str, sizes: Option<[f64; 3]>) -> Option<Vector> {
         let Some([x, y, z]) = sizes else {
             self.problems.missing(path, key, format!("write `{key} = [x, y, z]`, lengths above 0"));
             return None;
@@ -59,7 +59,12 @@ impl Validator<'_> {
         None
     }
 
-    pub(super) fn required_direction(&mut self, path: &Path, key: &str, written: Option<[f64; 3]>) -> Option<Vector> {
+    pub(super) fn required_direction(
+        &mut self,
+        path: &Path,
+        key: &'static str,
+        written: Option<[f64; 3]>,
+    ) -> Option<Vector> {
         let Some(direction) = written else {
             self.problems.missing(path, key, format!("write `{key} = [x, y, z]`, a direction of any length but zero"));
             return None;
@@ -81,7 +86,7 @@ impl Validator<'_> {
     }
 
     /// A direction that is given directly, by a target point, or by angles.
-    pub(super) fn aim(&mut self, path: &Path, from: Option<Vector>, aim: &Aim<'_>) -> Option<Vector> {
+    pub(super) fn aim(&mut self, path: &Path, from: Option<Vector>, aim: &Aim) -> Option<Vector> {
         let (key, direction) = aim.direction;
         if aim.tilt.is_some() || aim.azimuth.is_some() {
             let angle = if aim.tilt.is_some() { "tilt" } else { "azimuth" };
@@ -119,7 +124,7 @@ impl Validator<'_> {
         }
     }
 
-    fn direction_by_angles(&mut self, path: &Path, aim: &Aim<'_>) -> Option<Vector> {
+    fn direction_by_angles(&mut self, path: &Path, aim: &Aim) -> Option<Vector> {
         let Some(tilt) = aim.tilt else {
             self.problems.missing(
                 path,
@@ -128,7 +133,7 @@ impl Validator<'_> {
             );
             return None;
         };
-        let mut is_within = |key: &str, angle: f64, least: f64, most: f64, what: &str| {
+        let mut is_within = |key: &'static str, angle: f64, least: f64, most: f64, what: &str| {
             let is_within = (least..=most).contains(&angle);
             if !is_within {
                 let help = format!("allowed: {least} to {most} degrees, {what}");
@@ -154,9 +159,9 @@ impl Validator<'_> {
 }
 
 /// The ways to write a direction, of which one is chosen.
-pub(super) struct Aim<'a> {
+pub(super) struct Aim {
     /// As such, and the name of its key.
-    pub(super) direction: (&'a str, Option<[f64; 3]>),
+    pub(super) direction: (&'static str, Option<[f64; 3]>),
     /// By a point that it leads to.
     pub(super) target: Option<[f64; 3]>,
     /// By its angle from −z, in degrees.
@@ -165,7 +170,7 @@ pub(super) struct Aim<'a> {
     pub(super) azimuth: Option<f64>,
 }
 
-impl Aim<'_> {
+impl Aim {
     /// Where a direction straight along z leans if that is not said: towards +y, the top of the picture.
     const DEFAULT_AZIMUTH: f64 = 90.0;
 

@@ -56,7 +56,7 @@ impl Validator<'_> {
         }
     }
 
-    fn either<T>(&mut self, path: &Path, one: &str, other: &str) -> Option<T> {
+    fn either<T>(&mut self, path: &Path, one: &str, other: &'static str) -> Option<T> {
         self.wrong(&path.key(other), format!("`camera` has both `{one}` and `{other}`"), "allowed: one of the two");
         None
     }
@@ -88,7 +88,7 @@ impl Validator<'_> {
     fn pixels(
         &mut self,
         path: &Path,
-        key: &str,
+        key: &'static str,
         written: Option<f64>,
         allowed: &std::ops::RangeInclusive<f64>,
     ) -> Option<f64> {
@@ -149,7 +149,7 @@ impl Validator<'_> {
         Some(Extent { x: x?, y: y? })
     }
 
-    fn angles(&mut self, path: &Path, key: &str, [first, second]: [f64; 2], farthest: f64) -> Option<[f64; 2]> {
+    fn angles(&mut self, path: &Path, key: &'static str, [first, second]: [f64; 2], farthest: f64) -> Option<[f64; 2]> {
         let is_within = [first, second].iter().all(|angle| angle.abs() <= farthest);
         if is_within && (NARROWEST..=360.0).contains(&(second - first)) {
             return Some([first, second]);
