@@ -183,7 +183,10 @@ mod tests {
             (PartPlace::Top("convention"), Some("\"lambert\"")),
             (PartPlace::Top("title"), None),
             (PartPlace::Item("light", 0), Some(light)),
-            (PartPlace::Item("sphere", 0), Some(r#"{"name": "ball", "center": [0, 0, 5], "radius": 0.5}"#)),
+            (
+                PartPlace::Item("sphere", 0),
+                Some(r#"{"name": "ball", "center": [0, 0, 5], "radius": 0.5, "material": "clay"}"#),
+            ),
             (PartPlace::Material("clay"), Some(r#"{"diffuse": 0.5}"#)),
         ];
         let scene = lab().set_probes_aside().with_parts(&parts).unwrap();
@@ -204,7 +207,7 @@ mod tests {
             Ok(_) => panic!("{place:?} is taken"),
         };
         assert_eq!(path(PartPlace::Item("light", 1), Some("{}")), "light[1]");
-        assert_eq!(path(PartPlace::Item("lamp", 0), Some("{}")), "lamp[0]");
+        assert_eq!(path(PartPlace::Item("lamp", 0), Some("{}")), "lamp");
         assert_eq!(path(PartPlace::Top("version"), Some("2")), "version");
         assert_eq!(path(PartPlace::Material("chalk"), Some("{}")), "material.chalk");
         assert_eq!(
