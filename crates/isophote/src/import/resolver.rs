@@ -18,6 +18,19 @@ pub trait Resolver {
     /// The reason why there are none.
     fn read(&self, name: &str) -> Result<Cow<'_, [u8]>, ReadFailure>;
 
+    /// The length of a file in bytes, where it is known before the file is read.
+    fn size(&self, _name: &str) -> Option<u64> {
+        None
+    }
+
+    /// Is asked before so many bytes of memory are taken for what was read: a resolver may have a limit.
+    ///
+    /// # Errors
+    /// [`ReadFailure::Memory`] if that is too much.
+    fn admit(&self, _bytes: u64) -> Result<(), ReadFailure> {
+        Ok(())
+    }
+
     /// The base of relative names. Files read from one origin are not read again from an equal one.
     fn origin(&self) -> Origin;
 
@@ -40,6 +53,13 @@ pub enum ReadFailure {
     Unknown(Vec<String>),
     /// No files can be read at all.
     NoFiles,
+    /// It takes more memory than there is leave for.
+    Memory {
+        /// The memory in bytes that would be in use.
+        needed: u64,
+        /// The most that may be.
+        limit: u64,
+    },
     /// It is not where an output says that it was.
     Gone {
         /// Its length and hash at that time.
@@ -71,6 +91,10 @@ impl ReadFailure {
                 format!("the file ‘{file}’ that this was made of ({was}) has changed: ‘{}’ is {is}", at.display())
             }
             Self::NoFiles => format!("the scene names the file ‘{file}’; none can be read here"),
+            Self::Memory { needed, limit } => {
+                let [needed, limit] = [needed.div_ceil(1 << 20), limit >> 20];
+                format!("a limit of {limit} MiB of memory is too small: reading ‘{file}’ needs at least {needed} MiB")
+            }
         }
     }
 
@@ -86,6 +110,7 @@ impl ReadFailure {
                     .into()
             }
             Self::NoFiles => "allowed: shapes whose numbers stand in the scene itself".into(),
+            Self::Memory { .. } => "raise the limit, or take a smaller file".into(),
         }
     }
 }

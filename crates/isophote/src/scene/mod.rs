@@ -28,7 +28,7 @@ pub use sampling::Sampling;
 pub use source::SceneSource;
 pub use source_files::CarriedFiles;
 
-pub use crate::import::{MemoryFiles, NoFiles, Origin, ReadFailure, Resolver};
+pub use crate::import::{MemoryFiles, NoFiles, Origin, PART_BYTES, ReadFailure, Resolver};
 
 use crate::camera::Camera;
 use crate::light::{Ambient, Light};
