@@ -111,7 +111,7 @@ fn scenes_at_the_limits_of_their_numbers_give_finite_values() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_text_of_mistakes_takes_little_memory() {
-    let folder = Folder::with("scene.toml", &"=\n".repeat(2_000_000));
+    let folder = Folder::with("scene.toml", "=\n".repeat(2_000_000));
     let script = format!("ulimit -v 786432; exec '{}' check scene.toml", crate::common::PROGRAM);
     let output = std::process::Command::new("sh").args(["-c", &script]).current_dir(folder.path("")).output().unwrap();
     let told = String::from_utf8_lossy(&output.stderr);

@@ -91,8 +91,7 @@ fn what_makes_no_sense_together_is_refused_before_anything_is_written() {
 #[cfg(target_os = "linux")]
 #[test]
 fn files_that_exceed_the_memory_limit_are_refused_before_they_fill_it() {
-    let folder =
-        Folder::with("cloud.toml", &format!("{LAB}\n[[spheres]]\nfile = \"cloud.npy\"\nmaterial = \"clay\"\n"));
+    let folder = Folder::with("cloud.toml", format!("{LAB}\n[[spheres]]\nfile = \"cloud.npy\"\nmaterial = \"clay\"\n"));
     // Of this length, but without content on the disk.
     fs::File::create(folder.path("cloud.npy")).unwrap().set_len(64 << 30).unwrap();
     let huge = folder.run("render cloud.toml -o map.zarr --memory 1G");

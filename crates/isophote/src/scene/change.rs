@@ -120,8 +120,8 @@ impl PartPlace<'_> {
 
 /// Puts a part in its place in a source; `None` if there is no such place.
 fn put(source: &mut SceneSource, place: PartPlace<'_>, text: Option<&str>, problems: &mut Problems) -> Option<()> {
-    let text = text.map_or_else(|| "{}".into(), |text| place.alone(text));
-    let mut document = Document::parse(&text, Syntax::Json);
+    let alone = text.map_or_else(|| "{}".into(), |text| place.alone(text));
+    let mut document = Document::parse(&alone, Syntax::Json);
     problems.extend(std::mem::take(&mut document.syntax_problems));
     let mut part = SceneSource::read(&document, problems);
     macro_rules! top {
@@ -150,10 +150,10 @@ fn put(source: &mut SceneSource, place: PartPlace<'_>, text: Option<&str>, probl
             grid "grid";
         ),
         PartPlace::Material(name) => {
-            let material = part.material.pop_first();
-            match material {
-                Some((_, material)) => *source.material.get_mut(name)? = material,
-                None => drop(source.material.remove(name)?),
+            let written = source.material.remove(name)?;
+            if text.is_some() {
+                let material = part.material.pop_first().map_or(written, |(_, material)| material);
+                source.material.insert(name.to_owned(), material);
             }
         }
     }
