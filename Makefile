@@ -91,7 +91,8 @@ check: generated-is-current check-python check-wasm ## Formatting, lints, docume
 check-python: python-env python-module ## Check the Python package: formatting, lints, types, stubs of the compiled module
 	@[ -e $(PYTHON_ENV)/ready ] || exit 0; cd python && \
 	$(PYTHON) -m ruff format --check --quiet . && $(PYTHON) -m ruff check --quiet . && \
-	$(PYTHON) -m mypy && $(PYTHON) -m mypy.stubtest isophote._isophote --mypy-config-file pyproject.toml
+	$(PYTHON) -m mypy && $(PYTHON) -m mypy.stubtest isophote._isophote --mypy-config-file pyproject.toml && \
+	$(PYTHON) -m basedpyright --pythonpath $(PYTHON)
 
 bench: ## Time every stage and the whole program from start to picture, then compare with other programs
 	$(CARGO) bench --workspace

@@ -7,6 +7,7 @@ import math
 import operator
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from enum import Enum
 from typing import Annotated, Any, TypeVar
 
 import numpy as np
@@ -142,7 +143,7 @@ def word(value: Any) -> str:
     """A string; whether it is one of the allowed ones is checked with the scene."""
     if not isinstance(value, str):
         raise Invalid(f"is {value!r}", "allowed: a text")
-    return str(value.value) if hasattr(value, "value") else str(value)
+    return str(value.value) if isinstance(value, Enum) else str(value)
 
 
 def file(value: Any) -> str:

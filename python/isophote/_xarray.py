@@ -52,7 +52,7 @@ def open_store(path: str) -> xarray.Dataset:
     """A Zarr store as a Dataset that reads data on demand."""
     needed("zarr")
     import xarray
-    import zarr
+    import zarr.errors
 
     with warnings.catch_warnings():
         # The picture and the records beside the arrays are not part of Zarr.

@@ -44,8 +44,10 @@ class SurfaceMap(Map):
 
     def __init__(self, core: _isophote.Map, scene: Scene, area: float, totals: dict[str, Any]) -> None:
         super().__init__(core, scene)
-        self.area = area
-        self.totals = {name: None if of is None else SurfaceTotals(*of) for name, of in totals.items()}
+        self.area: float = area
+        self.totals: dict[str, SurfaceTotals | None] = {
+            name: None if of is None else SurfaceTotals(*of) for name, of in totals.items()
+        }
 
 
 class GridMap(Map):

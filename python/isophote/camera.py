@@ -21,9 +21,9 @@ __all__ = ["Camera", "Intrinsics", "Pose", "Sampling", "Screen", "Window"]
 class Screen(Part):
     """The window of a perspective camera.
 
-    - ``distance``: of its plane from the eye, a length above 0 in the scene's unit
-    - ``x``: its left and right edges in the scene's unit, the smaller first
-    - ``y``: its lower and upper edges
+    - ``distance``: of its plane from the eye, a length in the scene's unit, 1e-12 to 1e15 m
+    - ``x``: its left and right edges in the scene's unit, the smaller first, within ±1e15 m
+    - ``y``: its lower and upper edges, likewise within ±1e15 m
     """
 
     distance: Number
@@ -35,8 +35,8 @@ class Screen(Part):
 class Window(Part):
     """The window of an orthographic camera, on the plane through the eye.
 
-    - ``x``: its left and right edges in the scene's unit, the smaller first
-    - ``y``: its lower and upper edges
+    - ``x``: its left and right edges in the scene's unit, the smaller first, within ±1e15 m
+    - ``y``: its lower and upper edges, likewise within ±1e15 m
     """
 
     x: Pair
@@ -64,7 +64,7 @@ class Pose(Part):
     the right, y down, and z along the direction of view.
 
     - ``rotation``: three rows, the camera's axes in those of the scene; orthonormal to within 1e-6, with determinant 1
-    - ``translation``: where the scene's origin is in the camera's axes, in the scene's unit
+    - ``translation``: where the scene's origin is in the camera's axes, in the scene's unit, each coordinate within ±1e15 m
     """
 
     rotation: Matrix
@@ -75,12 +75,13 @@ class Pose(Part):
 class Camera(Part):
     """The observer (2.1), (2.3).
 
-    - ``eye``: a point
+    - ``eye``: a point, each coordinate within ±1e15 m
     - ``forward``: where it looks, a direction of any length but 0
-    - ``target``: instead, a point to look at
+    - ``target``: instead, a point to look at, each coordinate within ±1e15 m
     - ``tilt``: instead, the angle of view from −z in degrees, 0 to 180: 0 is straight down
     - ``azimuth``: with it, the way that the view leans, from +x towards +y, in degrees, −360 to 360
-    - ``up``: the direction that appears vertical, not parallel to the one of view; by default +y, unless the view is along it
+    - ``up``: the direction that appears vertical, of any length but 0, not parallel to the one of view; by default +y, unless
+      the view is along it
     - ``projection``: ``"perspective"`` (with a ``screen`` or a ``field_of_view``), ``"orthographic"`` (with a ``window``,
       2.7), ``"fisheye-equidistant"`` (2.8) or ``"fisheye-equal-area"`` (2.9; both with a ``field_of_view``), or
       ``"panorama"`` (with ``longitude`` and ``latitude``, 2.10)
@@ -88,11 +89,12 @@ class Camera(Part):
     - ``intrinsics``: instead, those of a calibrated one
     - ``pose``: the place of a calibrated camera, instead of ``eye``, ``forward``, ``target``, the angles and ``up``; the
       scene must be right-handed
-    - ``field_of_view``: in degrees: across the width of a perspective image, below 180; across the circle of a fisheye, up
-      to 360
+    - ``field_of_view``: in degrees: across the width of a perspective image, 1e-6 to 179.9999; across the circle of a fisheye,
+      1e-6 to 360
     - ``window``: that of an orthographic camera
-    - ``longitude``: left and right edges of a panorama, in degrees from the direction of view, −360 to 360
-    - ``latitude``: its lower and upper edges, −90 to 90
+    - ``longitude``: left and right edges of a panorama, in degrees from the direction of view, −360 to 360, the smaller
+      first
+    - ``latitude``: its lower and upper edges in degrees, −90 to 90, the smaller first
     - ``resolution``: columns and rows, 1 to 1,000,000 each
     """
 

@@ -24,7 +24,11 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Place:
-    """A position in a scene file: line and column, counted from 1, and the text of the line."""
+    """A position in a scene file.
+
+    - ``line``, ``column``: counted from 1, columns in characters
+    - ``text``: the line's text
+    """
 
     line: int
     column: int
@@ -35,9 +39,12 @@ class Place:
 class Problem:
     """A single problem in a scene.
 
-    ``kind`` is ``"unreadable"``, ``"syntax"``, ``"unknown-key"``, ``"missing-key"``, ``"wrong-type"``, ``"value"`` or
-    ``"warning"``; ``path`` names the item concerned, such as ``sphere[0].radius``; ``message`` says what is wrong, ``help``
-    what is allowed; ``place`` is where it stands in a file, if it was read from one.
+    - ``kind``: ``"unreadable"``, ``"syntax"``, ``"unknown-key"``, ``"missing-key"``, ``"wrong-type"``, ``"value"`` or
+      ``"warning"``
+    - ``path``: the item concerned, such as ``sphere[0].radius``
+    - ``message``: what is wrong, with the value
+    - ``help``: what is allowed
+    - ``place``: where it stands in a file, if it was read from one
     """
 
     kind: str

@@ -195,7 +195,9 @@ class MapFile(Map):
             raise ArgumentError(f"{self.path} has {len(lines) - 1} rows for {width * height} pixels: it is no whole table")
         names = next(csv.reader(lines[:1]))
         values = np.loadtxt(lines[1:], delimiter=",", ndmin=2)
-        arrays = {name: values[:, column].reshape(height, width) for column, name in enumerate(names)}
+        arrays: dict[str, NDArray[Any]] = {
+            name: values[:, column].reshape(height, width) for column, name in enumerate(names)
+        }
         if "shape" in arrays:
             self._extra["shape"] = arrays["shape"] = arrays["shape"].astype(np.int32)
         return {name: self._joined(arrays, name) for name in self._channels}

@@ -33,9 +33,9 @@ class Light(Part):
 class PointLight(Light):
     """A point that emits equally in all directions (3.1).
 
-    - ``position``: a point, on no surface
+    - ``position``: a point, each coordinate within ±1e15 m, on no surface
     - ``intensity``: in W/sr or cd, 0 to 1e30
-    - ``power``: instead, 4π times the intensity, in W or lm
+    - ``power``: instead, 4π times the intensity, in W or lm, 0 to 1e30
     """
 
     position: Vector
@@ -47,11 +47,11 @@ class PointLight(Light):
 class LambertianLight(Light):
     """A point that emits I₀ cosγ (3.1), with γ the angle from its axis.
 
-    - ``position``: a point, on no surface
+    - ``position``: a point, each coordinate within ±1e15 m, on no surface
     - ``intensity``: I₀ in W/sr or cd, 0 to 1e30
-    - ``power``: instead, π I₀, in W or lm
+    - ``power``: instead, π I₀, in W or lm, 0 to 1e30
     - ``axis``: where it is aimed, a direction of any length but 0
-    - ``target``: instead, a point to aim at
+    - ``target``: instead, a point to aim at, each coordinate within ±1e15 m
     - ``tilt``: instead, the angle of the axis from −z in degrees, 0 to 180: 0 is straight down
     - ``azimuth``: with it, the way that the axis leans, from +x towards +y, in degrees, −360 to 360
     """
@@ -70,13 +70,14 @@ class LambertianLight(Light):
 class SpotLight(Light):
     """A point that emits its full intensity near its axis, and none far from it (3.7).
 
-    - ``position``: a point, on no surface
-    - ``inner_angle``: up to this angle from the axis all of the intensity, in degrees, 0 to 90
-    - ``outer_angle``: beyond this one nothing, in degrees, above the inner one and up to 90; smooth in between
+    - ``position``: a point, each coordinate within ±1e15 m, on no surface
+    - ``inner_angle``: up to this angle from the axis all of the intensity, in degrees, 0 to 89.5
+    - ``outer_angle``: beyond this one nothing, in degrees, 0.5 to 90 and at least 0.5 above the inner one; smooth in
+      between
     - ``intensity``: on the axis, in W/sr or cd, 0 to 1e30
-    - ``power``: instead, of the whole cone, in W or lm
+    - ``power``: instead, of the whole cone, in W or lm, 0 to 1e30
     - ``axis``: where it is aimed, a direction of any length but 0
-    - ``target``: instead, a point to aim at
+    - ``target``: instead, a point to aim at, each coordinate within ±1e15 m
     - ``tilt``: instead, the angle of the axis from −z in degrees, 0 to 180: 0 is straight down
     - ``azimuth``: with it, the way that the axis leans, from +x towards +y, in degrees, −360 to 360
     """

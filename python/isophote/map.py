@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _html, _isophote
 from ._convert import FrozenDict, Invalid, number
-from ._types import Colormap
+from ._types import Colormap, Normalization
 from ._xarray import NOT_SCALAR
 from .errors import ArgumentError
 
@@ -76,7 +76,8 @@ class Map(Mapping[str, NDArray[Any]]):
         self._scene = scene
         self._units = FrozenDict(core.units())
 
-    __hash__ = object.__hash__
+    def __hash__(self) -> int:
+        return object.__hash__(self)
 
     def __eq__(self, other: object) -> bool:
         return self is other
@@ -257,6 +258,7 @@ class Map(Mapping[str, NDArray[Any]]):
         *,
         channel: str | None = None,
         range: tuple[float, float] | None = None,
+        normalize: Normalization | None = None,
         gamma: float | None = None,
         bits: int | None = None,
         colormap: Colormap | None = None,
@@ -264,13 +266,15 @@ class Map(Mapping[str, NDArray[Any]]):
         """Writes a file, completely or not at all: ``.exr``, ``.npz`` and ``.csv`` get all channels and ``shape``, from
         which :func:`~isophote.read` takes the mask; ``.npy`` gets one channel, ``.png`` is a picture of one.
 
-        The other options are for pictures alone: black and white are the values of ``range`` (by default 0 and the
-        maximum), levels are raised to the power 1/``gamma`` (1), with 8 or 16 ``bits`` (8), or shown in the colours of
-        ``colormap``.
+        The other options are for pictures alone. ``normalize`` says how values v become levels: ``"max"``, the default,
+        proportionally, v/max; ``"minmax"`` stretched from the minimum to the maximum, (v − min)/(max − min); ``"log"`` by the
+        logarithm, over three decades up to the maximum. ``range`` sets the values of black and white itself, in the
+        channel's unit; with ``"log"`` both must be above 0. Levels are raised to the power 1/``gamma`` (1; above 0), with 8
+        or 16 ``bits`` (8), or shown in the colours of ``colormap``.
         """
         suffix = os.path.splitext(os.fspath(path))[1].lower()
         holds_all = suffix in (".exr", ".npz", ".csv")
-        given = {"range": range, "gamma": gamma, "bits": bits, "colormap": colormap}
+        given = {"range": range, "normalize": normalize, "gamma": gamma, "bits": bits, "colormap": colormap}
         idle = [name for name, value in given.items() if value is not None and suffix in (".exr", ".npz", ".csv", ".npy")]
         if holds_all and channel is not None:
             idle.insert(0, "channel")
@@ -284,9 +288,10 @@ class Map(Mapping[str, NDArray[Any]]):
         if channel not in self.units:
             raise KeyError(self._missing(channel))
         if channel == "color":
-            for name in ("gamma", "colormap"):
+            shared = "whose components share one scale from 0 to the largest"
+            for name, why in (("normalize", shared), ("gamma", _ENCODED), ("colormap", _ENCODED)):
                 if given[name] is not None:
-                    raise ArgumentError(f"{name} has no effect on the channel 'color', which is encoded as sRGB")
+                    raise ArgumentError(f"{name} has no effect on the channel 'color', {why}")
         bounds = None
         if range is not None:
             bounds = [_number(bound, "range") for bound in range]
@@ -295,7 +300,8 @@ class Map(Mapping[str, NDArray[Any]]):
         if bits not in (None, 8, 16):
             raise ArgumentError(f"bits is {bits!r}; allowed: 8, 16")
         power = 1.0 if gamma is None else _number(gamma, "gamma")
-        self._core.save(os.fspath(path), channel, bounds, power, 8 if bits is None else int(bits), colormap)
+        depth = 8 if bits is None else int(bits)
+        self._core.save(os.fspath(path), channel, bounds, normalize or "max", power, depth, colormap)
 
     def to_xarray(self) -> xarray.Dataset:
         """An xarray Dataset: dims ``("y", "x")`` with coordinates in their units, ``units`` in the attributes; vectors
@@ -348,6 +354,7 @@ def axes_of(core: _isophote.Map) -> tuple[Axis, Axis]:
 
 
 _MOST_LEVELS = 1000
+_ENCODED = "which is encoded as sRGB"
 
 
 def _unpickle(

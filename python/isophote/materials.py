@@ -17,8 +17,8 @@ class Material(Part):
     """The material of a surface. Coefficients are numbers, or one for each of red, green and blue; their unit is that of
     the convention.
 
-    - ``diffuse``: the diffuse coefficient k_d, from 0
-    - ``specular``: the specular coefficient k_s, from 0
+    - ``diffuse``: the diffuse coefficient k_d, 0 to 1 where the convention makes it an albedo, 0 to 1e6 elsewhere
+    - ``specular``: the specular coefficient k_s, likewise 0 to 1 or 0 to 1e6
     - ``shininess``: n, above 0 and up to 100,000; required unless k_s is 0
     """
 

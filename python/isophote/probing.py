@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -29,6 +30,10 @@ class Values(Mapping[str, NDArray[Any]]):
     ``position`` and ``normal`` (n × 3), ``brightness``, ``irradiance``, ``ambient``, ``diffuse``, ``specular``,
     ``cos_theta_o``, ``shape`` and ``part`` (indices), ``seen`` (whether the eye sees the point). Where there is no surface
     they are NaN, and ``shape`` and ``part`` are −1.
+
+    The keys are columns with one number for each point, so that ``pandas.DataFrame(dict(values))`` is a table: instead of
+    ``position`` they have ``position.x``, ``position.y`` and ``position.z``, instead of ``lights`` ``light.NAME`` for each
+    light. ``values["position"]`` is the whole array all the same.
     """
 
     position: NDArray[np.float64]
@@ -51,7 +56,8 @@ class Values(Mapping[str, NDArray[Any]]):
             array.flags.writeable = False
         self._names = list(names)
 
-    __hash__ = object.__hash__
+    def __hash__(self) -> int:
+        return object.__hash__(self)
 
     def __eq__(self, other: object) -> bool:
         return self is other
@@ -62,13 +68,46 @@ class Values(Mapping[str, NDArray[Any]]):
             array.flags.writeable = False
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        return self._arrays[name]
+        if name in self._held():
+            return self._array(name)
+        columns = self._columns
+        if name not in columns:
+            raise KeyError(f"there is no {name!r}; there are: {', '.join(self._held())}")
+        array, number = columns[name]
+        column: NDArray[Any] = self._array(array)[..., number]
+        return column
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._held() or name in self._columns
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._arrays)
+        return iter(self._columns)
 
     def __len__(self) -> int:
-        return len(self._arrays)
+        return len(self._columns)
+
+    def _held(self) -> Sequence[str]:
+        """The names of the arrays."""
+        return tuple(self._arrays)
+
+    def _array(self, name: str) -> NDArray[Any]:
+        return self._arrays[name]
+
+    @functools.cached_property
+    def _columns(self) -> dict[str, tuple[str, Any]]:
+        """For each column the array that it is part of, and its index there; an array of numbers is a column itself."""
+        columns: dict[str, tuple[str, Any]] = {}
+        for name in self._held():
+            if name == "lights":
+                labels = [f"light.{light}" for light in self._scene.core.describe()["lights"]]
+            elif name in COMPONENTS or name == "screen":
+                components = ["x", "y"] if name == "screen" else COMPONENTS[name][1]
+                labels = [f"{name}.{component}" for component in components]
+            else:
+                columns[name] = name, slice(None)
+                continue
+            columns.update({label: (name, number) for number, label in enumerate(labels)})
+        return columns
 
     def __getattr__(self, name: str) -> NDArray[Any]:
         arrays: dict[str, NDArray[Any]] = self.__dict__.get("_arrays", {})
@@ -77,10 +116,10 @@ class Values(Mapping[str, NDArray[Any]]):
         raise AttributeError(f"there is no {name!r}; there are: {', '.join(arrays)}")
 
     def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *self})
+        return sorted({*super().__dir__(), *self._held()})
 
     def _ipython_key_completions_(self) -> list[str]:
-        return list(self)
+        return list(dict.fromkeys((*self._held(), *self)))
 
     @property
     def scene(self) -> Scene:
@@ -94,13 +133,14 @@ class Values(Mapping[str, NDArray[Any]]):
 
     def _rows(self, name: str) -> NDArray[Any]:
         """An array with one row per point, whatever the shape of the points' own array."""
-        array = self[name]
+        array = self._array(name)
         return array.reshape(self.count, *array.shape[self._arrays["shape"].ndim :])
 
     @property
     def units(self) -> dict[str, str]:
-        """The unit of each array: ``"1"`` for pure numbers, ``""`` for indices and booleans."""
-        return {name: self._unit(name) for name in self}
+        """The unit of each array and column: ``"1"`` for pure numbers, ``""`` for indices and booleans."""
+        arrays = {name: self._unit(name) for name in self._held()}
+        return {**arrays, **{column: arrays[array] for column, (array, _) in self._columns.items()}}
 
     def _unit(self, name: str) -> str:
         if name in ("shape", "part", "seen"):
@@ -117,17 +157,7 @@ class Values(Mapping[str, NDArray[Any]]):
         needed("pandas")
         import pandas
 
-        columns: dict[str, NDArray[Any]] = {}
-        for name in self:
-            array = self._rows(name)
-            if array.ndim == 1:
-                columns[name] = array
-            elif name == "lights":
-                lights = self._scene.core.describe()["lights"]
-                columns.update({f"light.{light}": array[:, number] for number, light in enumerate(lights)})
-            else:
-                labels = COMPONENTS[name][1] if name in COMPONENTS else ["x", "y"]
-                columns.update({f"{name}.{label}": array[:, number] for number, label in enumerate(labels)})
+        columns = {name: self._rows(array)[..., number] for name, (array, number) in self._columns.items()}
         return pandas.DataFrame(columns, index=list(self._names) or None)
 
     def _seen(self, indices: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -182,21 +212,18 @@ class Probes(Values):
         self._places = places
         self._later = tuple(name for name in later if name not in arrays)
 
-    def __getitem__(self, name: str) -> NDArray[Any]:
+    def _array(self, name: str) -> NDArray[Any]:
         if name in self._later:
             self._complete()
-        return super().__getitem__(name)
+        return super()._array(name)
 
     def __getattr__(self, name: str) -> NDArray[Any]:
         if name in self.__dict__.get("_later", ()):
             self._complete()
         return super().__getattr__(name)
 
-    def __iter__(self) -> Iterator[str]:
-        return iter((*self._arrays, *self._later))
-
-    def __len__(self) -> int:
-        return len(self._arrays) + len(self._later)
+    def _held(self) -> Sequence[str]:
+        return (*self._arrays, *self._later)
 
     def _seen(self, indices: NDArray[np.intp]) -> NDArray[np.bool_]:
         points = self._places.points

@@ -17,11 +17,11 @@ import numpy as np
 from . import _isophote
 from ._convert import Flag, FrozenDict, Invalid, Number, Pair, Size, Vector, Word, word
 from ._part import Part, converters
-from ._paths import TABLES, locate
+from ._paths import TABLES, Place, first_of, locate, rewritten
 from ._types import ColorSpace, ConventionName, Handedness, LengthUnit, Quantities, Side
 from ._words import Named
 from .camera import Camera, Sampling
-from .errors import ArgumentError, Problem, SceneWarning
+from .errors import ArgumentError, Problem, SceneError, SceneWarning
 from .lights import Ambient, AnyLight, Light, light_from_dict
 from .materials import Material
 from .shapes import KINDS, AnyShape, Mesh, Shape, Spheres
@@ -33,9 +33,9 @@ __all__ = ["Area", "Grid", "Probe", "Scene"]
 class Probe(Part):
     """A point on a surface whose values are reported.
 
-    - ``at``: the point, in the scene's unit
+    - ``at``: the point, in the scene's unit, each coordinate within ±1e15 m
     - ``name``: unique among the probes
-    - ``published``: a value that has been published for it, in the unit of the brightness
+    - ``published``: a value that has been published for it, in the unit of the brightness, any finite number
     """
 
     at: Vector
@@ -48,11 +48,11 @@ class Area(Part):
     """A circle or a rectangle whose largest, smallest and mean brightness are wanted; see :func:`areas`.
 
     - ``on``: the plane, rectangle or disk that it lies on; without it, it is on the screen
-    - ``center``: its centre, a point of that shape
-    - ``at``: its centre on the screen, (x, y)
-    - ``radius``: that of a circle
-    - ``size``: instead, width and height of a rectangle
-    - ``up``: the direction of a rectangle's height, on a shape
+    - ``center``: its centre, a point of that shape, each coordinate within ±1e15 m
+    - ``at``: its centre on the screen, (x, y) within ±1e15 m, or in degrees on the screen of a fisheye or a panorama
+    - ``radius``: that of a circle, a length, 1e-12 to 1e15 m, or degrees above 0 on such a screen
+    - ``size``: instead, width and height of a rectangle, likewise lengths, 1e-12 to 1e15 m
+    - ``up``: the direction of a rectangle's height, on a shape; of any length but 0
     - ``name``: unique among the areas
     """
 
@@ -69,10 +69,11 @@ class Area(Part):
 class Grid(Part):
     """Points on a rectangle at which the irradiance is computed.
 
-    - ``u``, ``v``: its edges, vectors in the scene's unit
-    - ``points``: their number along u and along v, from 1
-    - ``corner``: where both edges begin, a point
-    - ``center``: instead, the centre of the rectangle
+    - ``u``, ``v``: its edges, vectors at right angles in the scene's unit, at least 1e-12 m long, each coordinate within
+      ±1e15 m
+    - ``points``: their number along u and along v, 1 to 65,536 each
+    - ``corner``: where both edges begin, a point, each coordinate within ±1e15 m
+    - ``center``: instead, the centre of the rectangle, each coordinate within ±1e15 m
     - ``name``: unique among the grids
     - ``side``: ``"front"`` (towards u × v) or ``"back"``
     """
@@ -129,7 +130,7 @@ class Scene(Part):
 
     - ``length``: the unit of all lengths, ``"m"``, ``"cm"`` or ``"mm"``
     - ``camera``: the observer
-    - ``title``: a line that says what the scene is
+    - ``title``: a line that says what the scene is, up to 10,000 bytes
     - ``convention``: the formula of the brightness, one of :class:`Convention`
     - ``handedness``: ``"right"`` or ``"left"``: which way x runs on the screen (2.3)
     - ``quantities``: ``"radiometric"`` (W) or ``"photometric"`` (lm)
@@ -140,8 +141,8 @@ class Scene(Part):
     - ``shapes``: in the order of maps and probes, grouped by kind; up to 100,000
     - ``lights``: up to 100,000
     - ``ambient``: light from all around
-    - ``probes``, ``grids``: points whose values are asked for
-    - ``areas``: circles and rectangles whose extremes and mean are
+    - ``probes``, ``grids``: points whose values are asked for; up to 100,000 and 1000
+    - ``areas``: circles and rectangles whose extremes and mean are; up to 1000
     - ``directory``: where relative file names start
     """
 
@@ -173,6 +174,7 @@ class Scene(Part):
         before = None if earlier is None else earlier.core
         core = self.named.checked(lambda: _isophote.Scene.from_json(written, directory, before))
         object.__setattr__(self, "_core", core)
+        object.__setattr__(self, "_plain_core", core)
         self._warn(earlier, in_python=True)
 
     @property
@@ -283,40 +285,68 @@ class Scene(Part):
         Items without a name are numbered from 0: ``light[0].position``. ``None`` removes a value. A path may lead to a whole
         part: ``light.lamp``, ``material.clay``, ``sphere.ball``.
         """
-        written = self.to_dict()
-        pointers = [(locate(self, path), value) for path, value in values.items()]
-        for pointer, value in pointers:
-            pointer.put(written, value)
-        text, directory = json.dumps(written), str(self.directory)
-        core = self.named.checked(lambda: _isophote.Scene.from_json(text, directory, self.core))
+        parts = rewritten((locate(self, path), value) for path, value in values.items())
+        core = self.with_parts(parts)
         scene = object.__new__(type(self))
         for field in dataclasses.fields(self):
             object.__setattr__(scene, field.name, getattr(self, field.name))
         # The parts that stay are the same objects: there may be a hundred thousand of them.
-        for keys in dict.fromkeys(pointer.keys[:2] for pointer, _ in pointers):
-            scene._read_again(keys, written)
+        for place, written in parts.items():
+            scene._read_again(place, written)
         object.__setattr__(scene, "_core", core)
+        object.__setattr__(scene, "_plain_core", core)
         scene._warn(self, in_python=True)
         return scene
 
-    def _read_again(self, keys: tuple[str | int, ...], written: dict[str, Any]) -> None:
-        """Takes the part with these keys from the tables of a valid scene, while this one is being made."""
-        table = str(keys[0])
+    def with_parts(self, parts: Mapping[Place, Any]) -> _isophote.Scene:
+        """The scene in the compiled part, with these parts written anew; private to the package."""
+        written = [
+            (str(place[0]), place[1] if len(place) > 1 else None, None if part is None else json.dumps(part))
+            for place, part in parts.items()
+        ]
+        try:
+            return self._as_set.with_parts(written)
+        except SceneError:
+            # Read as a whole, the scene says what is wrong in its own words, and finds files that are new to it.
+            whole: dict[Any, Any] = self.to_dict()
+        for place, part in parts.items():
+            *tables, key = place
+            container = whole.setdefault(tables[0], {}) if tables else whole
+            if part is None:
+                container.pop(key, None)
+            else:
+                container[key] = part
+        text, directory = json.dumps(whole), str(self.directory)
+        return self.named.checked(lambda: _isophote.Scene.from_json(text, directory, self.core))
+
+    @property
+    def _as_set(self) -> _isophote.Scene:
+        """The checked scene as Python writes it, without what a file says in vain: whatever way leads to a scene, its outputs
+        are then the same."""
+        if "_plain_core" not in self.__dict__:
+            core = _isophote.Scene.from_json(json.dumps(self.to_dict()), str(self.directory), self.core)
+            object.__setattr__(self, "_plain_core", core)
+        plain: _isophote.Scene = self.__dict__["_plain_core"]
+        return plain
+
+    def _read_again(self, place: Place, written: Any) -> None:
+        """Takes a part of a valid scene as it is written, while this one is being made."""
+        table = str(place[0])
         if table == "material":
-            materials = {**self.materials, str(keys[1]): Material.from_dict(written[table][keys[1]])}
+            materials = {name: material for name, material in self.materials.items() if name != place[1]}
+            if written is not None:
+                materials = {**self.materials, str(place[1]): Material.from_dict(written)}
             object.__setattr__(self, "materials", FrozenDict(materials))
             return
         if table in TABLES:
             name, kind = TABLES[table]
             items = list(getattr(self, name))
-            of_kind = [index for index, item in enumerate(items) if isinstance(item, kind)]
-            place, one = of_kind[int(keys[1])], written[table][keys[1]]
-            items[place] = light_from_dict(one) if name == "lights" else type(items[place]).from_dict(one)
+            number = first_of(kind, items) + int(place[1])
+            items[number] = light_from_dict(written) if name == "lights" else type(items[number]).from_dict(written)
             object.__setattr__(self, name, tuple(items))
             return
-        value = written.get(table)
         default = next(field.default for field in dataclasses.fields(self) if field.name == table)
-        object.__setattr__(self, table, default if value is None else converters(type(self))[table](value))
+        object.__setattr__(self, table, default if written is None else converters(type(self))[table](written))
 
     def unit(self, channel: str) -> str:
         """The unit of a channel of this scene's maps: ``"1"`` for pure numbers, ``""`` for indices."""

@@ -59,11 +59,11 @@ class Shape(Part):
 class Sphere(Shape):
     """A sphere (2.2).
 
-    - ``center``: a point
-    - ``radius``: a length
+    - ``center``: a point, each coordinate within ±1e15 m
+    - ``radius``: a length, 1e-12 to 1e15 m
     """
 
-    KEY = "sphere"
+    KEY: ClassVar[str] = "sphere"
     center: Vector
     radius: Number
 
@@ -72,12 +72,12 @@ class Sphere(Shape):
 class Ellipsoid(Shape):
     """An ellipsoid.
 
-    - ``center``: a point
-    - ``radii``: three lengths, along its own x, y and z
+    - ``center``: a point, each coordinate within ±1e15 m
+    - ``radii``: three lengths, along its own x, y and z, 1e-12 to 1e15 m each
     - ``rotation``: by which it is turned
     """
 
-    KEY = "ellipsoid"
+    KEY: ClassVar[str] = "ellipsoid"
     center: Vector
     radii: Vector
     rotation: Rotation | None = None
@@ -87,12 +87,12 @@ class Ellipsoid(Shape):
 class Box(Shape):
     """A box.
 
-    - ``center``: a point
-    - ``size``: three lengths, along its own x, y and z
+    - ``center``: a point, each coordinate within ±1e15 m
+    - ``size``: three lengths, along its own x, y and z, 1e-12 to 1e15 m each
     - ``rotation``: by which it is turned
     """
 
-    KEY = "box"
+    KEY: ClassVar[str] = "box"
     center: Vector
     size: Vector
     rotation: Rotation | None = None
@@ -102,11 +102,12 @@ class Box(Shape):
 class Cylinder(Shape):
     """A cylinder with both end caps.
 
-    - ``start``, ``end``: the centres of the caps (``from`` and ``to`` in scene files)
-    - ``radius``: a length
+    - ``start``, ``end``: the centres of the caps (``from`` and ``to`` in scene files), points at least 1e-12 m apart, each
+      coordinate within ±1e15 m
+    - ``radius``: a length, 1e-12 to 1e15 m
     """
 
-    KEY = "cylinder"
+    KEY: ClassVar[str] = "cylinder"
     # `from` is a keyword in Python.
     _KEYS = MappingProxyType({"start": "from", "end": "to"})
     start: Vector
@@ -118,12 +119,12 @@ class Cylinder(Shape):
 class Cone(Shape):
     """A cone with its base.
 
-    - ``base``, ``apex``: the centre of the base, and the tip
-    - ``radius``: of the base, a length
-    - ``apex_radius``: 0, or a length: then the cone is truncated and has a cap there too
+    - ``base``, ``apex``: the centre of the base and the tip, points at least 1e-12 m apart, each coordinate within ±1e15 m
+    - ``radius``: of the base, a length, 1e-12 to 1e15 m
+    - ``apex_radius``: 0, or a length, 1e-12 to 1e15 m: then the cone is truncated and has a cap there too
     """
 
-    KEY = "cone"
+    KEY: ClassVar[str] = "cone"
     base: Vector
     apex: Vector
     radius: Number
@@ -134,11 +135,11 @@ class Cone(Shape):
 class Plane(Shape):
     """An infinite plane.
 
-    - ``point``: any of its points
+    - ``point``: any of its points, each coordinate within ±1e15 m
     - ``normal``: a direction of any length but 0
     """
 
-    KEY = "plane"
+    KEY: ClassVar[str] = "plane"
     point: Vector
     normal: Vector
 
@@ -147,13 +148,13 @@ class Plane(Shape):
 class Rectangle(Shape):
     """A rectangle, visible from both sides.
 
-    - ``center``: a point
+    - ``center``: a point, each coordinate within ±1e15 m
     - ``normal``: the direction to its front, of any length but 0
-    - ``width``, ``height``: lengths
-    - ``up``: the direction along which its height runs, not parallel to the normal
+    - ``width``, ``height``: lengths, 1e-12 to 1e15 m
+    - ``up``: the direction along which its height runs, of any length but 0, not parallel to the normal
     """
 
-    KEY = "rectangle"
+    KEY: ClassVar[str] = "rectangle"
     center: Vector
     normal: Vector
     width: Number
@@ -165,12 +166,12 @@ class Rectangle(Shape):
 class Disk(Shape):
     """A disk, visible from both sides.
 
-    - ``center``: a point
+    - ``center``: a point, each coordinate within ±1e15 m
     - ``normal``: the direction to its front, of any length but 0
-    - ``radius``: a length
+    - ``radius``: a length, 1e-12 to 1e15 m
     """
 
-    KEY = "disk"
+    KEY: ClassVar[str] = "disk"
     center: Vector
     normal: Vector
     radius: Number
@@ -181,17 +182,17 @@ class Mesh(Shape):
     """A triangle mesh (2.5); it is scaled, then rotated, then moved.
 
     - ``file``: an OBJ, PLY, STL or binary glTF file, by its path from the scene's ``directory``
-    - ``vertices``: instead, the points of the mesh, n × 3
-    - ``faces``: with them, the three corners of each triangle, m × 3, as indices of vertices from 0; counter-clockwise as seen
-      from outside
-    - ``normals``: with them, a direction at each vertex for smooth shading, n × 3
+    - ``vertices``: instead, the points of the mesh, n × 3 finite numbers; once placed, within ±1e15 m
+    - ``faces``: with them, the three corners of each triangle, m × 3, as indices of vertices, 0 to n − 1; counter-clockwise as
+      seen from outside
+    - ``normals``: with them, a direction at each vertex for smooth shading, n × 3, of any length but 0
     - ``scale``: a factor along each of its own axes, 1e-12 to 1e12
     - ``rotation``: by which it is turned
-    - ``position``: where the file's origin goes, a point
+    - ``position``: where the file's origin goes, a point, each coordinate within ±1e15 m
     - ``smooth``: whether the file's normals are used, if it has any
     """
 
-    KEY = "mesh"
+    KEY: ClassVar[str] = "mesh"
     file: File | None = None
     vertices: Vectors | None = None
     faces: Triples | None = None
@@ -209,7 +210,7 @@ class Spheres(Shape):
     - ``file``: a CSV, NPY or PLY file of centres and radii, by its path from the scene's ``directory``
     """
 
-    KEY = "spheres"
+    KEY: ClassVar[str] = "spheres"
     file: File
 
 

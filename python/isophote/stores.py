@@ -78,7 +78,8 @@ def render_to_zarr(
     ``size``: columns and rows; ``None`` uses the scene's own.
     ``client``: a Dask client: its workers render one shard each at a time, and write it whole themselves. If a worker
     dies, its shard is rendered by another one. The workers must see the store under the same path.
-    ``threads``, ``memory``: without a client, how many shards at a time, and the memory limit in bytes.
+    ``threads``, ``memory``: without a client, how many shards at a time, and the memory limit in bytes, the scene included; a
+    scene is read before the limit is known, unlike in the command.
     ``resume``: continue a store that holds a part of the same map. However an earlier run ended, finished shards are kept.
     ``check``: whether to reread every byte at the end and compare it with its checksum.
     """

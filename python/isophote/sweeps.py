@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import itertools
-import json
 import os
 import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _isophote
-from ._paths import WINDOW, Pointer, locate
+from ._paths import WINDOW, Pointer, locate, rewritten
 from ._progress import Progress, reporter
 from ._sweep_data import Memory, Store, arrays_of, template
 from ._types import Precision
@@ -137,14 +135,10 @@ class Sweep:
                 raise ArgumentError(f"of {one.path!r} and {other.path!r} one is a part of the other")
         if any(pointer.keys in (("camera",), ("camera", "resolution")) for pointer in pointers):
             raise ArgumentError("a sweep cannot change the number of pixels; name what it changes, such as camera.eye")
-        written = scene.to_dict()
         cores = []
         combinations = zip(*values.values()) if paired else itertools.product(*values.values())
         for combination in combinations:
-            for pointer, value in zip(pointers, combination):
-                pointer.put(written, value)
-            text = json.dumps(written)
-            cores.append(scene.named.checked(partial(_isophote.Scene.from_json, text, str(scene.directory), scene.core)))
+            cores.append(scene.with_parts(rewritten(zip(pointers, combination))))
         sizes = {path: len(several) for path, several in values.items()}
         return cls(scene, cores, {"pair": len(cores)} if paired else sizes, pointers, names, precision)
 

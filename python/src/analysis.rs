@@ -5,6 +5,7 @@ use isophote::analysis::probe::SeenFromEye;
 use isophote::analysis::section::SectionLine;
 use isophote::analysis::surface::{SurfaceProjection, SurfaceRequest};
 use isophote::map::{Quantity, Resolution};
+use isophote::render::RenderError;
 use isophote::scene::Area;
 use isophote::shape::{Primitive, Side};
 use isophote::vector::Vector;
@@ -38,7 +39,7 @@ pub fn section<'py>(
         _ => return Err(error::value(py, "say where: one of row, column and between")),
     };
     let content = scene.content();
-    let found = job::run(py, &Progress::none(), move |_| content.prepared().section(line))?;
+    let found = job::run(py, &Progress::none(), move |watch| content.prepared().section_observed(line, Some(watch)))?;
     let found = found.map_err(|error| error::value(py, error))?;
     let length = scene.core().length();
     let columns = PyDict::new(py);
@@ -66,19 +67,22 @@ type AreaNumbers = (Extreme, Extreme, f64, f64, f64);
 pub fn areas(py: Python<'_>, scene: &Scene) -> PyResult<Vec<(String, Option<AreaNumbers>)>> {
     let content = scene.content();
     let unit = (scene.core().length(), scene.core().screen_unit());
-    job::run(py, &Progress::none(), move |_| {
+    let found: Result<_, RenderError> = job::run(py, &Progress::none(), move |watch| {
         let extreme = |extreme: &AreaExtreme| -> Extreme {
             let point = extreme.point.to_array().map(|metres| unit.0.from_metres(metres));
             let screen = extreme.screen.map(|place| place.map(|coordinate| unit.1.from_internal(coordinate)));
             (extreme.value, point, screen, extreme.seen == SeenFromEye::Seen)
         };
         let numbers = |area: &Area| {
-            let reading = content.prepared().area(area)?;
-            let AreaReading { max, min, mean, mean_error, visible } = reading;
-            Some((extreme(&max), extreme(&min), mean, mean_error, visible))
+            let reading = content.prepared().area_observed(area, watch)?;
+            let numbers = reading.map(|AreaReading { max, min, mean, mean_error, visible }| {
+                (extreme(&max), extreme(&min), mean, mean_error, visible)
+            });
+            Ok((area.name.clone(), numbers))
         };
-        content.scene().areas().iter().map(|area| (area.name.clone(), numbers(area))).collect()
-    })
+        content.scene().areas().iter().map(numbers).collect()
+    })?;
+    found.map_err(|error| error::of_render(py, &error))
 }
 
 /// Where the centre of a shape appears on the screen; `None` where the camera cannot see it.
@@ -116,10 +120,10 @@ pub fn surface<'py>(
         size: size.map(|[width, height]| Resolution { width, height }),
     };
     let content = scene.content();
-    let found = job::run(py, &Progress::none(), move |_| {
+    let found = job::run(py, &Progress::none(), move |watch| {
         let prepared = content.prepared();
         let surface = prepared.surface(&request)?;
-        let map = surface.map(&quantities)?;
+        let map = surface.map_observed(&quantities, Some(watch))?;
         let scalar = quantities.into_iter().filter(Quantity::is_scalar);
         let totals: Vec<_> = scalar.map(|quantity| (quantity.name(), surface.totals(&map, &quantity))).collect();
         Ok((map, surface.area(), totals))
@@ -146,6 +150,8 @@ pub fn grid(py: Python<'_>, scene: &Scene, name: &str, channels: Vec<String>) ->
         error::value(py, format!("the scene has no grid \"{name}\"; {there_are}"))
     })?;
     let content = scene.content();
-    let map = job::run(py, &Progress::none(), move |_| content.prepared().grid(&grid, &quantities))?;
+    let map = job::run(py, &Progress::none(), move |watch| {
+        content.prepared().grid_observed(&grid, &quantities, Some(watch))
+    })?;
     Ok(Map::new(map.map_err(|error| error::value(py, error))?))
 }

@@ -6,13 +6,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::available_parallelism;
 
-use isophote::analysis::isophotes::{isophotes, nice_levels};
+use isophote::analysis::isophotes::{isophotes_observed, nice_levels};
 use isophote::analysis::statistics::{Extreme, statistics};
 use isophote::map::{Channel, Coordinates, Map as CoreMap, Quantity, Region, Resolution, Run, Values};
 use isophote::units::Keyword;
 use isophote_export::colormap::Colormap;
 use isophote_export::csv::Rows;
-use isophote_export::png::{Depth, PictureColor, PictureOptions};
+use isophote_export::png::{Depth, Normalization, PictureColor, PictureOptions};
 use isophote_export::{ExportError, FileMetadata, Format, csv, exr, npy, npz, png, write_atomically};
 use numpy::ndarray::{ArrayView, Dimension, ShapeBuilder};
 use numpy::{
@@ -148,7 +148,7 @@ impl Map {
     fn isophotes<'py>(&self, py: Python<'py>, name: &str, levels: Vec<f64>) -> PyResult<Vec<(f64, Vec<Line<'py>>)>> {
         let quantity = self.quantity(name)?.clone();
         let map = Arc::clone(&self.map);
-        let found = job::run(py, &Progress::none(), move |_| isophotes(&map, &quantity, &levels))?;
+        let found = job::run(py, &Progress::none(), move |watch| isophotes_observed(&map, &quantity, &levels, watch))?;
         let found = found.map_err(|error| error::value(py, error))?;
         let mut all = Vec::with_capacity(found.len());
         for isophote in found {
@@ -163,13 +163,15 @@ impl Map {
     }
 
     /// Writes a file in the format given by its suffix; `name` is the channel for formats that hold only one.
-    #[pyo3(signature = (path, name, range, gamma, bits, colormap))]
+    #[pyo3(signature = (path, name, range, normalize, gamma, bits, colormap))]
+    #[expect(clippy::too_many_arguments, reason = "the options of a picture, as keywords of Python")]
     fn save(
         &self,
         py: Python<'_>,
         path: PathBuf,
         name: &str,
         range: Option<[f64; 2]>,
+        normalize: &str,
         gamma: f64,
         bits: u8,
         colormap: Option<&str>,
@@ -184,6 +186,7 @@ impl Map {
         let style = Style {
             quantity: self.quantity(name)?.clone(),
             range,
+            normalization: keyword(py, "normalization", normalize)?,
             gamma,
             depth: depth(py, bits)?,
             colormap: colormap_named(py, colormap)?,
@@ -229,6 +232,7 @@ impl Map {
         let style = Style {
             quantity: self.quantity(name)?.clone(),
             range: None,
+            normalization: Normalization::Max,
             gamma: 1.0,
             depth: Depth::Eight,
             colormap: colormap_named(py, colormap)?,
@@ -317,6 +321,7 @@ fn copy_runs<T: Copy>(runs: &[Run], values: &[T], out: &mut [T], width: usize) {
 struct Style {
     quantity: Quantity,
     range: Option<[f64; 2]>,
+    normalization: Normalization,
     gamma: f64,
     depth: Depth,
     colormap: Option<Colormap>,
@@ -328,6 +333,7 @@ impl Style {
         let name = self.colormap.map_or("", Colormap::name);
         let options = PictureOptions {
             range: self.range,
+            normalization: self.normalization,
             gamma: self.gamma,
             depth: self.depth,
             color: color.as_ref().map(|color| PictureColor { name, color }),

@@ -7,7 +7,7 @@ use isophote::camera::Extent;
 use isophote::map::Resolution;
 use isophote::prepare::PreparedScene;
 use isophote::scene::library::Starter;
-use isophote::scene::{CarriedFiles, FileResolver, Scene as CoreScene, SceneError, Syntax};
+use isophote::scene::{CarriedFiles, FileResolver, PartPlace, Scene as CoreScene, SceneError, Syntax};
 use isophote_export::FileMetadata;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -169,6 +169,34 @@ impl Scene {
         Self::new(py, self.core().with_resolution(Resolution { width, height }), Some(&self.content))
     }
 
+    /// The scene with parts written anew: the key of a table, the number of an item of a list or the name of a material, and
+    /// the part as JSON, or nothing where it is left out.
+    fn with_parts(&self, py: Python<'_>, parts: Vec<WrittenPart>) -> PyResult<Self> {
+        let scene = job::run_here(py, &Progress::none(), || {
+            let places: Vec<_> =
+                parts.iter().map(|(key, item, text)| (place(key, item.as_ref()), text.as_deref())).collect();
+            self.core().with_parts(&places)
+        })?;
+        Self::new(py, scene, Some(&self.content))
+    }
+
+    /// The items of a list whose name is this text, or its beginning up to a dot: their numbers and names, the longest first.
+    fn named(&self, py: Python<'_>, list: &str, text: &str) -> PyResult<Vec<(usize, String)>> {
+        let scene = self.core();
+        let is_meant =
+            |name: &str| text.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+        let mut found: Vec<(usize, String)> = match list {
+            "shapes" => meant(scene.shapes().iter().map(|shape| &shape.name), is_meant),
+            "lights" => meant(scene.lights().iter().map(|light| &light.name), is_meant),
+            "probes" => meant(scene.probes().iter().map(|probe| &probe.name), is_meant),
+            "areas" => meant(scene.areas().iter().map(|area| &area.name), is_meant),
+            "grids" => meant(scene.grids().iter().map(|grid| &grid.name), is_meant),
+            _ => return Err(error::internal(py, format!("a scene has no {list}"))),
+        };
+        found.sort_by_key(|(_, name)| std::cmp::Reverse(name.len()));
+        Ok(found)
+    }
+
     /// Whether the scene has colours.
     #[getter]
     fn has_color(&self) -> bool {
@@ -213,6 +241,28 @@ impl Scene {
         description.set_item("resolution", (resolution.width, resolution.height))?;
         Ok(description)
     }
+}
+
+/// The key of a table, which of its items, and what is written there.
+type WrittenPart = (String, Option<Item>, Option<String>);
+
+/// An item of a list by its number, or a material by its name.
+#[derive(FromPyObject)]
+enum Item {
+    Number(usize),
+    Name(String),
+}
+
+fn place<'p>(key: &'p str, item: Option<&'p Item>) -> PartPlace<'p> {
+    match item {
+        None => PartPlace::Top(key),
+        Some(Item::Number(number)) => PartPlace::Item(key, *number),
+        Some(Item::Name(name)) => PartPlace::Material(name),
+    }
+}
+
+fn meant<'n>(names: impl Iterator<Item = &'n String>, is_meant: impl Fn(&str) -> bool) -> Vec<(usize, String)> {
+    names.enumerate().filter(|(_, name)| is_meant(name)).map(|(number, name)| (number, name.clone())).collect()
 }
 
 /// The text of a starter scene.

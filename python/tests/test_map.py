@@ -233,6 +233,8 @@ def test_maps_are_copied_and_pickled_with_their_values(lab, lab_map):
         ("map.npz", {"bits": 16}),
         ("map.csv", {"range": (0, 1)}),
         ("map.npy", {"colormap": "viridis"}),
+        ("map.exr", {"normalize": "log"}),
+        ("map.npy", {"normalize": "max"}),
     ],
 )
 def test_an_option_without_effect_is_refused(lab_map, tmp_path, name, options):
@@ -243,7 +245,7 @@ def test_an_option_without_effect_is_refused(lab_map, tmp_path, name, options):
 
 def test_options_of_figures_and_colours_without_effect_are_refused(lab, tmp_path):
     of = iso.render(lab.set({"material.clay.diffuse": (0.1, 0.2, 0.3)}), size=(80, 60))
-    for options in ({"gamma": 2.2}, {"colormap": "viridis"}):
+    for options in ({"gamma": 2.2}, {"colormap": "viridis"}, {"normalize": "minmax"}):
         with pytest.raises(iso.ArgumentError, match="has no effect on the channel 'color'"):
             of.save(tmp_path / "map.png", **options)
     with pytest.raises(iso.ArgumentError, match="isophotes has no effect"):
@@ -271,6 +273,21 @@ def test_files_are_those_of_the_command_byte_for_byte(tmp_path, suffix):
     assert by_command.read_bytes() == by_package.read_bytes()
 
 
+@pytest.mark.parametrize("normalize", ["max", "minmax", "log"])
+def test_normalized_pictures_are_those_of_the_command_byte_for_byte(lab, lab_map, tmp_path, normalize):
+    by_command, by_package, by_file = (tmp_path / f"{name}.png" for name in ("command", "package", "file"))
+    lab_map.save(tmp_path / "map.npz")
+    (tmp_path / "lab.toml").write_text(lab.to_toml(), encoding="utf-8")
+    options = ["--normalize", normalize, "-o", str(by_command)]
+    command = [sys.executable, "-m", "isophote", "render", "--quiet", str(tmp_path / "lab.toml"), *options]
+    subprocess.run(command, check=True, capture_output=True)
+    lab_map.save(by_package, normalize=normalize)
+    assert by_command.read_bytes() == by_package.read_bytes()
+    iso.read(tmp_path / "map.npz").save(by_file, normalize=normalize)
+    assert by_file.read_bytes() == by_package.read_bytes()
+    assert iso.read(by_package).metadata["picture"].get("normalization", "max") == normalize
+
+
 def test_a_file_is_written_whole_or_not_at_all(lab_map, tmp_path):
     with pytest.raises(OSError, match="no folder"):
         lab_map.save(tmp_path / "missing" / "map.exr")
@@ -283,6 +300,8 @@ def test_a_file_is_written_whole_or_not_at_all(lab_map, tmp_path):
         {"bits": 12},
         {"colormap": "jet"},
         {"channel": "normal"},
+        {"normalize": "mean"},
+        {"normalize": "log", "range": (0, 1)},
     ):
         with pytest.raises(iso.ArgumentError):
             lab_map.save(tmp_path / "map.png", **options)

@@ -239,9 +239,10 @@ def test_many_points_are_those_of_single_ones_and_complete(lab):
     points = on_the_sphere(3000)
     many = iso.probe(lab, at=points)
     few = iso.probe(lab, at=points[:1000])
-    assert list(many) == ["brightness", "irradiance", "shape", *(name for name in few if name not in many._arrays)]
-    assert sorted(many) == sorted(few)
-    for name in few:
+    first = ["brightness", "irradiance", "shape"]
+    assert list(many) == [*first, *(name for name in few if name not in first)]
+    assert sorted(many) == sorted(few) and "position.y" in many and "position" in many and "part" in many._later
+    for name in (*few, "position", "normal"):
         np.testing.assert_allclose(many[name][:1000], few[name], rtol=1e-12, atol=1e-15)
         assert not many[name].flags.writeable
     points[:] = 0
@@ -255,6 +256,34 @@ def test_many_points_are_those_of_single_ones_and_complete(lab):
     unpickled = pickle.loads(pickle.dumps(gaps))
     np.testing.assert_array_equal(unpickled.brightness, gaps.brightness)
     assert not unpickled.brightness.flags.writeable
+
+
+@pytest.mark.parametrize("count", [3, 2000])
+def test_a_dictionary_of_values_has_columns_of_equal_length(lab, count):
+    probes = iso.probe(lab, at=on_the_sphere(count), per_light=count < 1000)
+    columns = dict(probes)
+    assert {array.shape for array in columns.values()} == {(count,)}
+    assert list(columns) == list(probes.keys()) and len(probes) == len(columns)
+    np.testing.assert_array_equal(columns["normal.z"], probes["normal"][:, 2])
+    np.testing.assert_array_equal(columns["position.x"], probes.position[:, 0])
+    assert not columns["normal.z"].flags.writeable and "normal" not in columns
+    assert probes.units["position.x"] == probes.units["position"] == "m" and probes.units["normal.y"] == "1"
+    with pytest.raises(KeyError, match="there is no 'position.w'; there are: "):
+        probes["position.w"]
+    assert "position.w" not in probes
+    if count < 1000:
+        np.testing.assert_array_equal(columns["light.lamp"], probes.lights[:, 0])
+        assert probes.units["light.lamp"] == "W/m²"
+    pandas = pytest.importorskip("pandas")
+    assert pandas.DataFrame(columns).equals(probes.to_dataframe())
+
+
+def test_a_dictionary_of_a_section_has_columns_too(lab):
+    section = iso.section(lab, row=300)
+    columns = dict(section)
+    assert {array.shape for array in columns.values()} == {(800,)}
+    np.testing.assert_array_equal(columns["screen.y"], section.screen[:, 1])
+    assert section.units["screen.x"] == "m"
 
 
 def test_values_are_a_table_of_pandas(lab):

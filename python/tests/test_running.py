@@ -48,6 +48,41 @@ def test_ctrl_c_ends_long_work(slow, work):
     assert iso.render(iso.scenes.lab()).max() > 0
 
 
+def _long_work():
+    """Calls that take minutes: many lights, and many points."""
+    lab = iso.scenes.lab()
+    lights = [iso.PointLight(position=(5, 5, -10 - number), intensity=1) for number in range(20_000)]
+    grid = iso.Grid(name="floor", center=(0, -2, 5), u=(2, 0, 0), v=(0, 0, 2), points=(1000, 1000), side="back")
+    scene = lab.replace(lights=lights, probes=(), grids=[grid], areas=[iso.Area(name="all", at=(0, 0), size=(2, 2))])
+    lines = iso.render(lab, size=(4096, 3072))
+    return {
+        "grid": lambda: iso.grid(scene),
+        "surface": lambda: iso.surface(scene, size=(2000, 1000)),
+        "section": lambda: iso.section(scene, between=((-1, 0), (1, 0)), samples=10_000_000),
+        "areas": lambda: iso.areas(scene),
+        "isophotes": lambda: lines.isophotes(np.linspace(0.01, 0.38, 1000)),
+    }
+
+
+@posix
+@pytest.mark.parametrize("work", ["grid", "surface", "section", "areas", "isophotes"])
+def test_interrupted_work_does_not_go_on_unseen(work):
+    """These calls ended at once, as they should, but what they had begun was computed to its end in the background."""
+    job = _long_work()[work]
+    timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        job()
+    timer.join()
+    deadline, idle = time.monotonic() + 10, False
+    while not idle and time.monotonic() < deadline:
+        before = time.process_time()
+        time.sleep(0.5)
+        # Far less than a busy machine leaves to the work.
+        idle = time.process_time() - before < 0.01
+    assert idle, "the processor is still at work"
+
+
 def test_other_threads_run_meanwhile(slow):
     """The interpreter's lock is released: this thread counts while another one renders."""
     done = threading.Event()

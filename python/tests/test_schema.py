@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import json
+import re
+import typing
 
 import pytest
 from conftest import REPOSITORY
 
 import isophote as iso
-from isophote import scene, shapes
+from isophote import _convert, scene, shapes
 
 SCHEMA = json.loads((REPOSITORY / "schema/scene.schema.json").read_text(encoding="utf-8"))
 FILES = REPOSITORY / "crates/isophote/tests/files"
@@ -164,3 +167,103 @@ def test_classes_take_what_is_within_the_limits_and_refuse_what_is_not():
         allowed = limit + 1e-12 if place[-1] == "exclusiveMinimum" else limit
         assert not all(is_refused(one, way, allowed) for one, way in where), f"{place} at {limit}"
         assert all(is_refused(one, way, just_beyond(place[-1], limit)) for one, way in where), f"{place} beyond {limit}"
+
+
+NUMBERS = {
+    getattr(_convert, name)
+    for name in ("Amount", "Matrix", "Number", "Pair", "Size", "Triples", "Vector", "Vectors", "Whole")
+}
+LENGTH, COORDINATES = "1e-12 to 1e15 m", "within ±1e15 m"
+PARTS = sorted({kind for kinds in CLASSES.values() for kind in kinds}, key=lambda kind: kind.__name__)
+PUBLIC = [getattr(iso, name) for name in iso.__all__ if inspect.isclass(getattr(iso, name))]
+
+
+def listed(kind):
+    """What the docstring of a class says of each of its fields."""
+    said = {}
+    for names, text in re.findall(r"^- ((?:``\w+``(?:, )?)+): (.*(?:\n  .*)*)", inspect.getdoc(kind), re.M):
+        said.update(dict.fromkeys(re.findall(r"\w+", names), " ".join(text.split())))
+    return said
+
+
+def said_of(kind, name):
+    return next(listed(base)[name] for base in kind.__mro__ if name in inspect.get_annotations(base))
+
+
+@pytest.mark.parametrize("kind", [kind for kind in PUBLIC if dataclasses.is_dataclass(kind)], ids=lambda kind: kind.__name__)
+def test_docstrings_list_the_fields_of_their_class(kind):
+    own = [field.name for field in dataclasses.fields(kind) if field.name in inspect.get_annotations(kind)]
+    assert sorted(listed(kind)) == sorted(own)
+
+
+def test_docstrings_give_every_number_a_range():
+    without = []
+    for kind in PARTS:
+        hints = typing.get_type_hints(kind, include_extras=True)
+        for field in dataclasses.fields(kind):
+            is_number = any(one in NUMBERS for one in (hints[field.name], *typing.get_args(hints[field.name])))
+            if is_number and not re.search(
+                r"\d to |above 0|within ±|any length but 0|any finite|orthonormal", said_of(kind, field.name)
+            ):
+                without.append(f"{kind.__name__}.{field.name}: {said_of(kind, field.name)}")
+    assert without == []
+
+
+def bounds_of(rule):
+    """All limits of a value and of what is in it."""
+    if "$ref" in rule:
+        return
+    yield from ((name, rule[name]) for name in ("minimum", "exclusiveMinimum", "maximum") if name in rule)
+    for inner in (*rule.get("anyOf", []), *([rule["items"]] if "items" in rule else [])):
+        yield from bounds_of(inner)
+
+
+def numbers_in(text):
+    plain = re.sub(r"(?<=\d),(?=\d{3})", "", text.replace("−", "-"))
+    return {float(number) for number in re.findall(r"-?\d+(?:\.\d+)?(?:e-?\d+)?", plain)}
+
+
+def test_ranges_in_docstrings_are_those_of_the_schema():
+    wrong, compared = [], 0
+    for path, kinds in CLASSES.items():
+        properties = table(path)["properties"]
+        for kind in kinds:
+            for field in dataclasses.fields(kind):
+                said = said_of(kind, field.name)
+                for name, limit in set(bounds_of(properties[kind.key_of(field.name)])):
+                    compared += 1
+                    is_above_0 = name == "exclusiveMinimum" and (LENGTH in said or "above 0" in said)
+                    if limit not in numbers_in(said) and not is_above_0:
+                        wrong.append(f"{kind.__name__}.{field.name} has no {name} {limit}: {said}")
+    assert wrong == [] and compared > 70
+
+
+@pytest.mark.filterwarnings("ignore::isophote.SceneWarning")
+def test_lengths_and_coordinates_in_docstrings_have_the_limits_of_the_core():
+    """The schema has none for them: they depend on the scene's unit, here the metre."""
+    tried = set()
+    for one in written():
+        for path, kinds in CLASSES.items():
+            table_name, *inner = path.split("/")
+            held = one.get(table_name, {})
+            items = (
+                enumerate(held) if isinstance(held, list) else held.items() if table_name == "material" else [(None, held)]
+            )
+            for number, item in items:
+                way = (table_name, *(() if number is None else (number,)), *inner)
+                for key in inner:
+                    item = item.get(key, {})
+                for kind in kinds:
+                    for field in dataclasses.fields(kind):
+                        key, said = kind.key_of(field.name), said_of(kind, field.name)
+                        if key not in item or (LENGTH not in said and COORDINATES not in said):
+                            continue
+                        value = item[key]
+                        place = (*way, key, 0) if isinstance(value, list) else (*way, key)
+                        if isinstance(value, list) and isinstance(value[0], list):
+                            continue
+                        assert is_refused(one, place, 1.001e15), f"{kind.__name__}.{field.name}"
+                        if LENGTH in said:
+                            assert is_refused(one, place, 0.999e-12), f"{kind.__name__}.{field.name}"
+                        tried.add((kind, field.name))
+    assert len(tried) > 35

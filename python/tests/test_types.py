@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 import pytest
 from conftest import REPOSITORY
@@ -71,14 +71,44 @@ def checked(folder: Path) -> str:
     return subprocess.run(command, capture_output=True, text=True, check=False, cwd=REPOSITORY / "python").stdout
 
 
-def test_the_examples_of_the_documentation_are_well_typed(tmp_path):
+def checked_by_pyright(folder: Path) -> list[dict[str, Any]]:
+    """What Pyright says of the files of a folder."""
+    pytest.importorskip("basedpyright")
+    config = {"include": ["."], "extraPaths": [str(REPOSITORY / "python")], "typeCheckingMode": "standard"}
+    (folder / "pyrightconfig.json").write_text(json.dumps(config))
+    command = [sys.executable, "-m", "basedpyright", "-p", str(folder), "--pythonpath", sys.executable, "--outputjson"]
+    said = json.loads(subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder).stdout)
+    assert said["summary"]["filesAnalyzed"] == len(list(folder.glob("*.py")))
+    return said["generalDiagnostics"]
+
+
+def write_examples(folder: Path) -> None:
     for page in PAGES:
         name = "_".join(page.relative_to(REPOSITORY).with_suffix("").parts)
-        (tmp_path / f"{name}.py").write_text(code(page), encoding="utf-8")
-    # Two examples are of errors, which a type checker finds as well; one type is matplotlib's own.
+        (folder / f"{name}.py").write_text(code(page), encoding="utf-8")
+
+
+def test_the_examples_of_the_documentation_are_well_typed(tmp_path):
+    write_examples(tmp_path)
+    # Two examples are of errors, which a type checker finds as well.
     found = [line for line in checked(tmp_path).splitlines() if ": error:" in line]
-    expected = ('Argument "radius" to "Sphere"', 'Argument "center" to "Sphere"', '"SubFigure" of "Figure | SubFigure"')
+    expected = ('Argument "radius" to "Sphere"', 'Argument "center" to "Sphere"')
     assert [line for line in found if not any(one in line for one in expected)] == []
+
+
+def test_pyright_agrees(tmp_path):
+    write_examples(tmp_path)
+    (tmp_path / "more.py").write_text(MORE)
+    said = checked_by_pyright(tmp_path)
+    errors = [(Path(one["file"]).name, one["range"]["start"]["line"] + 1) for one in said if one["severity"] == "error"]
+    of_more = [line for name, line in errors if name == "more.py"]
+    assert of_more == [19, 20, 22]
+    others = [one["message"] for one in said if one["severity"] == "error" and Path(one["file"]).name != "more.py"]
+    expected = ('to parameter "radius"', 'to parameter "center"')
+    assert [message for message in others if not any(one in message for one in expected)] == []
+    revealed = [one["message"] for one in said if one["severity"] == "information"]
+    for kind in ("float64", "_32Bit", "bool", "Literal['m'"):
+        assert any(kind in message for message in revealed), (kind, revealed)
 
 
 def test_types_are_as_precise_as_the_values(tmp_path):

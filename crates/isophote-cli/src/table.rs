@@ -12,20 +12,39 @@ pub enum Align {
 /// Lays out rows under a header; every row has one cell per column.
 pub fn table(columns: &[(&str, Align)], rows: &[Vec<String>]) -> String {
     let header: Vec<String> = columns.iter().map(|(title, _)| (*title).to_owned()).collect();
-    let width = |index: usize| rows.iter().chain([&header]).map(|row| row[index].width()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..columns.len()).map(width).collect();
+    let mut widths = vec![0; columns.len()];
+    for row in std::iter::once(&header).chain(rows) {
+        for (widest, cell) in widths.iter_mut().zip(row) {
+            *widest = width(cell).max(*widest);
+        }
+    }
     let mut text = String::new();
     for row in std::iter::once(&header).chain(rows) {
-        let mut line = String::from(" ");
-        for ((cell, width), (_, align)) in row.iter().zip(&widths).zip(columns) {
-            let padding = " ".repeat(width - cell.width());
+        let start = text.len();
+        text.push(' ');
+        for ((cell, widest), (_, align)) in row.iter().zip(&widths).zip(columns) {
+            let padding = std::iter::repeat_n(' ', widest - width(cell));
+            text.push(' ');
             match align {
-                Align::Left => line.extend([" ", cell, &padding, " "]),
-                Align::Right => line.extend([" ", &padding, cell, " "]),
+                Align::Left => {
+                    text.push_str(cell);
+                    text.extend(padding);
+                }
+                Align::Right => {
+                    text.extend(padding);
+                    text.push_str(cell);
+                }
             }
+            text.push(' ');
         }
-        text.push_str(line.trim_end());
+        text.truncate(start + text[start..].trim_end().len());
         text.push('\n');
     }
     text
+}
+
+/// How many columns of a terminal a text takes.
+fn width(text: &str) -> usize {
+    let is_plain = text.bytes().all(|byte| matches!(byte, b' '..=b'~'));
+    if is_plain { text.len() } else { text.width() }
 }

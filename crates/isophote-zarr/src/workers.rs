@@ -3,6 +3,7 @@
 use std::num::NonZeroUsize;
 
 use isophote::prepare::PreparedScene;
+use isophote::scene::PART_BYTES;
 
 use crate::error::StoreError;
 use crate::plan::Plan;
@@ -51,8 +52,6 @@ impl SceneMemory {
     /// What a prepared scene takes. A scene with colours has its lights and materials four times: of each component, and as
     /// luminances.
     pub fn of(scene: &PreparedScene) -> Self {
-        /// A sphere or a triangle with its part of the tree, as measured.
-        const PART: u64 = 160;
         /// A shape or a light with its source, as measured.
         const ITEM: u64 = 1024;
         let description = scene.scene();
@@ -62,7 +61,7 @@ impl SceneMemory {
             description.files().iter().map(|file| file.content.as_ref().map_or(0, String::len) as u64).sum();
         let components = if description.color().is_some() { 3 } else { 1 };
         Self {
-            read: PART * parts + ITEM * shapes + ITEM * lights * components,
+            read: PART_BYTES * parts + ITEM * shapes + ITEM * lights * components,
             // The text in the description, once more in the preview's, and in what they are compared with.
             written: ITEM * (lights + shapes) + 4 * files,
             // The renderer caches a million placed lights plus those of one more shape before it clears the cache.

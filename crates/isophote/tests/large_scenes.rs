@@ -151,3 +151,36 @@ fn very_many_mistakes_on_one_line_are_counted() {
     let error = Scene::from_text("wrong.toml", &text, Syntax::Toml).expect_err("it is not TOML");
     assert_eq!(error.problems.len(), 1, "what follows is a consequence");
 }
+
+/// There is one at every second byte; the parser kept them all, at 300 bytes each.
+#[test]
+fn only_the_first_of_very_many_syntax_problems_is_kept() {
+    let wrong_lines = "=\n".repeat(2_000_000);
+    let duplicates = "a = 1\n".repeat(700_000);
+    let in_json = format!("{{{}\"a\": 1}}", "\"a\": 1,".repeat(500_000));
+    for (text, syntax, line, word) in [
+        (format!("version = 1\n{wrong_lines}"), Syntax::Toml, 2, "not valid TOML"),
+        (format!("version = 1\n{duplicates}"), Syntax::Toml, 3, "duplicate key"),
+        (in_json, Syntax::Json, 1, "stands twice"),
+    ] {
+        let error = Scene::from_text("wrong", &text, syntax).expect_err("it is wrong");
+        let [problem] = error.problems.as_slice() else { panic!("{} problems", error.problems.len()) };
+        assert!(problem.message.to_string().contains(word), "{error}");
+        assert!(
+            problem.help.as_ref().is_some_and(|help| help.to_string().contains("mend it and check again")),
+            "{error}"
+        );
+        assert_eq!(problem.place.as_ref().map(|place| place.line), Some(line));
+    }
+}
+
+/// A text of ordinary length is read on after a mistake, and one without mistakes always.
+#[test]
+fn all_mistakes_are_found_beside_a_violation_of_the_syntax() {
+    let text = format!("{HEAD}diffuse = 0.7\nspecular = -1\n");
+    let error = read(&text).expect_err("it has two mistakes");
+    assert_eq!(error.problems.len(), 2, "{error}");
+    let text =
+        format!("{HEAD}# {}\n[[sphere]]\ncenter = [0, 0, 5]\nradius = 1\nmaterial = \"clay\"\n", "=".repeat(1 << 20));
+    read(&text).unwrap_or_else(|error| panic!("{error}"));
+}

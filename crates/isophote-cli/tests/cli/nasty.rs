@@ -106,3 +106,15 @@ fn scenes_at_the_limits_of_their_numbers_give_finite_values() {
         assert!(folder.csv("map.csv").rows.iter().flatten().all(|number| number.is_finite()), "{what}");
     }
 }
+
+/// It took 1.2 GB to keep a problem for each line.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_text_of_mistakes_takes_little_memory() {
+    let folder = Folder::with("scene.toml", "=\n".repeat(2_000_000));
+    let script = format!("ulimit -v 786432; exec '{}' check scene.toml", crate::common::PROGRAM);
+    let output = std::process::Command::new("sh").args(["-c", &script]).current_dir(folder.path("")).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{told}");
+    assert!(told.contains("not valid TOML") && told.contains("1 problem in scene.toml"), "{told}");
+}

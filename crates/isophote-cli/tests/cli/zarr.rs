@@ -87,6 +87,30 @@ fn what_makes_no_sense_together_is_refused_before_anything_is_written() {
     assert!(noted.stderr.starts_with("--gamma has no effect: it is not for .zarr stores\n--bits"), "{}", noted.stderr);
 }
 
+/// The first file is refused before it is read, the second one before its spheres are laid out with their tree.
+#[cfg(target_os = "linux")]
+#[test]
+fn files_that_exceed_the_memory_limit_are_refused_before_they_fill_it() {
+    let folder = Folder::with("cloud.toml", format!("{LAB}\n[[spheres]]\nfile = \"cloud.npy\"\nmaterial = \"clay\"\n"));
+    // Of this length, but without content on the disk.
+    fs::File::create(folder.path("cloud.npy")).unwrap().set_len(64 << 30).unwrap();
+    let huge = folder.run("render cloud.toml -o map.zarr --memory 1G");
+    huge.failed(2, &["--memory: a limit of 1024 MiB of memory is too small: reading ‘cloud.npy’ needs at least 655"]);
+    let count = 400_000;
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({count}, 4), }}");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend(u16::try_from(header.len()).unwrap().to_le_bytes());
+    bytes.extend(header.as_bytes());
+    for number in 0..count {
+        bytes.extend([f64::from(number), 50.0, 50.0, 0.1].iter().flat_map(|number| number.to_le_bytes()));
+    }
+    folder.write("cloud.npy", &bytes);
+    let many = folder.run("render cloud.toml -o map.zarr --memory 64M");
+    many.failed(2, &["--memory: a limit of 64 MiB of memory is too small: reading ‘cloud.npy’ needs at least"]);
+    assert_eq!(folder.names(), ["cloud.npy", "cloud.toml"]);
+    folder.ok("render cloud.toml --size 40x30 -o map.zarr --memory 1G");
+}
+
 #[test]
 fn a_store_that_exists_is_kept_and_the_choices_are_named() {
     let folder = Folder::with("lab.toml", LAB);

@@ -5,9 +5,12 @@
 //! followed to the extreme by a search whose step is halved wherever no neighbour is better, so that an extreme between the
 //! points, at the centre or on the outline is found to a billionth of the area's size.
 
+use std::cell::Cell;
+
 use super::probe::SeenFromEye;
 use crate::camera::ScreenPosition;
 use crate::prepare::PreparedScene;
+use crate::render::{Observer, RenderError};
 use crate::scene::{Area, AreaOutline, AreaPlace};
 use crate::shade::Shading;
 use crate::shape::Located;
@@ -59,19 +62,17 @@ impl PreparedScene {
     /// The extremes and the mean of the brightness over an area; `None` if it shows no surface.
     #[must_use]
     pub fn area(&self, area: &Area) -> Option<AreaReading> {
-        let over = Over { scene: self, area };
-        let mut points = LEAST;
-        let mut pass = over.pass(points);
-        loop {
-            let finer = over.pass(2 * points);
-            let change = (finer.mean()? - pass.mean().unwrap_or(f64::INFINITY)).abs();
-            (points, pass) = (2 * points, finer);
-            if change <= SETTLED * pass.mean()?.abs() || points == MOST {
-                let visible = over.visible(&pass);
-                let (max, min) = (over.extreme(&pass, points, 1.0)?, over.extreme(&pass, points, -1.0)?);
-                return Some(AreaReading { max, min, mean: pass.mean()?, mean_error: change, visible });
-            }
-        }
+        Over { scene: self, area, observer: None, is_stopped: Cell::new(false) }.reading()
+    }
+
+    /// As [`area`](Self::area), with an observer, which hears of points and may end the work.
+    ///
+    /// # Errors
+    /// [`RenderError::Interrupted`] at the observer's wish.
+    pub fn area_observed(&self, area: &Area, observer: &dyn Observer) -> Result<Option<AreaReading>, RenderError> {
+        let over = Over { scene: self, area, observer: Some(observer), is_stopped: Cell::new(false) };
+        let reading = over.reading();
+        if over.is_stopped.get() { Err(RenderError::Interrupted) } else { Ok(reading) }
     }
 
     /// The shading of a point on a surface; in a scene with colours, its luminances (3.10).
@@ -108,9 +109,27 @@ impl Pass {
 struct Over<'a> {
     scene: &'a PreparedScene,
     area: &'a Area,
+    observer: Option<&'a dyn Observer>,
+    /// Whether the observer has asked to stop: there are no values then, and the reading is of no use.
+    is_stopped: Cell<bool>,
 }
 
 impl Over<'_> {
+    fn reading(&self) -> Option<AreaReading> {
+        let mut points = LEAST;
+        let mut pass = self.pass(points);
+        loop {
+            let finer = self.pass(2 * points);
+            let change = (finer.mean()? - pass.mean().unwrap_or(f64::INFINITY)).abs();
+            (points, pass) = (2 * points, finer);
+            if change <= SETTLED * pass.mean()?.abs() || points == MOST {
+                let visible = self.visible(&pass);
+                let (max, min) = (self.extreme(&pass, points, 1.0)?, self.extreme(&pass, points, -1.0)?);
+                return Some(AreaReading { max, min, mean: pass.mean()?, mean_error: change, visible });
+            }
+        }
+    }
+
     fn pass(&self, points: usize) -> Pass {
         let nodes = nodes(&self.area.outline, points);
         Pass { nodes: nodes.into_iter().map(|(place, weight)| (place, weight, self.value(place))).collect() }
@@ -118,6 +137,10 @@ impl Over<'_> {
 
     /// B at a place within the area.
     fn value(&self, place: Place) -> Option<f64> {
+        if self.is_stopped.get() || self.observer.is_some_and(|observer| observer.advance(1).is_break()) {
+            self.is_stopped.set(true);
+            return None;
+        }
         let shading = match self.area.place {
             AreaPlace::Surface { .. } => self.scene.shade_surface(&self.located(place)?),
             AreaPlace::Screen(_) => {

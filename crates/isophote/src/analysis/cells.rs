@@ -3,10 +3,10 @@
 use crate::lanes::Precision;
 use crate::map::{Map, Pixel, Quantity, Region, Resolution, Run, Window};
 use crate::prepare::{Hit, PreparedScene};
-use crate::render::RenderError;
 use crate::render::band::{self, Band, Sheet};
 use crate::render::hits::HitBlock;
 use crate::render::layers;
+use crate::render::{Observer, RenderError};
 use crate::shape::SurfacePoint;
 
 /// What is at the centre of a cell.
@@ -30,11 +30,12 @@ pub(super) struct Layout {
 /// Builds the map from the cells. Cells without a value are left out of the mask.
 ///
 /// # Errors
-/// A light that the scene does not have.
+/// A light that the scene does not have, or the observer's wish to end.
 pub(super) fn map(
     scene: &PreparedScene,
     layout: Layout,
     quantities: &[Quantity],
+    observer: Option<&dyn Observer>,
     cell: impl Fn(Pixel) -> Option<Cell> + Sync + Send,
 ) -> Result<Map, RenderError> {
     let Layout { size, window, renderer, shape } = layout;
@@ -53,9 +54,11 @@ pub(super) fn map(
             }
             band.see(pixel, 1, shape, &mut runs);
             if hits.is_full() {
+                band::advance(observer, hits.len() as u64)?;
                 hits.put(&mut band)?;
             }
         }
+        band::advance(observer, hits.len() as u64)?;
         hits.put(&mut band)?;
         Ok(runs)
     };

@@ -7,6 +7,7 @@ use std::collections::{HashMap, HashSet};
 use self::contour_grid::ContourGrid;
 pub use crate::analysis::levels::nice_levels;
 use crate::map::{Map, Quantity, Scalars};
+use crate::render::Observer;
 
 /// The contour of one level.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +61,9 @@ pub enum IsophoteError {
         /// Its value.
         level: f64,
     },
+    /// The observer asked to stop.
+    #[error("interrupted")]
+    Interrupted,
 }
 
 /// The contours of a scalar channel, one [`Isophote`] for each level and in the order of the levels.
@@ -73,11 +77,39 @@ pub enum IsophoteError {
 /// # Errors
 /// [`IsophoteError`]: the channel is missing or not scalar, or a level is not finite.
 pub fn isophotes(map: &Map, quantity: &Quantity, levels: &[f64]) -> Result<Vec<Isophote>, IsophoteError> {
+    contours(map, quantity, levels, None)
+}
+
+/// As [`isophotes`], with an observer, which hears of levels and may end the work.
+///
+/// # Errors
+/// Those of [`isophotes`], or the observer's wish to end.
+pub fn isophotes_observed(
+    map: &Map,
+    quantity: &Quantity,
+    levels: &[f64],
+    observer: &dyn Observer,
+) -> Result<Vec<Isophote>, IsophoteError> {
+    contours(map, quantity, levels, Some(observer))
+}
+
+fn contours(
+    map: &Map,
+    quantity: &Quantity,
+    levels: &[f64],
+    observer: Option<&dyn Observer>,
+) -> Result<Vec<Isophote>, IsophoteError> {
     if let Some((index, &level)) = levels.iter().enumerate().find(|(_, level)| !level.is_finite()) {
         return Err(IsophoteError::LevelNotFinite { index, level });
     }
     let grid = ContourGrid::new(map, scalar(map, quantity)?);
-    Ok(levels.iter().map(|&level| Isophote { level, lines: lines(&grid, level) }).collect())
+    let contour = |&level: &f64| {
+        if observer.is_some_and(|observer| observer.advance(1).is_break()) {
+            return Err(IsophoteError::Interrupted);
+        }
+        Ok(Isophote { level, lines: lines(&grid, level) })
+    };
+    levels.iter().map(contour).collect()
 }
 
 fn scalar<'map>(map: &'map Map, quantity: &Quantity) -> Result<Scalars<'map>, IsophoteError> {

@@ -4,7 +4,7 @@ use crate::analysis::cells::{self, Cell, Layout};
 use crate::map::{Coordinates, Map, Pixel, Quantity, Resolution, Window};
 use crate::message;
 use crate::prepare::PreparedScene;
-use crate::render::RenderError;
+use crate::render::{Observer, RenderError};
 use crate::scene::Grid;
 use crate::shape::SurfacePoint;
 use crate::text::Message;
@@ -33,6 +33,8 @@ pub enum GridError {
         /// The requested name.
         name: String,
     },
+    /// The observer asked to stop.
+    Interrupted,
 }
 
 impl GridError {
@@ -52,6 +54,7 @@ impl GridError {
                 name
             ),
             Self::NoSuchLight { name } => message!("the scene has no light named \"{name}\"", name),
+            Self::Interrupted => message!("interrupted"),
         }
     }
 }
@@ -63,6 +66,19 @@ impl PreparedScene {
     /// # Errors
     /// A light at one of the points, or a channel that grids do not have.
     pub fn grid(&self, grid: &Grid, quantities: &[Quantity]) -> Result<Map, GridError> {
+        self.grid_observed(grid, quantities, None)
+    }
+
+    /// As [`grid`](Self::grid), with an observer, which hears of points and may end the work.
+    ///
+    /// # Errors
+    /// Those of [`grid`](Self::grid), or the observer's wish to end.
+    pub fn grid_observed(
+        &self,
+        grid: &Grid,
+        quantities: &[Quantity],
+        observer: Option<&dyn Observer>,
+    ) -> Result<Map, GridError> {
         let is_known = |quantity: &Quantity| {
             let is_place = matches!(quantity, Quantity::Position | Quantity::Normal);
             is_place || matches!(quantity, Quantity::Irradiance | Quantity::Ambient | Quantity::Light(_))
@@ -83,8 +99,9 @@ impl PreparedScene {
             renderer: format!("grid {}, double", grid.name),
             shape: 0,
         };
-        let map = cells::map(self, layout, quantities, |cell| Some(Cell::Free(grid.surface_point(cell))));
+        let map = cells::map(self, layout, quantities, observer, |cell| Some(Cell::Free(grid.surface_point(cell))));
         map.map_err(|error| match error {
+            RenderError::Interrupted => GridError::Interrupted,
             RenderError::NoSuchLight { name } => GridError::NoSuchLight { name },
             error => unreachable!("a grid is a map of known size: {error}"),
         })

@@ -4,6 +4,7 @@ use crate::camera::ScreenPosition;
 use crate::map::Pixel;
 use crate::message;
 use crate::prepare::{Hit, PreparedScene};
+use crate::render::Observer;
 use crate::shade::Shading;
 use crate::text::Message;
 
@@ -54,6 +55,8 @@ pub enum SectionError {
     },
     /// A line with fewer than two points.
     TooFewSamples,
+    /// The observer asked to stop.
+    Interrupted,
 }
 
 impl SectionError {
@@ -68,6 +71,7 @@ impl SectionError {
                 message!("there is no column {column}: the image has columns 0 to {last}", column, last)
             }
             Self::TooFewSamples => message!("a section needs at least 2 samples"),
+            Self::Interrupted => message!("interrupted"),
         }
     }
 }
@@ -78,12 +82,27 @@ impl PreparedScene {
     /// # Errors
     /// A line that is not in the image.
     pub fn section(&self, line: SectionLine) -> Result<Vec<Sample>, SectionError> {
+        self.section_observed(line, None)
+    }
+
+    /// As [`section`](Self::section), with an observer, which hears of samples and may end the work.
+    ///
+    /// # Errors
+    /// Those of [`section`](Self::section), or the observer's wish to end.
+    pub fn section_observed(
+        &self,
+        line: SectionLine,
+        observer: Option<&dyn Observer>,
+    ) -> Result<Vec<Sample>, SectionError> {
         let positions = self.positions(line)?;
         let sample = |position| {
+            if observer.is_some_and(|observer| observer.advance(1).is_break()) {
+                return Err(SectionError::Interrupted);
+            }
             let seen = self.trace(position).map(|hit| (hit, self.shade_colored(&hit, position)));
-            Sample { screen: self.frame().point_on_screen(position), seen }
+            Ok(Sample { screen: self.frame().point_on_screen(position), seen })
         };
-        Ok(positions.into_iter().map(sample).collect())
+        positions.into_iter().map(sample).collect()
     }
 
     /// The shading of a hit; for a scene with colours, its luminance (3.10).

@@ -29,7 +29,7 @@ pub use spheres::SphereList;
 /// # Errors
 /// [`ImportError`]: another suffix; a file that cannot be read; everything that [`mesh_from_bytes`] rejects.
 pub fn read_mesh(files: &dyn Resolver, name: &str) -> Result<TriangleMesh, ImportError> {
-    read(files, name, MeshFormat::from_suffix, mesh_from_bytes)
+    read(files, name, MeshFormat::from_suffix, mesh_from_bytes, |mesh| mesh.triangles.len())
 }
 
 /// The spheres of a file whose suffix is `.csv`, `.npy` or `.ply`.
@@ -37,7 +37,7 @@ pub fn read_mesh(files: &dyn Resolver, name: &str) -> Result<TriangleMesh, Impor
 /// # Errors
 /// [`ImportError`]: another suffix; a file that cannot be read; everything that [`spheres_from_bytes`] rejects.
 pub fn read_spheres(files: &dyn Resolver, name: &str) -> Result<SphereList, ImportError> {
-    read(files, name, SpheresFormat::from_suffix, spheres_from_bytes)
+    read(files, name, SpheresFormat::from_suffix, spheres_from_bytes, |spheres| spheres.radii.len())
 }
 
 fn read<F, T>(
@@ -45,14 +45,22 @@ fn read<F, T>(
     name: &str,
     format: impl FnOnce(&Path) -> Result<F, ImportError>,
     content: impl FnOnce(&[u8], F) -> Result<T, Fault>,
+    parts: impl FnOnce(&T) -> usize,
 ) -> Result<T, ImportError> {
     let file = files.full_name(name);
     let format = format(&file)?;
-    match files.read(name) {
-        Ok(bytes) => content(&bytes, format).map_err(|fault| ImportError::Content { file, fault: fault.into() }),
-        Err(failure) => Err(ImportError::Unread { file, failure }),
-    }
+    let unread = |failure| ImportError::Unread { file: file.clone(), failure };
+    files.admit(files.size(name).unwrap_or(0)).map_err(unread)?;
+    let bytes = files.read(name).map_err(unread)?;
+    let content =
+        content(&bytes, format).map_err(|fault| ImportError::Content { file: file.clone(), fault: fault.into() })?;
+    drop(bytes);
+    files.admit(PART_BYTES * parts(&content) as u64).map_err(unread)?;
+    Ok(content)
 }
+
+/// The memory in bytes that a triangle or a sphere of a file takes in a scene, with its part of the tree, as measured.
+pub const PART_BYTES: u64 = 160;
 
 /// The triangles in the contents of a file.
 ///

@@ -20,6 +20,19 @@ pub trait Resolver {
     /// The reason why there are none.
     fn read(&self, name: &str) -> Result<Cow<'_, [u8]>, ReadFailure>;
 
+    /// The length of a file in bytes, where it is known before the file is read.
+    fn size(&self, _name: &str) -> Option<u64> {
+        None
+    }
+
+    /// Is asked before so many bytes of memory are taken for what was read: a resolver may have a limit.
+    ///
+    /// # Errors
+    /// [`ReadFailure::Memory`] if that is too much.
+    fn admit(&self, _bytes: u64) -> Result<(), ReadFailure> {
+        Ok(())
+    }
+
     /// The base of relative names. Files read from one origin are not read again from an equal one.
     fn origin(&self) -> Origin;
 
@@ -42,6 +55,13 @@ pub enum ReadFailure {
     Unknown(Vec<String>),
     /// No files can be read at all.
     NoFiles,
+    /// It takes more memory than there is leave for.
+    Memory {
+        /// The memory in bytes that would be in use.
+        needed: u64,
+        /// The most that may be.
+        limit: u64,
+    },
     /// It is not where an output says that it was.
     Gone {
         /// Its length and hash at that time.
@@ -79,6 +99,12 @@ impl ReadFailure {
                 is
             ),
             Self::NoFiles => message!("the scene names the file ‘{file}’; none can be read here", file),
+            Self::Memory { needed, limit } => message!(
+                "a limit of {limit} MiB of memory is too small: reading ‘{file}’ needs at least {needed} MiB",
+                limit = limit >> 20,
+                file,
+                needed = needed.div_ceil(1 << 20)
+            ),
         }
     }
 
@@ -95,6 +121,7 @@ impl ReadFailure {
                 "put that file back; or write the scene beside other files: isophote show OUTPUT --scene > scene.toml"
             ),
             Self::NoFiles => message!("allowed: shapes whose numbers stand in the scene itself"),
+            Self::Memory { .. } => message!("raise the limit, or take a smaller file"),
         }
     }
 }

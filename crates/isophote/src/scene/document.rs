@@ -2,8 +2,10 @@
 
 use crate::message;
 use crate::text::{self, Message, ToValue};
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
+use std::sync::Arc;
 
 use jsonc_parser::common::Ranged;
 use toml::Spanned;
@@ -13,25 +15,27 @@ use super::error::{Problem, ProblemKind};
 
 /// A scene file's text and its tree.
 #[derive(Debug)]
-pub struct Document {
+pub struct Document<'t> {
     /// The root table.
-    pub root: Node,
+    pub root: Node<'t>,
     /// Violations of the file's syntax; the tree holds what could be read in spite of them.
     pub syntax_problems: Vec<Problem>,
+    /// Whether nothing was kept because of the first of them, in a text that is too long for looking at what follows.
+    pub ends_at_problem: bool,
 }
 
 /// A value and its place in the text, in bytes.
 #[derive(Debug)]
-pub struct Node {
+pub struct Node<'t> {
     /// The value.
-    pub value: Value,
+    pub value: Value<'t>,
     /// Its place in the text.
     pub span: Range<usize>,
 }
 
 /// A value in either language.
 #[derive(Debug)]
-pub enum Value {
+pub enum Value<'t> {
     /// `true` or `false`.
     Boolean(bool),
     /// A number without a fraction or an exponent.
@@ -39,16 +43,16 @@ pub enum Value {
     /// Any other number; TOML has NaN and infinities too.
     Float(f64),
     /// A string.
-    Text(String),
+    Text(Cow<'t, str>),
     /// `[…]`
-    Array(Vec<Node>),
+    Array(Vec<Node<'t>>),
     /// A table, or an object.
-    Table(Vec<Entry>),
+    Table(Vec<Entry<'t>>),
     /// A date, a time or null: a scene needs none of these.
     Other(Message),
 }
 
-impl Value {
+impl Value<'_> {
     /// Its kind, for error messages.
     #[must_use]
     pub fn describe(&self) -> Message {
@@ -66,13 +70,13 @@ impl Value {
 
 /// A key and its value.
 #[derive(Debug)]
-pub struct Entry {
+pub struct Entry<'t> {
     /// The key.
-    pub key: String,
+    pub key: Cow<'t, str>,
     /// The key's place in the text.
     pub key_span: Range<usize>,
     /// Its value.
-    pub node: Node,
+    pub node: Node<'t>,
 }
 
 /// The language of a scene file.
@@ -84,15 +88,15 @@ pub enum Syntax {
     Json,
 }
 
-impl Document {
+impl<'t> Document<'t> {
     /// Parses as much of the text as its syntax allows.
     #[must_use]
-    pub fn parse(text: &str, syntax: Syntax) -> Self {
+    pub fn parse(text: &'t str, syntax: Syntax) -> Self {
         if let Some(span) = too_deep(text, syntax) {
             let message = message!("brackets are nested more than {deepest} deep; a scene needs 4", deepest = DEEPEST);
             let problem = Problem::at_span(ProblemKind::Syntax, Some(span), message);
             let root = Node { value: Value::Table(Vec::new()), span: 0..0 };
-            return Self { root, syntax_problems: vec![problem] };
+            return Self { root, syntax_problems: vec![problem], ends_at_problem: false };
         }
         match syntax {
             Syntax::Toml => parse_toml(text),
@@ -103,13 +107,13 @@ impl Document {
     /// The place of the item at a path, or of the nearest enclosing item that is in the text.
     #[must_use]
     pub fn span_of(&self, path: &Path) -> Option<Range<usize>> {
-        let mut node = &self.root;
+        let mut node: &Node<'_> = &self.root;
         // The root itself is represented by its first key.
         let mut span = match &node.value {
             Value::Table(entries) => entries.first().map(|entry| entry.key_span.clone()),
             _ => None,
         };
-        for step in &path.0 {
+        for step in path.steps() {
             node = match (step, &node.value) {
                 (Step::Key(key), Value::Table(entries)) => match entries.iter().find(|entry| entry.key == *key) {
                     Some(entry) => {
@@ -136,15 +140,23 @@ impl Document {
     }
 }
 
-/// The path from the root of a scene file to an item in it: `sphere[0].center[2]`.
+/// The path from the root of a scene file to an item in it: `sphere[0].center[2]`. Paths that begin alike share their
+/// beginning: checking a scene makes several for each of its numbers.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Path(Vec<Step>);
+pub struct Path(Option<Arc<Link>>);
+
+/// The last step of a path, and the path to there.
+#[derive(Debug, PartialEq, Eq, Hash)]
+struct Link {
+    before: Path,
+    step: Step,
+}
 
 /// One step of a [`Path`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Step {
     /// Into a table.
-    Key(String),
+    Key(Cow<'static, str>),
     /// Into a list, counted from 0.
     Index(usize),
 }
@@ -158,7 +170,7 @@ impl Path {
 
     /// The value of a key.
     #[must_use]
-    pub fn key(&self, key: &str) -> Self {
+    pub fn key(&self, key: impl Into<Cow<'static, str>>) -> Self {
         self.step(Step::Key(key.into()))
     }
 
@@ -169,9 +181,15 @@ impl Path {
     }
 
     fn step(&self, step: Step) -> Self {
-        let mut steps = self.0.clone();
-        steps.push(step);
-        Self(steps)
+        Self(Some(Arc::new(Link { before: self.clone(), step })))
+    }
+
+    /// The steps from the root on.
+    fn steps(&self) -> Vec<&Step> {
+        let mut steps: Vec<&Step> =
+            std::iter::successors(self.0.as_deref(), |link| link.before.0.as_deref()).map(|link| &link.step).collect();
+        steps.reverse();
+        steps
     }
 }
 
@@ -183,7 +201,7 @@ impl ToValue for Path {
 
 impl fmt::Display for Path {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (position, step) in self.0.iter().enumerate() {
+        for (position, step) in self.steps().into_iter().enumerate() {
             match step {
                 Step::Key(key) if position == 0 => write!(formatter, "{key}")?,
                 Step::Key(key) => write!(formatter, ".{key}")?,
@@ -242,8 +260,19 @@ fn end_of_text(bytes: &[u8], start: usize, syntax: Syntax) -> usize {
 /// More violations of the syntax than this are not looked at: one of them has caused the others.
 const MOST_SYNTAX_PROBLEMS: usize = 100;
 
-fn parse_toml(text: &str) -> Document {
-    let (root, errors) = DeTable::parse_recoverable(text);
+/// The longest text, in bytes, that is read on after a violation of the syntax. There may be one for every second byte, and
+/// the parser keeps them all, at 300 bytes each.
+const LONGEST_RECOVERED: usize = 256 << 10;
+
+fn parse_toml(text: &str) -> Document<'_> {
+    let (root, errors, ends_at_problem) = match DeTable::parse(text) {
+        Ok(root) => (root, Vec::new(), false),
+        Err(first) if text.len() > LONGEST_RECOVERED => (Spanned::new(0..0, DeTable::new()), vec![first], true),
+        Err(_) => {
+            let (root, errors) = DeTable::parse_recoverable(text);
+            (root, errors, false)
+        }
+    };
     let syntax_problems = errors
         .iter()
         .take(MOST_SYNTAX_PROBLEMS)
@@ -255,7 +284,8 @@ fn parse_toml(text: &str) -> Document {
         })
         .collect();
     let span = root.span();
-    Document { root: Node { value: Value::Table(toml_entries(root.into_inner())), span }, syntax_problems }
+    let root = Node { value: Value::Table(toml_entries(root.into_inner())), span };
+    Document { root, syntax_problems, ends_at_problem }
 }
 
 /// Advice on the line of a syntax problem if a number in it is written with a decimal comma.
@@ -275,18 +305,18 @@ fn decimal_comma(text: &str, span: Option<Range<usize>>) -> Option<Message> {
     })
 }
 
-fn toml_entries(table: DeTable<'_>) -> Vec<Entry> {
+fn toml_entries(table: DeTable<'_>) -> Vec<Entry<'_>> {
     table
         .into_iter()
-        .map(|(key, value)| Entry { key_span: key.span(), key: key.into_inner().into_owned(), node: toml_node(value) })
+        .map(|(key, value)| Entry { key_span: key.span(), key: key.into_inner(), node: toml_node(value) })
         .collect()
 }
 
-fn toml_node(value: Spanned<DeValue<'_>>) -> Node {
+fn toml_node(value: Spanned<DeValue<'_>>) -> Node<'_> {
     let span = value.span();
     let value = match value.into_inner() {
         DeValue::Boolean(value) => Value::Boolean(value),
-        DeValue::String(text) => Value::Text(text.into_owned()),
+        DeValue::String(text) => Value::Text(text),
         DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
             .map_or_else(|_| number(integer.as_str()), Value::Integer),
         DeValue::Float(float) => number(float.as_str()),
@@ -298,11 +328,11 @@ fn toml_node(value: Spanned<DeValue<'_>>) -> Node {
 }
 
 /// A decimal literal. One that exceeds the range of doubles becomes infinite and is rejected later.
-fn number(literal: &str) -> Value {
+fn number(literal: &str) -> Value<'static> {
     literal.parse().map_or_else(|_| Value::Other(message!("a number that cannot be read")), Value::Float)
 }
 
-fn parse_json(text: &str) -> Document {
+fn parse_json(text: &str) -> Document<'_> {
     use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
     let strict = ParseOptions {
         allow_comments: false,
@@ -332,18 +362,18 @@ fn parse_json(text: &str) -> Document {
     if !matches!(root.value, Value::Table(_)) {
         let message = message!("a scene is an object {{…}}, not {found}", found = root.value.describe());
         syntax_problems.push(Problem::at_span(ProblemKind::Syntax, Some(root.span), message));
-        return Document { root: empty(), syntax_problems };
+        return Document { root: empty(), syntax_problems, ends_at_problem: false };
     }
-    Document { root, syntax_problems }
+    Document { root, syntax_problems, ends_at_problem: false }
 }
 
-fn json_node(value: jsonc_parser::ast::Value<'_>, problems: &mut Vec<Problem>) -> Node {
+fn json_node<'t>(value: jsonc_parser::ast::Value<'t>, problems: &mut Vec<Problem>) -> Node<'t> {
     use jsonc_parser::ast::Value as Json;
     let span = value.range().start..value.range().end;
     let value = match value {
         Json::BooleanLit(literal) => Value::Boolean(literal.value),
         Json::NullKeyword(_) => Value::Other(Message::verbatim("null")),
-        Json::StringLit(text) => Value::Text(text.value.into_owned()),
+        Json::StringLit(text) => Value::Text(text.value),
         Json::NumberLit(literal) => literal.value.parse().map_or_else(|_| number(literal.value), Value::Integer),
         Json::Array(array) => Value::Array(array.elements.into_iter().map(|item| json_node(item, problems)).collect()),
         Json::Object(object) => Value::Table(json_entries(object, problems)),
@@ -351,15 +381,19 @@ fn json_node(value: jsonc_parser::ast::Value<'_>, problems: &mut Vec<Problem>) -
     Node { value, span }
 }
 
-fn json_entries(object: jsonc_parser::ast::Object<'_>, problems: &mut Vec<Problem>) -> Vec<Entry> {
-    let mut entries: Vec<Entry> = Vec::with_capacity(object.properties.len());
+fn json_entries<'t>(object: jsonc_parser::ast::Object<'t>, problems: &mut Vec<Problem>) -> Vec<Entry<'t>> {
+    use jsonc_parser::ast::ObjectPropName;
+    let mut entries: Vec<Entry<'_>> = Vec::with_capacity(object.properties.len());
     let mut keys = std::collections::HashSet::new();
     for property in object.properties {
         let key_span = property.name.range().start..property.name.range().end;
-        let key = property.name.into_string();
+        let key: Cow<'_, str> = match property.name {
+            ObjectPropName::String(literal) => literal.value,
+            ObjectPropName::Word(literal) => literal.value.into(),
+        };
         if keys.insert(key.clone()) {
             entries.push(Entry { key, key_span, node: json_node(property.value, problems) });
-        } else {
+        } else if problems.len() < MOST_SYNTAX_PROBLEMS {
             let message = message!("the key `{key}` stands twice in this object", key);
             problems.push(Problem::at_span(ProblemKind::Syntax, Some(key_span), message));
         }

@@ -175,7 +175,7 @@ impl Problem {
     }
 
     /// Finds the problem's place in the source text.
-    pub(super) fn locate(&mut self, text: &Lines<'_>, document: &Document) {
+    pub(super) fn locate(&mut self, text: &Lines<'_>, document: &Document<'_>) {
         let span = match &self.target {
             Target::Nothing | Target::Rest(_) => None,
             Target::Span(span) => Some(span.clone()),

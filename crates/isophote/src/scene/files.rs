@@ -38,6 +38,10 @@ impl Resolver for FileResolver {
         Ok(bytes.into())
     }
 
+    fn size(&self, name: &str) -> Option<u64> {
+        self.full_name(name).metadata().ok().filter(std::fs::Metadata::is_file).map(|metadata| metadata.len())
+    }
+
     fn origin(&self) -> Origin {
         Origin::Directory(self.directory.clone())
     }
@@ -53,11 +57,19 @@ impl Scene {
     /// # Errors
     /// Every problem of the file and of the scene in it, with its place.
     pub fn from_file(path: &Path) -> Result<Self, SceneError> {
+        Self::from_file_with(&FileResolver::new(path.parent().unwrap_or(Path::new(""))), path)
+    }
+
+    /// Reads a scene file: JSON if the name ends in `.json`, TOML otherwise. The files it names are looked up in `files`.
+    ///
+    /// # Errors
+    /// Every problem of the file and of the scene in it, with its place.
+    pub fn from_file_with(files: &dyn Resolver, path: &Path) -> Result<Self, SceneError> {
         let name = path.display().to_string();
         let text = Self::read_text(&mut open(path, &name)?, &name)?;
         let is_json = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("json"));
         let syntax = if is_json { Syntax::Json } else { Syntax::Toml };
-        Self::from_text_in(path.parent().unwrap_or(Path::new("")), &name, &text, syntax)
+        Self::from_text_with(files, None, &name, &text, syntax)
     }
 
     /// Reads a scene from text; `name` identifies it in error messages. Relative paths in it start in the working directory.

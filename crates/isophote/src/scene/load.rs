@@ -29,7 +29,7 @@ impl Scene {
         let mut problems = Problems::default();
         let mut syntax_problems = std::mem::take(&mut document.syntax_problems);
         let is_broken = !syntax_problems.is_empty();
-        let is_unreadable = syntax_problems.len() > FOLLOWED_SYNTAX_PROBLEMS;
+        let is_unreadable = document.ends_at_problem || syntax_problems.len() > FOLLOWED_SYNTAX_PROBLEMS;
         if is_unreadable {
             syntax_problems.truncate(1);
             let help = message!("what follows could not be read because of this; mend it and check again");

@@ -17,6 +17,7 @@ mod source_files;
 mod table;
 mod validate;
 
+pub use change::PartPlace;
 pub use color::{Lighting, SceneColor};
 pub use document::Syntax;
 pub use error::{Problem, ProblemKind, SceneError, TextPosition};
@@ -27,7 +28,7 @@ pub use sampling::Sampling;
 pub use source::SceneSource;
 pub use source_files::CarriedFiles;
 
-pub use crate::import::{MemoryFiles, NoFiles, Origin, ReadFailure, Resolver};
+pub use crate::import::{MemoryFiles, NoFiles, Origin, PART_BYTES, ReadFailure, Resolver};
 
 use crate::camera::Camera;
 use crate::light::{Ambient, Light};

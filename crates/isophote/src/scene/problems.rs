@@ -31,7 +31,7 @@ impl Problems {
     }
 
     /// Adds a problem for a key that is missing from a table, unless the key is there and already known to be wrong.
-    pub fn missing(&mut self, table: &Path, key: &str, help: Message) {
+    pub fn missing(&mut self, table: &Path, key: &'static str, help: Message) {
         if self.reported.insert(table.key(key)) {
             let target = Target::Table(table.clone());
             let message = if *table == Path::root() {

@@ -127,7 +127,7 @@ tables! {
 
 impl SceneSource {
     /// Reads a scene out of a document. What cannot be read is reported and left out.
-    pub(super) fn read(document: &Document, problems: &mut Problems) -> Self {
+    pub(super) fn read(document: &Document<'_>, problems: &mut Problems) -> Self {
         read_root(document, problems, TableSource::read)
     }
 

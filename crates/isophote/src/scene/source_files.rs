@@ -66,6 +66,14 @@ impl Resolver for NotedFiles<'_> {
         Ok(content)
     }
 
+    fn size(&self, name: &str) -> Option<u64> {
+        self.files.size(name)
+    }
+
+    fn admit(&self, bytes: u64) -> Result<(), ReadFailure> {
+        self.files.admit(bytes)
+    }
+
     fn origin(&self) -> Origin {
         self.files.origin()
     }
@@ -136,6 +144,13 @@ impl Resolver for CarriedFiles {
                 Err(ReadFailure::Changed { was: file.describe(), at: at.clone(), is: is.clone() })
             }
             Some((file, Place::Gone)) => Err(ReadFailure::Gone { was: file.describe() }),
+        }
+    }
+
+    fn size(&self, name: &str) -> Option<u64> {
+        match self.files.iter().find(|(file, _)| file.name == name) {
+            None => FileResolver::new(&self.directory).size(name),
+            Some((file, _)) => Some(file.bytes),
         }
     }
 

@@ -12,7 +12,7 @@ use crate::units::Keyword;
 
 /// Reads the table at the root of a document.
 pub fn read_root<T: Default>(
-    document: &Document,
+    document: &Document<'_>,
     problems: &mut Problems,
     read: impl FnOnce(&mut Table<'_>) -> T,
 ) -> T {
@@ -25,14 +25,14 @@ pub fn read_root<T: Default>(
 
 /// A table being read.
 pub struct Table<'t> {
-    entries: &'t [Entry],
+    entries: &'t [Entry<'t>],
     path: Path,
     known: Vec<&'static str>,
     problems: &'t mut Problems,
 }
 
 impl<'t> Table<'t> {
-    fn find(&mut self, key: &'static str) -> Option<&'t Node> {
+    fn find(&mut self, key: &'static str) -> Option<&'t Node<'t>> {
         self.known.push(key);
         self.entries.iter().find(|entry| entry.key == key).map(|entry| &entry.node)
     }
@@ -42,7 +42,7 @@ impl<'t> Table<'t> {
         &mut self,
         key: &'static str,
         expected: impl Fn() -> Message,
-        convert: impl FnOnce(&Value) -> Option<T>,
+        convert: impl FnOnce(&Value<'_>) -> Option<T>,
     ) -> Option<T> {
         let node = self.find(key)?;
         let value = convert(&node.value);
@@ -52,7 +52,7 @@ impl<'t> Table<'t> {
         value
     }
 
-    fn wrong_type(&mut self, path: &Path, value: &Value, expected: &Message) {
+    fn wrong_type(&mut self, path: &Path, value: &Value<'_>, expected: &Message) {
         let message = message!("`{path}` is {found}", path, found = value.describe());
         self.problems.push(ProblemKind::WrongType, path, message, message!("allowed: {expected}", expected));
     }
@@ -62,7 +62,7 @@ impl<'t> Table<'t> {
             key,
             || message!("a text in quotes"),
             |value| match value {
-                Value::Text(text) => Some(text.clone()),
+                Value::Text(text) => Some(text.clone().into_owned()),
                 _ => None,
             },
         )
@@ -70,7 +70,7 @@ impl<'t> Table<'t> {
 
     pub(super) fn number(&mut self, key: &'static str) -> Option<f64> {
         let number = self.value(key, || message!("a number"), as_number)?;
-        self.finite(&self.path.key(key), number)
+        self.finite(|path| path.key(key), number)
     }
 
     /// A number, or three.
@@ -81,7 +81,7 @@ impl<'t> Table<'t> {
             return self.numbers_expected(key, expected).map(Amount::Rgb);
         }
         let number = self.value(key, expected, as_number)?;
-        self.finite(&self.path.key(key), number).map(Amount::Number)
+        self.finite(|path| path.key(key), number).map(Amount::Number)
     }
 
     pub(super) fn boolean(&mut self, key: &'static str) -> Option<bool> {
@@ -111,7 +111,7 @@ impl<'t> Table<'t> {
         let numbers: [f64; N] = self.list(key, expected, as_number)?;
         let mut all_finite = true;
         for (index, number) in numbers.into_iter().enumerate() {
-            all_finite &= self.finite(&self.path.key(key).index(index), number).is_some();
+            all_finite &= self.finite(|path| path.key(key).index(index), number).is_some();
         }
         if !all_finite {
             self.problems.reported.insert(self.path.key(key));
@@ -122,11 +122,10 @@ impl<'t> Table<'t> {
     /// Three rows of three numbers.
     pub(super) fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]> {
         let rows: [[f64; 3]; 3] = self.list(key, || message!("a list of 3 rows, each a list of 3 numbers"), as_row)?;
-        let path = self.path.key(key);
         for (number, row) in rows.iter().enumerate() {
             for (column, value) in row.iter().enumerate() {
-                if self.finite(&path.index(number).index(column), *value).is_none() {
-                    self.problems.reported.insert(path);
+                if self.finite(|path| path.key(key).index(number).index(column), *value).is_none() {
+                    self.problems.reported.insert(self.path.key(key));
                     return None;
                 }
             }
@@ -139,9 +138,8 @@ impl<'t> Table<'t> {
         let rows = self.several(key, || message!("a list of 3 numbers"), as_row)?;
         for (number, row) in rows.iter().enumerate() {
             if let Some(column) = row.iter().position(|value| !value.is_finite()) {
-                let path = self.path.key(key);
-                self.finite(&path.index(number).index(column), row[column]);
-                self.problems.reported.insert(path);
+                self.finite(|path| path.key(key).index(number).index(column), row[column]);
+                self.problems.reported.insert(self.path.key(key));
                 return None;
             }
         }
@@ -166,7 +164,7 @@ impl<'t> Table<'t> {
         &mut self,
         key: &'static str,
         expected: impl Fn() -> Message,
-        convert: impl Fn(&Value) -> Option<T>,
+        convert: impl Fn(&Value<'_>) -> Option<T>,
     ) -> Option<Vec<T>> {
         let node = self.find(key)?;
         let path = self.path.key(key);
@@ -198,12 +196,11 @@ impl<'t> Table<'t> {
         &mut self,
         key: &'static str,
         expected: impl Fn() -> Message,
-        convert: impl Fn(&Value) -> Option<T>,
+        convert: impl Fn(&Value<'_>) -> Option<T>,
     ) -> Option<[T; N]> {
         let node = self.find(key)?;
-        let path = self.path.key(key);
         let Value::Array(items) = &node.value else {
-            self.wrong_type(&path, &node.value, &expected());
+            self.wrong_type(&self.path.key(key), &node.value, &expected());
             return None;
         };
         if items.len() != N {
@@ -212,7 +209,8 @@ impl<'t> Table<'t> {
             } else {
                 Message::empty()
             };
-            self.wrong_type(&path, &node.value, &message!("{expected}{comma}", expected = expected(), comma));
+            let expected = message!("{expected}{comma}", expected = expected(), comma);
+            self.wrong_type(&self.path.key(key), &node.value, &expected);
             return None;
         }
         let mut list = [T::default(); N];
@@ -221,17 +219,14 @@ impl<'t> Table<'t> {
             if let Some(value) = convert(&item.value) {
                 list[index] = value;
             } else {
-                self.wrong_type(
-                    &path.index(index),
-                    &item.value,
-                    &message!("`{key}` is {expected}", key, expected = expected()),
-                );
+                let path = self.path.key(key).index(index);
+                self.wrong_type(&path, &item.value, &message!("`{key}` is {expected}", key, expected = expected()));
                 complete = false;
             }
         }
         // The whole key is then known to be wrong, rather than missing.
         if !complete {
-            self.problems.reported.insert(path);
+            self.problems.reported.insert(self.path.key(key));
         }
         complete.then_some(list)
     }
@@ -259,12 +254,12 @@ impl<'t> Table<'t> {
         self.read_table(node, path, read)
     }
 
-    fn read_table<T>(&mut self, node: &Node, path: Path, read: impl FnOnce(&mut Table<'_>) -> T) -> Option<T> {
+    fn read_table<T>(&mut self, node: &Node<'_>, path: Path, read: impl FnOnce(&mut Table<'_>) -> T) -> Option<T> {
         let Value::Table(entries) = &node.value else {
             self.wrong_type(&path, &node.value, &message!("a table"));
             return None;
         };
-        let mut table = Table { entries, path, known: Vec::new(), problems: self.problems };
+        let mut table = Table { entries, path, known: Vec::with_capacity(KEYS), problems: self.problems };
         let value = read(&mut table);
         table.refuse_unknown_keys();
         Some(value)
@@ -301,17 +296,19 @@ impl<'t> Table<'t> {
             self.wrong_type(&path, &node.value, &message!("tables with names, each headed by [{key}.NAME]", key));
             return BTreeMap::new();
         };
-        let read_entry = |entry: &Entry| {
-            let value = self.read_table(&entry.node, path.key(&entry.key), &read)?;
-            Some((entry.key.clone(), value))
+        let read_entry = |entry: &Entry<'_>| {
+            let value = self.read_table(&entry.node, path.key(entry.key.clone().into_owned()), &read)?;
+            Some((entry.key.clone().into_owned(), value))
         };
         tables.iter().filter_map(read_entry).collect()
     }
 
-    fn finite(&mut self, path: &Path, number: f64) -> Option<f64> {
+    /// A number that is finite; `place` makes the path to it from that of the table.
+    fn finite(&mut self, place: impl FnOnce(&Path) -> Path, number: f64) -> Option<f64> {
         if number.is_finite() {
             return Some(number);
         }
+        let path = &place(&self.path);
         let message = message!("`{path}` is {value}", path, value = number);
         self.problems.push(ProblemKind::Value, path, message, message!("allowed: finite numbers"));
         None
@@ -319,8 +316,8 @@ impl<'t> Table<'t> {
 
     fn refuse_unknown_keys(&mut self) {
         for entry in self.entries {
-            if !self.known.contains(&entry.key.as_str()) {
-                let path = self.path.key(&entry.key);
+            if !self.known.contains(&&*entry.key) {
+                let path = self.path.key(entry.key.clone().into_owned());
                 let key = short(&entry.key);
                 let message = if self.path == Path::root() {
                     message!("a scene has no key `{key}`", key)
@@ -340,8 +337,11 @@ impl<'t> Table<'t> {
     }
 }
 
+/// The most keys that a table of a list has, so that what is known of them need not grow.
+const KEYS: usize = 20;
+
 #[allow(clippy::cast_precision_loss, reason = "a number with more than 15 digits is rounded, as every double is")]
-fn as_number(value: &Value) -> Option<f64> {
+fn as_number(value: &Value<'_>) -> Option<f64> {
     match value {
         Value::Integer(number) => Some(*number as f64),
         Value::Float(number) => Some(*number),
@@ -349,13 +349,13 @@ fn as_number(value: &Value) -> Option<f64> {
     }
 }
 
-fn as_row(value: &Value) -> Option<[f64; 3]> {
+fn as_row(value: &Value<'_>) -> Option<[f64; 3]> {
     let Value::Array(items) = value else { return None };
     let [x, y, z] = items.as_slice() else { return None };
     Some([as_number(&x.value)?, as_number(&y.value)?, as_number(&z.value)?])
 }
 
-fn as_count(value: &Value) -> Option<u64> {
+fn as_count(value: &Value<'_>) -> Option<u64> {
     match value {
         Value::Integer(number) => u64::try_from(*number).ok(),
         _ => None,
@@ -363,6 +363,6 @@ fn as_count(value: &Value) -> Option<u64> {
 }
 
 /// Whether it is written without a fraction, as both halves of a number with a decimal comma are.
-fn is_whole(item: &Node) -> bool {
+fn is_whole(item: &Node<'_>) -> bool {
     matches!(item.value, Value::Integer(_))
 }

@@ -34,7 +34,8 @@ pub fn escaped_line(text: &str) -> Cow<'_, str> {
 
 fn escaped_but<'t>(text: &'t str, kept: &[char]) -> Cow<'t, str> {
     let is_escaped = |character: char| is_control(character) && !kept.contains(&character);
-    if !text.contains(is_escaped) {
+    let is_plain = text.bytes().all(|byte| matches!(byte, b' '..=b'~' | b'\n'));
+    if (is_plain && (kept.contains(&'\n') || !text.contains('\n'))) || !text.contains(is_escaped) {
         return text.into();
     }
     let mut escaped = String::with_capacity(text.len() + 16);
@@ -55,14 +56,27 @@ pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".into();
     }
-    let scientific = format!("{value:.*e}", digits - 1);
+    let mut scientific = String::with_capacity(digits + 8);
+    // Writing to a string cannot fail.
+    let _ = write!(scientific, "{value:.*e}", digits - 1);
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     if !(-5..15).contains(&exponent) {
         return format!("{}e{exponent}", trimmed(mantissa));
     }
-    let decimals = usize::try_from(i32::try_from(digits).unwrap_or(17) - 1 - exponent).unwrap_or(0);
-    trimmed(&format!("{value:.decimals$}")).to_owned()
+    let whole = usize::try_from(exponent).unwrap_or(0);
+    if exponent < 0 || whole >= digits {
+        let decimals = usize::try_from(i32::try_from(digits).unwrap_or(17) - 1 - exponent).unwrap_or(0);
+        return trimmed(&format!("{value:.decimals$}")).to_owned();
+    }
+    // The digits are the same: the point moves.
+    scientific.truncate(mantissa.len());
+    if let Some(point) = scientific.find('.') {
+        scientific.remove(point);
+        scientific.insert(point + whole, '.');
+        scientific.truncate(trimmed(&scientific).len());
+    }
+    scientific
 }
 
 fn trimmed(number: &str) -> &str {

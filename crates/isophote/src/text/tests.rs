@@ -27,6 +27,21 @@ fn numbers_have_the_digits_that_were_asked_for_and_no_more() {
 }
 
 #[test]
+fn numbers_are_rounded_once() {
+    let numbers = [9.9996, 99.9995, 999.95, 0.5, 1e14, 123_456.5, 2.5, 1.005, 65_535.0, 4.1e-5, 7.0, 100.25];
+    for value in numbers.into_iter().flat_map(|value| [value, -value]) {
+        for digits in 1..=17 {
+            let scientific = format!("{value:.*e}", digits - 1);
+            let exponent: i32 = scientific.split_once('e').unwrap().1.parse().unwrap();
+            let decimals = usize::try_from(i32::try_from(digits).unwrap() - 1 - exponent).unwrap_or(0);
+            let fixed = format!("{value:.decimals$}");
+            let shown = if fixed.contains('.') { fixed.trim_end_matches('0').trim_end_matches('.') } else { &fixed };
+            assert_eq!(significant(value, digits), shown, "{value} with {digits} digits");
+        }
+    }
+}
+
+#[test]
 fn a_message_is_the_same_sentence_in_both_languages() {
     let (path, number) = ("light[0].position", 2);
     let message = message!("`{path}` is {found}", path, found = message!("a list of {count}", count = number));

@@ -14,7 +14,7 @@ use crate::camera::{Sight, between};
 use crate::map::{Map, Pixel, Quantity, Resolution, Window};
 use crate::message;
 use crate::prepare::{Hit, PreparedScene};
-use crate::render::RenderError;
+use crate::render::{Observer, RenderError};
 use crate::shape::{Primitive, Side, SurfacePoint};
 use crate::text::Message;
 use crate::units::Keyword;
@@ -96,6 +96,8 @@ pub enum SurfaceError {
         /// The requested name.
         name: String,
     },
+    /// The observer asked to stop.
+    Interrupted,
 }
 
 impl SurfaceError {
@@ -125,6 +127,7 @@ impl SurfaceError {
             }
             Self::NoColor => crate::render::no_color(),
             Self::NoSuchLight { name } => message!("the scene has no light named \"{name}\"", name),
+            Self::Interrupted => message!("interrupted"),
         }
     }
 }
@@ -179,6 +182,14 @@ impl Surface<'_> {
     /// # Errors
     /// A channel of a camera, of a light that does not exist, or of colours in a scene without colours.
     pub fn map(&self, quantities: &[Quantity]) -> Result<Map, SurfaceError> {
+        self.map_observed(quantities, None)
+    }
+
+    /// As [`map`](Self::map), with an observer, which hears of cells and may end the work.
+    ///
+    /// # Errors
+    /// Those of [`map`](Self::map), or the observer's wish to end.
+    pub fn map_observed(&self, quantities: &[Quantity], observer: Option<&dyn Observer>) -> Result<Map, SurfaceError> {
         let of_camera = |quantity: &&Quantity| {
             quantity.is_derived() || **quantity == Quantity::Depth || Quantity::OF_SAMPLING.contains(quantity)
         };
@@ -195,11 +206,12 @@ impl Surface<'_> {
             renderer: self.description(),
             shape: self.request.primitive.shape,
         };
-        let map = cells::map(self.scene, layout, quantities, |cell| {
+        let map = cells::map(self.scene, layout, quantities, observer, |cell| {
             let hit = self.hit(cell);
             (!needs_eye || hit.point.cos_theta_o > 0.0).then_some(Cell::OnShape(hit))
         });
         map.map_err(|error| match error {
+            RenderError::Interrupted => SurfaceError::Interrupted,
             RenderError::NoSuchLight { name } => SurfaceError::NoSuchLight { name },
             error => unreachable!("a surface is a map of known size: {error}"),
         })

@@ -36,6 +36,10 @@ impl Resolver for MemoryFiles {
         self.files.get(name).map(|content| Cow::Borrowed(&content[..])).ok_or_else(|| ReadFailure::Unknown(known()))
     }
 
+    fn size(&self, name: &str) -> Option<u64> {
+        self.files.get(name).map(|content| content.len() as u64)
+    }
+
     fn origin(&self) -> Origin {
         self.origin.clone()
     }

@@ -25,15 +25,15 @@ pub struct Canvas {
     outlines: Vec<f64>,
     /// The farthest depth in each part.
     farthest: [[f64; PARTS]; HEIGHT as usize / PART_ROWS],
-    doubts: Vec<Doubt>,
+    doubts: Doubts,
 }
 
-/// Something that may or may not be visible at a pixel.
-#[derive(Clone, Copy)]
-struct Doubt {
-    at: usize,
-    /// A lower bound on its depth.
-    from: f64,
+/// What may or may not be visible at each pixel: of all that is there, a lower bound on the depth of the nearest. (Where many
+/// spheres coincide, each is in doubt at each pixel.)
+struct Doubts {
+    from: Vec<f64>,
+    /// The pixels that have any.
+    pixels: Vec<usize>,
 }
 
 /// No outline.
@@ -98,7 +98,7 @@ impl Canvas {
             depths: vec![f64::INFINITY; PIXELS],
             outlines: vec![NONE; PIXELS],
             farthest: [[f64::INFINITY; PARTS]; HEIGHT as usize / PART_ROWS],
-            doubts: Vec::new(),
+            doubts: Doubts { from: vec![f64::INFINITY; PIXELS], pixels: Vec::new() },
         }
     }
 
@@ -177,7 +177,7 @@ impl Canvas {
                     self.draw_row::<D>(token, &pen, &row_of, start, end, at);
                 } else if pen.clearance * squared > pen.doubtful[0] {
                     for offset in 0..whole(end - start) {
-                        self.doubts.push(Doubt { at: at + offset, from: 0.0 });
+                        self.doubts.add(at + offset, 0.0);
                     }
                 }
             }
@@ -236,11 +236,11 @@ impl Canvas {
         for lane in 0..16 {
             if at_edge >> lane & 1 == 1 {
                 let from = along[lane] - clearance[lane].max(0.0).sqrt() - pen.uncertain_at_edge;
-                self.doubts.push(Doubt { at: at + lane, from });
+                self.doubts.add(at + lane, from);
             }
             if close >> lane & 1 == 1 {
                 let farther = depth[lane].max(self.depths[at + lane]);
-                self.doubts.push(Doubt { at: at + lane, from: farther - 0.25 * pen.uncertain });
+                self.doubts.add(at + lane, farther - 0.25 * pen.uncertain);
             }
         }
     }
@@ -261,12 +261,11 @@ impl Canvas {
 
     /// Moves the pixels in doubt to `doubtful`.
     pub fn settle(&mut self, tile: Tile, doubtful: &mut Vec<Pixel>) {
-        for doubt in &self.doubts {
+        for at in &self.doubts.pixels {
             // Written so that NaN stays in doubt.
-            if !(doubt.from > self.depths[doubt.at]) && self.outlines[doubt.at] != DOUBTFUL {
-                self.outlines[doubt.at] = DOUBTFUL;
-                let [row, column] =
-                    [doubt.at / STRIDE, doubt.at % STRIDE].map(|count| u32::try_from(count).unwrap_or(0));
+            if !(self.doubts.from[*at] > self.depths[*at]) {
+                self.outlines[*at] = DOUBTFUL;
+                let [row, column] = [at / STRIDE, at % STRIDE].map(|count| u32::try_from(count).unwrap_or(0));
                 doubtful.push(Pixel { column: tile.first.column + column, row: tile.first.row + row });
             }
         }
@@ -275,6 +274,23 @@ impl Canvas {
     /// The outlines visible in a row, negative where there is none.
     pub fn row(&self, row: u32, width: u32) -> &[f64] {
         &self.outlines[row as usize * STRIDE..][..width as usize]
+    }
+}
+
+impl Doubts {
+    /// Something at a pixel, from a depth on. NaN counts as in front of everything.
+    fn add(&mut self, at: usize, from: f64) {
+        let nearest = &mut self.from[at];
+        if *nearest == f64::INFINITY {
+            self.pixels.push(at);
+        }
+        *nearest = if from.is_nan() { f64::NEG_INFINITY } else { nearest.min(from).min(f64::MAX) };
+    }
+
+    fn clear(&mut self) {
+        for at in self.pixels.drain(..) {
+            self.from[at] = f64::INFINITY;
+        }
     }
 }
 
@@ -344,4 +360,34 @@ fn count_of<D: Lane>() -> f64 {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held within the tile")]
 fn whole(count: f64) -> usize {
     count as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_number_of_things_in_doubt_take_one_place_a_pixel() {
+        let mut canvas = Canvas::new();
+        let tile = Tile { first: Pixel { column: 64, row: 128 }, width: 64, height: 64 };
+        canvas.depths[..5].copy_from_slice(&[1.0, 1.0, f64::INFINITY, f64::NAN, 1.0]);
+        for count in 0..100_000 {
+            let behind = 2.0 + f64::from(count);
+            canvas.doubts.add(0, behind);
+            canvas.doubts.add(1, behind);
+            canvas.doubts.add(2, behind);
+            canvas.doubts.add(3, behind);
+            canvas.doubts.add(4, if count == 7 { f64::NAN } else { behind });
+        }
+        canvas.doubts.add(1, 0.5);
+        assert_eq!(canvas.doubts.pixels.len(), 5);
+        let mut doubtful = Vec::new();
+        canvas.settle(tile, &mut doubtful);
+        let columns: Vec<u32> = doubtful.iter().map(|pixel| pixel.column - 64).collect();
+        assert_eq!(columns, [1, 2, 3, 4]);
+        canvas.clear();
+        doubtful.clear();
+        canvas.settle(tile, &mut doubtful);
+        assert!(doubtful.is_empty());
+    }
 }

@@ -145,15 +145,15 @@ impl Validator<'_> {
     pub(super) fn edges(
         &mut self,
         path: &Path,
-        key: &str,
+        key: &'static str,
         edges: Option<[f64; 2]>,
-        which: &Message,
+        which: impl Fn() -> Message,
     ) -> Option<[f64; 2]> {
         let Some(edges) = edges else {
             self.problems.missing(
                 path,
                 key,
-                message!("write `{key} = [a, b]`: the {which} edge of the window", key, which),
+                message!("write `{key} = [a, b]`: the {which} edge of the window", key, which = which()),
             );
             return None;
         };
@@ -166,8 +166,10 @@ impl Validator<'_> {
         if metres[1] - metres[0] < limits::SMALLEST {
             let [first, second] = edges;
             let message = message!("`{path}` runs from {first} to {second}", path, first, second);
-            let help =
-                message!("allowed: the {which} edge, the smaller one first; `handedness` mirrors the picture", which);
+            let help = message!(
+                "allowed: the {which} edge, the smaller one first; `handedness` mirrors the picture",
+                which = which()
+            );
             self.wrong(&path, message, help);
             return None;
         }

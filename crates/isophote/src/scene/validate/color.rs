@@ -81,38 +81,34 @@ impl Validator<'_> {
     /// A coefficient: between 0 and 1 if it is an albedo in the scene's convention.
     pub(super) fn coefficient(&mut self, path: &Path, amount: Amount, is_albedo: bool) -> Option<f64> {
         let convention = self.convention.name();
-        let (most, help) = if is_albedo {
-            let most = limits::ALBEDO;
-            let help = message!(
-                "allowed: 0 to {most}: in the convention \"{convention}\" it is the fraction of light that is reflected",
-                most,
-                convention
-            );
-            (most, help)
-        } else {
-            let most = limits::COEFFICIENT;
-            // Not with all of its zeros.
-            let help = message!(
-                "allowed: 0 to {most} in the convention \"{convention}\"",
-                most = format!("{most:?}").replace(".0", ""),
-                convention
-            );
-            (most, help)
+        let most = if is_albedo { limits::ALBEDO } else { limits::COEFFICIENT };
+        let help = || {
+            if is_albedo {
+                message!(
+                    "allowed: 0 to {most}: in the convention \"{convention}\" it is the fraction of light that is reflected",
+                    most,
+                    convention
+                )
+            } else {
+                // Not with all of its zeros.
+                let most = format!("{most:?}").replace(".0", "");
+                message!("allowed: 0 to {most} in the convention \"{convention}\"", most, convention)
+            }
         };
-        self.amount(path, amount, most, &help)
+        self.amount(path, amount, most, help)
     }
 
     /// An intensity, power, irradiance or radiance.
     pub(super) fn strength(&mut self, path: &Path, amount: Amount) -> Option<f64> {
-        let help = message!("allowed: 0 to {most}", most = format!("{:e}", limits::INTENSITY));
-        self.amount(path, amount, limits::INTENSITY, &help)
+        let help = || message!("allowed: 0 to {most}", most = format!("{:e}", limits::INTENSITY));
+        self.amount(path, amount, limits::INTENSITY, help)
     }
 
-    fn amount(&mut self, path: &Path, amount: Amount, most: f64, help: &Message) -> Option<f64> {
+    fn amount(&mut self, path: &Path, amount: Amount, most: f64, help: impl Fn() -> Message) -> Option<f64> {
         let mut is_allowed = |path: &Path, number: f64| {
             let is_allowed = (0.0..=most).contains(&number);
             if !is_allowed {
-                self.wrong(path, message!("`{path}` is {value}", path, value = number), help.clone());
+                self.wrong(path, message!("`{path}` is {value}", path, value = number), help());
             }
             is_allowed
         };

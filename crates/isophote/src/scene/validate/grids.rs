@@ -47,7 +47,7 @@ impl Validator<'_> {
         Some([u, v])
     }
 
-    fn grid_edge(&mut self, path: &Path, key: &str, edge: Option<[f64; 3]>) -> Option<Vector> {
+    fn grid_edge(&mut self, path: &Path, key: &'static str, edge: Option<[f64; 3]>) -> Option<Vector> {
         let edge = self.required_point(path, key, edge)?;
         if edge.length() < limits::SMALLEST {
             let smallest = self.length.from_metres(limits::SMALLEST);

@@ -85,12 +85,12 @@ impl Validator<'_> {
 
     /// The half angles of a spot's cones, in radians.
     fn cones(&mut self, path: &Path, light: &LightSource) -> Option<[f64; 2]> {
-        let mut angle = |key: &str, angle: Option<f64>, what: Message| {
+        let mut angle = |key: &'static str, angle: Option<f64>, what: fn() -> Message| {
             let Some(angle) = angle else {
                 self.problems.missing(
                     path,
                     key,
-                    message!("write `{key} = …`, in degrees from the axis: {what}", key, what),
+                    message!("write `{key} = …`, in degrees from the axis: {what}", key, what = what()),
                 );
                 return None;
             };
@@ -103,8 +103,8 @@ impl Validator<'_> {
             self.wrong(&path.key(key), message, help);
             None
         };
-        let inner = angle("inner_angle", light.inner_angle, message!("inside, the spot has its full intensity"));
-        let outer = angle("outer_angle", light.outer_angle, message!("outside, the spot sends nothing"));
+        let inner = angle("inner_angle", light.inner_angle, || message!("inside, the spot has its full intensity"));
+        let outer = angle("outer_angle", light.outer_angle, || message!("outside, the spot sends nothing"));
         let [inner, outer] = [inner?, outer?];
         // So that a difference written as half a degree counts as one.
         if outer - inner < limits::CONE_STEP * (1.0 - 1e-9) {

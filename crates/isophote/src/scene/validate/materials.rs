@@ -18,7 +18,7 @@ impl Validator<'_> {
     }
 
     fn material(&mut self, name: &str, material: &MaterialSource) -> Option<Material> {
-        let path = Path::root().key("material").key(name);
+        let path = Path::root().key("material").key(name.to_owned());
         if !is_usable(name) {
             self.wrong(&path, message!("the name \"{name}\" is not usable", name = short(name)), usable());
             return None;

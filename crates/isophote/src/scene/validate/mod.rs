@@ -195,7 +195,7 @@ impl Validator<'_> {
         for (index, name) in source.material.keys().enumerate() {
             if !used.contains(name.as_str()) && !of_parts[index] {
                 let message = message!("no shape is made of the material \"{name}\"", name = short(name));
-                self.warn(&root.key("material").key(name), message, message!("leave it out, or use it"));
+                self.warn(&root.key("material").key(name.clone()), message, message!("leave it out, or use it"));
             }
         }
         // The pixels of a calibrated camera are as they are.
@@ -227,7 +227,7 @@ impl Validator<'_> {
         }
     }
 
-    fn few_enough(&mut self, key: &str, count: usize, limit: usize) -> bool {
+    fn few_enough(&mut self, key: &'static str, count: usize, limit: usize) -> bool {
         if count > limit {
             let path = Path::root().key(key).index(limit);
             self.wrong(

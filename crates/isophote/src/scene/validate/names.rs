@@ -45,9 +45,12 @@ impl Names {
     /// The name of the item at a path, or the default, which is that path.
     pub(super) fn check(&mut self, validator: &mut Validator<'_>, thing: &Path, name: Option<&str>) -> Option<String> {
         let name = name.map_or_else(|| thing.to_string(), str::to_owned);
-        let path = thing.key("name");
         if !is_usable(&name) {
-            validator.wrong(&path, message!("the name \"{name}\" is not usable", name = short(&name)), usable());
+            validator.wrong(
+                &thing.key("name"),
+                message!("the name \"{name}\" is not usable", name = short(&name)),
+                usable(),
+            );
             return None;
         }
         if let Some(first) = self.seen.insert(name.clone(), thing.clone()) {
@@ -59,7 +62,7 @@ impl Names {
                 Kind::Area => message!("there are two areas named \"{name}\"", name),
                 Kind::Grid => message!("there are two grids named \"{name}\"", name),
             };
-            validator.wrong(&path, message, message!("the other is {first}; names must differ", first));
+            validator.wrong(&thing.key("name"), message, message!("the other is {first}; names must differ", first));
             return None;
         }
         Some(name)

@@ -8,7 +8,7 @@ use crate::text::Message;
 use crate::vector::Vector;
 
 impl Validator<'_> {
-    pub(super) fn required_point(&mut self, path: &Path, key: &str, point: Option<[f64; 3]>) -> Option<Vector> {
+    pub(super) fn required_point(&mut self, path: &Path, key: &'static str, point: Option<[f64; 3]>) -> Option<Vector> {
         let Some(point) = point else {
             self.problems.missing(path, key, message!("write `{key} = [x, y, z]`", key));
             return None;
@@ -36,7 +36,7 @@ impl Validator<'_> {
         self.wrong(path, message!("`{path}` is too far away", path), help);
     }
 
-    pub(super) fn required_size(&mut self, path: &Path, key: &str, size: Option<f64>) -> Option<f64> {
+    pub(super) fn required_size(&mut self, path: &Path, key: &'static str, size: Option<f64>) -> Option<f64> {
         let Some(size) = size else {
             self.problems.missing(path, key, message!("write `{key} = …`, a length above 0", key));
             return None;
@@ -45,7 +45,7 @@ impl Validator<'_> {
     }
 
     /// Three sizes; all of their mistakes are reported.
-    pub(super) fn required_sizes(&mut self, path: &Path, key: &str, sizes: Option<[f64; 3]>) -> Option<Vector> {
+    pub(super) fn required_sizes(&mut self, path: &Path, key: &'static str, sizes: Option<[f64; 3]>) -> Option<Vector> {
         let Some([x, y, z]) = sizes else {
             self.problems.missing(path, key, message!("write `{key} = [x, y, z]`, lengths above 0", key));
             return None;
@@ -71,7 +71,12 @@ impl Validator<'_> {
         None
     }
 
-    pub(super) fn required_direction(&mut self, path: &Path, key: &str, written: Option<[f64; 3]>) -> Option<Vector> {
+    pub(super) fn required_direction(
+        &mut self,
+        path: &Path,
+        key: &'static str,
+        written: Option<[f64; 3]>,
+    ) -> Option<Vector> {
         let Some(direction) = written else {
             self.problems.missing(
                 path,
@@ -101,7 +106,7 @@ impl Validator<'_> {
     }
 
     /// A direction that is given directly, by a target point, or by angles.
-    pub(super) fn aim(&mut self, path: &Path, from: Option<Vector>, aim: &Aim<'_>) -> Option<Vector> {
+    pub(super) fn aim(&mut self, path: &Path, from: Option<Vector>, aim: &Aim) -> Option<Vector> {
         let (key, direction) = aim.direction;
         if aim.tilt.is_some() || aim.azimuth.is_some() {
             let angle = if aim.tilt.is_some() { "tilt" } else { "azimuth" };
@@ -140,7 +145,7 @@ impl Validator<'_> {
         }
     }
 
-    fn direction_by_angles(&mut self, path: &Path, aim: &Aim<'_>) -> Option<Vector> {
+    fn direction_by_angles(&mut self, path: &Path, aim: &Aim) -> Option<Vector> {
         let Some(tilt) = aim.tilt else {
             self.problems.missing(
                 path,
@@ -149,19 +154,19 @@ impl Validator<'_> {
             );
             return None;
         };
-        let mut is_within = |key: &str, angle: f64, least: f64, most: f64, what: Message| {
+        let mut is_within = |key: &'static str, angle: f64, least: f64, most: f64, what: fn() -> Message| {
             let is_within = (least..=most).contains(&angle);
             if !is_within {
-                let help = message!("allowed: {least} to {most} degrees, {what}", least, most, what);
+                let help = message!("allowed: {least} to {most} degrees, {what}", least, most, what = what());
                 self.wrong(&path.key(key), message!("`{path}.{key}` is {angle}", path, key, angle), help);
             }
             is_within
         };
         let tilt_fits =
-            is_within("tilt", tilt, 0.0, limits::TILT, message!("from −z: 0 is straight down −z, 90 horizontal"));
+            is_within("tilt", tilt, 0.0, limits::TILT, || message!("from −z: 0 is straight down −z, 90 horizontal"));
         let azimuth = aim.azimuth.unwrap_or(Aim::DEFAULT_AZIMUTH);
         let azimuth_fits =
-            is_within("azimuth", azimuth, -limits::AZIMUTH, limits::AZIMUTH, message!("from +x towards +y"));
+            is_within("azimuth", azimuth, -limits::AZIMUTH, limits::AZIMUTH, || message!("from +x towards +y"));
         if !(tilt_fits && azimuth_fits) {
             return None;
         }
@@ -177,9 +182,9 @@ impl Validator<'_> {
 }
 
 /// The ways to write a direction, of which one is chosen.
-pub(super) struct Aim<'a> {
+pub(super) struct Aim {
     /// As such, and the name of its key.
-    pub(super) direction: (&'a str, Option<[f64; 3]>),
+    pub(super) direction: (&'static str, Option<[f64; 3]>),
     /// By a point that it leads to.
     pub(super) target: Option<[f64; 3]>,
     /// By its angle from −z, in degrees.
@@ -188,7 +193,7 @@ pub(super) struct Aim<'a> {
     pub(super) azimuth: Option<f64>,
 }
 
-impl Aim<'_> {
+impl Aim {
     /// Where a direction straight along z leans if that is not said: towards +y, the top of the picture.
     const DEFAULT_AZIMUTH: f64 = 90.0;
 

@@ -119,7 +119,7 @@ impl Validator<'_> {
         /// For so many points on no surface, the nearest one is looked for among all shapes.
         const EXPLAINED: usize = 100;
         // If a shape is missing, its probes would wrongly be reported as well.
-        let is_wrong = |kind: &&str| self.problems.has(&Path::root().key(kind));
+        let is_wrong = |kind: &&'static str| self.problems.has(&Path::root().key(*kind));
         if shapes.iter().any(Option::is_none) || super::shapes::KINDS.iter().any(is_wrong) {
             return;
         }

@@ -59,7 +59,7 @@ impl Validator<'_> {
         }
     }
 
-    fn either<T>(&mut self, path: &Path, one: &str, other: &str) -> Option<T> {
+    fn either<T>(&mut self, path: &Path, one: &str, other: &'static str) -> Option<T> {
         self.wrong(
             &path.key(other),
             message!("`camera` has both `{one}` and `{other}`", one, other),
@@ -95,7 +95,7 @@ impl Validator<'_> {
     fn pixels(
         &mut self,
         path: &Path,
-        key: &str,
+        key: &'static str,
         written: Option<f64>,
         allowed: &std::ops::RangeInclusive<f64>,
     ) -> Option<f64> {
@@ -119,8 +119,8 @@ impl Validator<'_> {
     fn screen(&mut self, path: &Path, screen: &ScreenSource) -> Option<Screen> {
         let path = path.key("screen");
         let distance = self.required_size(&path, "distance", screen.distance);
-        let x = self.edges(&path, "x", screen.x, &message!("left and right"));
-        let y = self.edges(&path, "y", screen.y, &message!("lower and upper"));
+        let x = self.edges(&path, "x", screen.x, || message!("left and right"));
+        let y = self.edges(&path, "y", screen.y, || message!("lower and upper"));
         Some(Screen { distance: distance?, x: x?, y: y? })
     }
 
@@ -130,8 +130,8 @@ impl Validator<'_> {
             return None;
         };
         let path = path.key("window");
-        let x = self.edges(&path, "x", window.x, &message!("left and right"));
-        let y = self.edges(&path, "y", window.y, &message!("lower and upper"));
+        let x = self.edges(&path, "x", window.x, || message!("left and right"));
+        let y = self.edges(&path, "y", window.y, || message!("lower and upper"));
         Some(Extent { x: x?, y: y? })
     }
 
@@ -160,7 +160,7 @@ impl Validator<'_> {
         Some(Extent { x: x?, y: y? })
     }
 
-    fn angles(&mut self, path: &Path, key: &str, [first, second]: [f64; 2], farthest: f64) -> Option<[f64; 2]> {
+    fn angles(&mut self, path: &Path, key: &'static str, [first, second]: [f64; 2], farthest: f64) -> Option<[f64; 2]> {
         let is_within = [first, second].iter().all(|angle| angle.abs() <= farthest);
         if is_within && (NARROWEST..=360.0).contains(&(second - first)) {
             return Some([first, second]);

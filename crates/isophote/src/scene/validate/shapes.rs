@@ -47,7 +47,7 @@ pub(super) use shape_head;
 /// All shapes as written, with their paths.
 fn written(source: &SceneSource) -> impl Iterator<Item = (Path, &dyn ShapeSource)> {
     fn of_kind<'s, S: ShapeSource + 's>(
-        kind: &str,
+        kind: &'static str,
         shapes: &'s [S],
     ) -> impl Iterator<Item = (Path, &'s dyn ShapeSource)> {
         let table = Path::root().key(kind);
@@ -117,7 +117,7 @@ impl Validator<'_> {
     }
 
     /// The two ends of something with a length in between.
-    fn ends(&mut self, path: &Path, keys: [&str; 2], points: [Option<[f64; 3]>; 2]) -> Option<[Vector; 2]> {
+    fn ends(&mut self, path: &Path, keys: [&'static str; 2], points: [Option<[f64; 3]>; 2]) -> Option<[Vector; 2]> {
         let first = self.required_point(path, keys[0], points[0]);
         let second = self.required_point(path, keys[1], points[1]);
         let (first, second) = (first?, second?);
