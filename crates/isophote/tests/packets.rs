@@ -71,7 +71,7 @@ fn meshes() -> impl Strategy<Value = String> {
     let size = prop_oneof![Just(1.0), Just(0.1), Just(0.01)];
     let triangle = (corner.clone(), corner.clone(), corner.clone(), size, any::<bool>());
     (prop::collection::vec(triangle, 1..40), any::<bool>()).prop_map(|(triangles, is_smooth)| {
-        let mut text = String::new();
+        let mut lines = Vec::new();
         let mut corners = Vec::new();
         for (place, second, third, size, is_sliver) in triangles {
             let at = |corner: [f64; 3], part: f64| [0, 1, 2].map(|axis| place[axis] + corner[axis] * size * part);
@@ -80,17 +80,17 @@ fn meshes() -> impl Strategy<Value = String> {
             corners.extend([place, ends[0], last]);
         }
         for [x, y, z] in &corners {
-            text += &format!("v {x} {y} {z}\nvn {x} {} {z}\n", y + 0.3);
+            lines.push(format!("v {x} {y} {z}\nvn {x} {} {z}", y + 0.3));
         }
         for first in (1..corners.len()).step_by(3) {
             let corner = |index: usize| if is_smooth { format!("{index}//{index}") } else { index.to_string() };
-            text += &format!("f {} {} {}\n", corner(first), corner(first + 1), corner(first + 2));
+            lines.push(format!("f {} {} {}", corner(first), corner(first + 1), corner(first + 2)));
             // A neighbour that shares an edge.
             if first > 3 {
-                text += &format!("f {} {} {}\n", corner(first + 1), corner(first), corner(first - 1));
+                lines.push(format!("f {} {} {}", corner(first + 1), corner(first), corner(first - 1)));
             }
         }
-        text
+        lines.join("\n")
     })
 }
 
