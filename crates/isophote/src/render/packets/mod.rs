@@ -11,13 +11,16 @@ mod body;
 mod candidates;
 mod nearest;
 mod points;
+mod precise;
 mod rays;
 mod shading;
 mod triangle;
 
 use self::blocked::Blocked;
+use self::candidates::Search;
 use self::nearest::{Nearest, Seen};
-use self::points::{Combine, FindPoints, Points, PreciseRays};
+use self::points::{FindPoints, Points};
+use self::precise::{Combine, PreciseRays};
 use self::rays::{OCTET, RAYS, RayPacket};
 use self::shading::Shader;
 use crate::accelerate::Walk;
@@ -116,7 +119,7 @@ impl Work<'_> {
             return Ok(());
         }
         let Self { packets: Packets { instructions, .. }, packet, nearest, walk, .. } = self;
-        instructions.run_wide(FindNearest { scene, packet, walk, nearest });
+        instructions.run_wide(Find { scene, packet, walk, search: &mut **nearest });
         let mut doubtful = self.find_points(tile);
         doubtful |= self.clear_offsets();
         for ray in set_bits(doubtful) {
@@ -195,8 +198,8 @@ impl Work<'_> {
             let on_shape = on_shape.fold(0, |bits, ray| bits | 1 << ray);
             left &= !on_shape;
             let geometry = scene.geometry(shape);
-            let in_lanes =
-                *is_precise && !scene.has_sharper_highlight(primitives[on_shape.trailing_zeros() as usize], SHARPEST);
+            let is_sharp = |ray: usize| scene.has_sharper_highlight(primitives[ray], SHARPEST);
+            let in_lanes = *is_precise && !set_bits(on_shape).any(is_sharp);
             if in_lanes {
                 let parts = primitives.map(|primitive| primitive.part);
                 instructions.run_wide(FindPoints { rays: precise, on_shape, geometry, parts: &parts, points });
@@ -240,7 +243,7 @@ impl Work<'_> {
             Some((Ray { anchor: hit.point.anchor, offset: hit.point.offset, direction }, Some(length)))
         };
         let mut blocked = Blocked { scene, own: &own, ray: &ray, in_use, surely: 0, maybe: 0 };
-        instructions.run_wide(FindBlocked { scene, packet, walk, blocked: &mut blocked });
+        instructions.run_wide(Find { scene, packet, walk, search: &mut blocked });
         let mut doubtful = 0;
         for index in set_bits(blocked.surely | blocked.maybe) {
             if let Some(hit) = &mut hits[index] {
@@ -253,15 +256,15 @@ impl Work<'_> {
     }
 }
 
-/// Finds what the rays of a packet hit first.
-struct FindNearest<'f> {
+/// Searches what the rays of a packet meet.
+struct Find<'f, Q> {
     scene: &'f PreparedScene,
     packet: &'f mut RayPacket,
     walk: &'f mut Walk,
-    nearest: &'f mut Nearest,
+    search: &'f mut Q,
 }
 
-impl LaneJob for FindNearest<'_> {
+impl<Q: Search> LaneJob for Find<'_, Q> {
     type Output = ();
 
     #[inline(always)]
@@ -271,29 +274,7 @@ impl LaneJob for FindNearest<'_> {
         D: Lane<Element = f64, Token = S::Token>,
     {
         self.packet.finish::<D::Narrow>(token);
-        candidates::search::<S::Narrow, D::Narrow>(token, self.scene, self.packet, self.walk, self.nearest);
-    }
-}
-
-/// Finds which rays of a packet are blocked.
-struct FindBlocked<'f, 'b> {
-    scene: &'f PreparedScene,
-    packet: &'f mut RayPacket,
-    walk: &'f mut Walk,
-    blocked: &'f mut Blocked<'b>,
-}
-
-impl LaneJob for FindBlocked<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S, D>(self, token: S::Token)
-    where
-        S: Lane<Element = f32>,
-        D: Lane<Element = f64, Token = S::Token>,
-    {
-        self.packet.finish::<D::Narrow>(token);
-        candidates::search::<S::Narrow, D::Narrow>(token, self.scene, self.packet, self.walk, self.blocked);
+        candidates::search::<S::Narrow, D::Narrow>(token, self.scene, self.packet, self.walk, self.search);
     }
 }
 

@@ -2,35 +2,15 @@
 //!
 //! They are computed in lanes of 32 digits: the accuracy of a double, which the result has, is then enough for any highlight.
 
-use super::rays::{OCTET, RAYS, RayPacket, Vectors, get, load, put, splat, store};
-use super::{place_of, set_bits};
+use super::precise::{PreciseRays, Way, exact, exact_number, exactly, nearest};
+use super::rays::{OCTET, RAYS, Vectors, get, load, put, splat};
+use super::set_bits;
 use crate::double_double::DoubleDouble;
 use crate::lanes::{Lane, LaneJob, SimdToken};
-use crate::map::Pixel;
-use crate::prepare::{Hit, PreparedScene};
+use crate::prepare::Hit;
 use crate::real::Real;
-use crate::render::band::{Band, Tile};
 use crate::shape::{Cone, Cuboid, Ellipsoid, Geometry, Placement, Primitive, Sphere, SurfacePoint};
 use crate::vector::Vector;
-
-/// The rays of a tile with 32 digits: a ray's direction, or its start if all rays are parallel, is the sum of what its column
-/// and its row contribute.
-pub struct PreciseRays {
-    is_parallel: bool,
-    /// The eye; the direction of parallel rays.
-    common: Vector<DoubleDouble>,
-    /// The upper and the lower halves of what the columns and the rows of a band contribute, and where these begin.
-    columns: Vec<[Vector; 2]>,
-    rows: Vec<[Vector; 2]>,
-    first: Pixel,
-    /// The same for each ray.
-    of_columns: [Vectors; 2],
-    of_rows: [Vectors; 2],
-    /// The upper and the lower halves of the sums.
-    sums: [Vectors; 2],
-    /// Unit vectors along the rays.
-    directions: Vectors,
-}
 
 /// The points of some rays, by axis.
 pub struct Points {
@@ -44,148 +24,6 @@ pub struct Points {
     doubtful: u64,
     corners: [Vectors; 3],
     normals: [Vectors; 3],
-}
-
-/// How some rays run, in lanes.
-struct Way<V> {
-    start: Vector<DoubleDouble<V>>,
-    /// Of any length.
-    along: Vector<DoubleDouble<V>>,
-    direction: Vector<V>,
-}
-
-impl PreciseRays {
-    /// No rays.
-    pub fn new() -> Box<Self> {
-        let zeros = [[0.0; RAYS]; 3];
-        Box::new(Self {
-            is_parallel: false,
-            common: Vector::zero(),
-            columns: Vec::new(),
-            rows: Vec::new(),
-            first: Pixel { column: 0, row: 0 },
-            of_columns: [zeros; 2],
-            of_rows: [zeros; 2],
-            sums: [zeros; 2],
-            directions: zeros,
-        })
-    }
-
-    /// Prepares the rays of a band; returns whether they are linear in columns and rows.
-    pub fn begin(&mut self, scene: &PreparedScene, band: &Band<'_>) -> bool {
-        let Some(rays) = scene.precise_frame().linear_rays() else { return false };
-        (self.is_parallel, self.common, self.first) = (rays.is_parallel, rays.common, band.first);
-        let halves = |vector: Vector<DoubleDouble>| {
-            let high = vector.map(DoubleDouble::rounded);
-            [high, (vector - Vector::from_f64(high)).map(DoubleDouble::rounded)]
-        };
-        let Pixel { column, row } = band.first;
-        self.columns.extend((column..column + band.size.width).map(|column| halves(rays.of_column(column))));
-        self.rows.extend((row..row + band.size.height).map(|row| halves(rays.of_row(row))));
-        true
-    }
-
-    /// Chooses the rays of a tile of the band; those beyond its last column or row are copies.
-    pub fn aim(&mut self, tile: Tile) {
-        let (column, row) = (tile.first.column - self.first.column, tile.first.row - self.first.row);
-        for ray in 0..RAYS {
-            let (across, down) = place_of(ray);
-            let column = self.columns[(column + across.min(tile.width - 1)) as usize];
-            let row = self.rows[(row + down.min(tile.height - 1)) as usize];
-            for half in 0..2 {
-                put(&mut self.of_columns[half], ray, column[half]);
-                put(&mut self.of_rows[half], ray, row[half]);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn way<V: Lane<Element = f64>>(&self, token: V::Token, at: usize) -> Way<V> {
-        let sum = pairs::<V>(token, &self.sums, at);
-        let common = exact::<V>(token, self.common);
-        let direction = load::<V>(token, &self.directions, at);
-        if self.is_parallel {
-            Way { start: sum, along: common, direction }
-        } else {
-            Way { start: common, along: sum, direction }
-        }
-    }
-}
-
-/// Adds what columns and rows contribute, and sets the rays of a packet.
-pub struct Combine<'c> {
-    /// The rays.
-    pub rays: &'c mut PreciseRays,
-    /// The packet.
-    pub packet: &'c mut RayPacket,
-}
-
-impl LaneJob for Combine<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S, D>(self, token: S::Token)
-    where
-        S: Lane<Element = f32>,
-        D: Lane<Element = f64, Token = S::Token>,
-    {
-        self.combine::<D::Narrow>(token);
-    }
-}
-
-impl Combine<'_> {
-    #[inline(always)]
-    fn combine<V: Lane<Element = f64>>(self, token: V::Token) {
-        let PreciseRays { is_parallel, common, of_columns, of_rows, sums, directions, .. } = self.rays;
-        let parallel = nearest(exact::<V>(token, *common));
-        let packet = self.packet;
-        packet.origin = common.map(DoubleDouble::rounded);
-        if *is_parallel {
-            // The first start.
-            let first = |halves: &[Vectors; 2]| get(&halves[0], 0);
-            packet.origin = first(of_columns) + first(of_rows);
-        }
-        let origin = exactly(splat::<V>(token, packet.origin));
-        let zero = V::splat(token, 0.0);
-        for at in (0..RAYS).step_by(V::COUNT) {
-            let sum = pairs::<V>(token, of_columns, at) + pairs(token, of_rows, at);
-            let high = nearest(sum);
-            store(&mut sums[0], at, high);
-            let low = sum + -exactly(high);
-            store(&mut sums[1], at, nearest(low));
-            let (start, direction) = if *is_parallel {
-                (nearest(sum + -origin), parallel)
-            } else {
-                (Vector::new(zero, zero, zero), high.normalized())
-            };
-            store(directions, at, direction);
-            store(&mut packet.start, at, start);
-            store(&mut packet.direction, at, direction);
-        }
-    }
-}
-
-#[inline(always)]
-fn pairs<V: Lane<Element = f64>>(token: V::Token, [high, low]: &[Vectors; 2], at: usize) -> Vector<DoubleDouble<V>> {
-    let (high, low) = (load::<V>(token, high, at), load::<V>(token, low, at));
-    Vector::new(
-        DoubleDouble::sum_of(high.x, low.x),
-        DoubleDouble::sum_of(high.y, low.y),
-        DoubleDouble::sum_of(high.z, low.z),
-    )
-}
-
-#[inline(always)]
-fn exact<V: Lane<Element = f64>>(token: V::Token, vector: Vector<DoubleDouble>) -> Vector<DoubleDouble<V>> {
-    vector.map(
-        #[inline(always)]
-        |number| {
-            number.map(
-                #[inline(always)]
-                |half| V::splat(token, half),
-            )
-        },
-    )
 }
 
 impl Points {
@@ -219,7 +57,7 @@ impl Points {
             anchor,
             offset: get(&self.offset, ray),
             normal: get(&self.normal, ray),
-            view: -get(&rays.directions, ray),
+            view: -rays.direction_of(ray),
             cos_theta_o: self.cos_theta_o[ray],
         };
         Some(Hit {
@@ -673,16 +511,6 @@ impl FindPoints<'_> {
     }
 }
 
-#[inline(always)]
-fn exactly<V: Lane<Element = f64>>(vector: Vector<V>) -> Vector<DoubleDouble<V>> {
-    Vector::new(DoubleDouble::exactly(vector.x), DoubleDouble::exactly(vector.y), DoubleDouble::exactly(vector.z))
-}
-
-#[inline(always)]
-fn nearest<V: Lane<Element = f64>>(vector: Vector<DoubleDouble<V>>) -> Vector<V> {
-    Vector::new(vector.x.nearest(), vector.y.nearest(), vector.z.nearest())
-}
-
 /// A vector, or another one where it is zero.
 #[inline(always)]
 fn or_else<V: Lane<Element = f64>>(vector: Vector<V>, other: Vector<V>) -> Vector<V> {
@@ -743,14 +571,6 @@ fn roots<V: Lane<Element = f64>>(squares: [DoubleDouble<V>; 3]) -> Roots<V> {
     let (near, far) = ((-b + -root) * inverse, (-b + root) * inverse);
     let is_inside = near.is_less(near.splat_like(0.0));
     Roots { parameter: DoubleDouble::select(is_inside, far, near), root: root.nearest(), is_inside }
-}
-
-#[inline(always)]
-fn exact_number<V: Lane<Element = f64>>(token: V::Token, number: DoubleDouble) -> DoubleDouble<V> {
-    number.map(
-        #[inline(always)]
-        |half| V::splat(token, half),
-    )
 }
 
 /// The centre of a sphere and its radius, in place of corners.

@@ -1,7 +1,7 @@
 //! The light that reaches the points of a tile, and their brightness.
 
 use super::rays::{RAYS, RayPacket, Vectors, load, put, splat, store};
-use super::{Blocked, FindBlocked, Hits, Packets, bits, pixel_of, set_bits};
+use super::{Blocked, Find, Hits, Packets, bits, pixel_of, set_bits};
 use crate::accelerate::Walk;
 use crate::camera::ScreenPosition;
 use crate::lanes::{Lane, LaneJob, Precision};
@@ -153,7 +153,7 @@ impl<'a> Shader<'a> {
                 };
                 packet.in_use = in_use;
                 let mut blocked = Blocked { scene, own: &self.own, ray: &ray, in_use, surely: 0, maybe: 0 };
-                instructions.run_wide(FindBlocked { scene, packet, walk, blocked: &mut blocked });
+                instructions.run_wide(Find { scene, packet, walk, search: &mut blocked });
                 let surely = blocked.surely & !close;
                 dark |= surely;
                 maybe = (blocked.maybe | close & in_use) & !surely;
