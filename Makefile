@@ -32,8 +32,11 @@ demo: ## Render the lab's scene: its numbers, lab.png, and lab-figure.png with a
 test: python-env ## Run every test (those that use Python need 3.10 or later)
 	@if [ -e $(PYTHON_ENV)/ready ]; then export ISOPHOTE_PYTHON="$(PYTHON)"; fi; \
 	$(CARGO) test --workspace
-	@if command -v node >/dev/null; then $(MAKE) --no-print-directory test-wasm; else echo "no Node here: the tests as WebAssembly are skipped"; fi
-	@[ ! -e $(PYTHON_ENV)/ready ] || $(MAKE) --no-print-directory test-python
+	@command -v node >/dev/null || echo "no Node here: the tests as WebAssembly are skipped"
+	@$(MAKE) --no-print-directory test-node-and-python
+
+.PHONY: test-node-and-python
+test-node-and-python: $(if $(shell command -v node),test-wasm) $(if $(wildcard $(PYTHON_ENV)/ready),test-python)
 
 WASM := wasm32-wasip1
 WASM_RUNNER := node --no-warnings $(CURDIR)/validation/wasm/run.mjs
