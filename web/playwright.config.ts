@@ -20,8 +20,8 @@ export default defineConfig({
   testDir: 'e2e',
   outputDir: '../target/app-tests',
   timeout: 60_000,
-  fullyParallel: false,
-  workers: 1,
+  fullyParallel: true,
+  workers: 2,
   reporter: process.env['CI'] ? 'line' : 'list',
   use: {
     ...devices['Desktop Chrome'],
