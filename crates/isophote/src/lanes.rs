@@ -6,7 +6,9 @@
 //! machine's vector width nor a pixel's position in a vector changes a bit. (The exception is machines without fused
 //! multiply-add: SSE and WebAssembly round products before adding. AVX2, AVX-512 and NEON agree.)
 //!
-//! Everything generic over [`Lane`] must be `#[inline(always)]`: anything else is compiled for the baseline instruction set.
+//! Everything generic over [`Lane`] must be `#[inline(always)]`: anything else is compiled for the baseline instruction set, and
+//! each of its operations is a call. That holds for closures too, so they are written where they are passed (one bound by `let`
+//! takes no attribute), and `array::map` and iterators over vectors are avoided.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
