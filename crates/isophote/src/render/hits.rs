@@ -32,7 +32,7 @@ impl<'s> HitBlock<'s> {
             scene,
             by_light: ByLight::of(asked_for.iter().copied()),
             indices: Vec::with_capacity(POINTS),
-            points: SurfaceBlock::new(),
+            points: SurfaceBlock::anchored(),
             shaded: layers.iter().map(|_| ShadedBlock::new(asked_for.len())).collect(),
             visibility: Vec::new(),
             layers,
@@ -91,7 +91,9 @@ impl<'s> HitBlock<'s> {
         visibility: impl Fn(usize) -> f64,
         formula: impl Fn(&PreparedScene) -> &BrightnessFormula,
     ) {
-        let at = self.begin(index, hit);
+        let at = self.indices.len();
+        self.indices.push(index);
+        self.points.set(at, hit);
         let is_shared = self.layers.len() > 1;
         if is_shared {
             self.visibility.clear();
@@ -113,19 +115,6 @@ impl<'s> HitBlock<'s> {
                 out[at] = irradiance;
             }
         }
-    }
-
-    /// Stores the geometry of a hit, and returns its position in the block.
-    fn begin(&mut self, index: usize, hit: &Hit) -> usize {
-        let at = self.indices.len();
-        self.indices.push(index);
-        let (position, normal) = (hit.point.position().to_array(), hit.point.normal.to_array());
-        for axis in 0..3 {
-            self.points.offset[axis][at] = position[axis];
-            self.points.normal[axis][at] = normal[axis];
-        }
-        self.points.distance[at] = hit.distance;
-        at
     }
 
     /// Writes the hits into a band, whose pixels the indices refer to, and empties the block.

@@ -16,6 +16,7 @@ mod shading;
 mod share;
 mod simd;
 mod tiles;
+mod vectors;
 
 use crate::message;
 use crate::text::Message;

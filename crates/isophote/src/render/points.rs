@@ -4,6 +4,7 @@ use super::shading::block::{POINTS, ShadedBlock, SurfaceBlock};
 use super::shading::emitters::{Chosen, Lighting, ShapeEmitters};
 use super::shading::kernel::{PerPoint, ShadeBlock};
 use super::shading::lobe::Power;
+use super::vectors::splat;
 use crate::camera::Projection;
 use crate::lanes::{Instructions, Lane, LaneJob, Precision};
 use crate::light::Ambient;
@@ -268,11 +269,6 @@ impl PointKernel<'_> {
         }
         (shape, distance)
     }
-}
-
-#[inline(always)]
-fn splat<V: Lane<Element = f64>>(token: V::Token, vector: Vector) -> Vector<V> {
-    Vector::new(V::splat(token, vector.x), V::splat(token, vector.y), V::splat(token, vector.z))
 }
 
 /// The unit vector along a vector of known length; for a zero vector, the direction that [`Sphere::nearest`] chooses.

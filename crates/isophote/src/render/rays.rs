@@ -52,7 +52,8 @@ pub fn retrace(
     Ok(seen)
 }
 
-fn put(pixel: Pixel, hit: &Hit, band: &mut Band<'_>, hits: &mut HitBlock<'_>) -> Result<(), RenderError> {
+/// Shades what the ray through the centre of a pixel hits, and writes it as soon as there is enough of it.
+pub fn put(pixel: Pixel, hit: &Hit, band: &mut Band<'_>, hits: &mut HitBlock<'_>) -> Result<(), RenderError> {
     hits.push(band.index(pixel), hit, Some(ScreenPosition::PixelCenter(pixel)));
     if hits.is_full() { hits.put(band) } else { Ok(()) }
 }

@@ -2,13 +2,12 @@
 
 use super::body::PacketBody;
 use super::candidates::{Candidate, Search};
-use super::rays::{OCTET, RAYS, RayPacket, has_any_of};
+use super::rays::{RAYS, RayPacket};
 use super::set_bits;
 use super::triangle::{Met, PacketTriangle};
 use crate::lanes::Lane;
 use crate::prepare::{Blocks, ERROR_OF_DISTANCE, PreparedScene};
 use crate::ray::Ray;
-use crate::shape::Geometry;
 
 /// The rays that are blocked, as bits.
 pub struct Blocked<'a> {
@@ -18,55 +17,36 @@ pub struct Blocked<'a> {
     pub own: &'a [u32; RAYS],
     /// A ray, and its length if it ends.
     pub ray: &'a dyn Fn(usize) -> Option<(Ray, Option<f64>)>,
-    /// The rays whose answer matters.
-    pub in_use: u64,
     /// Those that are certainly blocked.
     pub surely: u64,
     /// Those that may be.
     pub maybe: u64,
 }
 
-impl Blocked<'_> {
-    /// Those that are still open.
-    fn open(&self) -> u64 {
-        self.in_use & !self.surely
-    }
-
-    fn casts_shadow(&self, found: &Candidate<'_>) -> bool {
-        self.scene.scene().shapes()[found.primitive.shape].casts_shadow
-    }
-}
-
 impl Search for Blocked<'_> {
     #[inline(always)]
-    fn test_triangle<V: Lane<Element = f64>>(&mut self, token: V::Token, packet: &RayPacket, found: &Candidate<'_>) {
-        let Geometry::Mesh(mesh) = found.geometry else { return };
-        if !self.casts_shadow(found) {
-            return;
-        }
-        let triangle = PacketTriangle::new(&mesh.corners(found.primitive.part), packet);
-        let mut octets = triangle.octets::<V>(token, packet);
+    fn open(&self, packet: &RayPacket, found: &Candidate<'_>) -> u64 {
+        let casts_shadow = self.scene.scene().shapes()[found.primitive.shape].casts_shadow;
+        if casts_shadow { packet.in_use & !self.surely } else { 0 }
+    }
+
+    #[inline(always)]
+    fn test_triangle<V: Lane<Element = f64>>(
+        &mut self,
+        token: V::Token,
+        packet: &RayPacket,
+        found: &Candidate<'_>,
+        triangle: &PacketTriangle,
+        at: usize,
+    ) {
         // Closer to the surface than this, a neighbour does not block the light.
         let margin = 4.0 * found.geometry.least_shadow_distance() / packet.lengths[0] + ERROR_OF_DISTANCE;
-        while octets != 0 {
-            let octet = octets.trailing_zeros() as usize;
-            octets &= octets - 1;
-            if !has_any_of(self.open(), octet) {
-                continue;
-            }
-            for at in (octet * OCTET..(octet + 1) * OCTET).step_by(V::COUNT) {
-                let crossing = triangle.cross::<V>(token, packet, at);
-                let Met { surely, maybe } = triangle.met(token, &crossing, packet.range, margin);
-                if surely | maybe == 0 {
-                    continue;
-                }
-                let mut others = 0;
-                for (lane, own) in self.own[at..at + V::COUNT].iter().enumerate() {
-                    others |= u32::from(*own != found.number) << lane;
-                }
-                self.surely |= u64::from(surely & others) << at;
-                self.maybe |= u64::from(maybe & others) << at;
-            }
+        let crossing = triangle.cross::<V>(token, packet, at);
+        let Met { surely, maybe } = triangle.met(token, &crossing, packet.range, margin);
+        if surely | maybe != 0 {
+            let others = self.others::<V>(found, at);
+            self.surely |= u64::from(surely & others) << at;
+            self.maybe |= u64::from(maybe & others) << at;
         }
     }
 
@@ -77,39 +57,20 @@ impl Search for Blocked<'_> {
         packet: &RayPacket,
         found: &Candidate<'_>,
         body: &PacketBody,
-        rays: u64,
-    ) {
-        let mut rays = rays & self.open();
-        if rays == 0 || !self.casts_shadow(found) {
-            return;
+        at: usize,
+        rays: u32,
+    ) -> u32 {
+        let rays = rays & self.others::<V>(found, at);
+        if rays == 0 {
+            return 0;
         }
-        for (ray, own) in self.own.iter().enumerate() {
-            rays &= !(u64::from(*own == found.number) << ray);
-        }
-        let mut doubtful = 0;
-        for at in (0..RAYS).step_by(V::COUNT) {
-            let here = rays >> at & ((1 << V::COUNT) - 1);
-            if here != 0 {
-                let Met { surely, maybe } = body.met::<V>(token, packet, at, packet.range, ERROR_OF_DISTANCE);
-                self.surely |= (u64::from(surely) & here) << at;
-                doubtful |= (u64::from(maybe) & here) << at;
-            }
-        }
-        if doubtful != 0 {
-            self.test_rays(found, doubtful);
-        }
+        let Met { surely, maybe } = body.met::<V>(token, packet, at, packet.range, ERROR_OF_DISTANCE);
+        self.surely |= u64::from(surely & rays) << at;
+        maybe & rays
     }
 
-    #[inline(always)]
-    fn limit(&mut self) -> Option<f64> {
-        (self.open() != 0).then_some(f64::INFINITY)
-    }
-}
-
-impl Blocked<'_> {
-    /// Tests rays one by one.
     #[inline(never)]
-    fn test_rays(&mut self, found: &Candidate<'_>, rays: u64) {
+    fn test_rays(&mut self, _: &RayPacket, found: &Candidate<'_>, rays: u64) {
         for index in set_bits(rays) {
             let Some((ray, distance)) = (self.ray)(index) else { continue };
             match self.scene.blocks(found.primitive, &ray, distance) {
@@ -118,5 +79,19 @@ impl Blocked<'_> {
                 Blocks::Not => {}
             }
         }
+    }
+
+    #[inline(always)]
+    fn limit(&mut self, packet: &RayPacket) -> Option<f64> {
+        (packet.in_use & !self.surely != 0).then_some(f64::INFINITY)
+    }
+}
+
+impl Blocked<'_> {
+    /// Of some rays, those that do not belong to a primitive themselves.
+    #[inline(always)]
+    fn others<V: Lane>(&self, found: &Candidate<'_>, at: usize) -> u32 {
+        let own = &self.own[at..at + V::COUNT];
+        own.iter().enumerate().fold(0, |bits, (lane, own)| bits | u32::from(*own != found.number) << lane)
     }
 }

@@ -2,9 +2,10 @@
 //!
 //! As for triangles, only what is certain is decided here, with margins for every rounding error.
 
-use super::rays::{RayPacket, splat};
+use super::rays::RayPacket;
 use super::triangle::Met;
 use crate::lanes::Lane;
+use crate::render::vectors::splat;
 use crate::shape::{Body, Form};
 use crate::vector::Vector;
 
@@ -162,7 +163,6 @@ impl PacketBody {
         let (low, high) = (V::splat(token, low) - start, V::splat(token, high) - start);
         let error = V::splat(token, self.error);
         let never = V::splat(token, NEVER);
-        let zero = V::splat(token, 0.0);
         let size = direction.max(-direction);
         let direction_error = V::splat(token, self.direction_error);
         // So small a component is only rounding error: the ray stays between the planes, or outside.
@@ -179,10 +179,7 @@ impl PacketBody {
         let outside = V::select(clearance.is_less(-error), never, -never);
         Inside {
             enter: [V::select(is_parallel, outside, near - spread), V::select(is_parallel, inside, near + spread)],
-            leave: [
-                V::select(is_parallel, zero - inside, far - spread),
-                V::select(is_parallel, zero - outside, far + spread),
-            ],
+            leave: [V::select(is_parallel, -inside, far - spread), V::select(is_parallel, -outside, far + spread)],
         }
     }
 
@@ -232,7 +229,7 @@ impl PacketBody {
         let is_sure = both::<V>(is_regular, is_there, zero);
         Inside {
             enter: [V::select(is_sure, near - spread, misses), V::select(is_sure, near + spread, never)],
-            leave: [V::select(is_sure, far - spread, -never), V::select(is_sure, far + spread, zero - misses)],
+            leave: [V::select(is_sure, far - spread, -never), V::select(is_sure, far + spread, -misses)],
         }
     }
 
@@ -271,7 +268,7 @@ impl PacketBody {
         let endless = V::splat(token, f64::INFINITY);
         Inside {
             enter: [V::select(is_hit, soonest, misses), V::select(is_hit, latest, never)],
-            leave: [V::select(is_hit, endless, -never), V::select(is_hit, endless, zero - misses)],
+            leave: [V::select(is_hit, endless, -never), V::select(is_hit, endless, -misses)],
         }
     }
 }

@@ -1,30 +1,47 @@
 //! The primitives that the rays of a packet may meet.
 
 use super::body::PacketBody;
-use super::rays::{OCTET, RAYS, RayPacket, has_any_of, splat};
+use super::rays::{OCTET, RAYS, RayPacket, has_any_of};
+use super::set_bits;
+use super::triangle::PacketTriangle;
 use crate::accelerate::{Shaft, Walk};
 use crate::lanes::Lane;
 use crate::prepare::PreparedScene;
+use crate::render::vectors::splat;
 use crate::shape::{Bounds, Geometry, Primitive};
 use crate::vector::Vector;
 
 /// A search for what the rays of a packet meet.
 pub trait Search {
-    /// Tests a triangle.
-    fn test_triangle<V: Lane<Element = f64>>(&mut self, token: V::Token, packet: &RayPacket, found: &Candidate<'_>);
+    /// The rays that a primitive may still matter to, as bits; none if it does not matter at all.
+    fn open(&self, packet: &RayPacket, found: &Candidate<'_>) -> u64;
 
-    /// Tests another primitive for some of the rays.
+    /// Tests a triangle for some of the rays, in lanes.
+    fn test_triangle<V: Lane<Element = f64>>(
+        &mut self,
+        token: V::Token,
+        packet: &RayPacket,
+        found: &Candidate<'_>,
+        triangle: &PacketTriangle,
+        at: usize,
+    );
+
+    /// Tests another primitive for some of the rays, in lanes, `rays` of which matter; returns those that lanes cannot decide.
     fn test_body<V: Lane<Element = f64>>(
         &mut self,
         token: V::Token,
         packet: &RayPacket,
         found: &Candidate<'_>,
         body: &PacketBody,
-        rays: u64,
-    );
+        at: usize,
+        rays: u32,
+    ) -> u32;
+
+    /// Tests another primitive for the rays that are left, one by one.
+    fn test_rays(&mut self, packet: &RayPacket, found: &Candidate<'_>, rays: u64);
 
     /// The t up to which the search goes on; `None` if it is over.
-    fn limit(&mut self) -> Option<f64>;
+    fn limit(&mut self, packet: &RayPacket) -> Option<f64>;
 }
 
 /// A primitive that may be met.
@@ -66,7 +83,7 @@ pub fn search<S, D>(
     let Some(shaft) = tree.shaft(&starts, &ends) else { return };
     walk.start(tree);
     let depth = |shaft: &Shaft, limit: f64| shaft.depth_of(if limit < end { limit / end } else { 1.0 });
-    while let Some(limit) = search.limit()
+    while let Some(limit) = search.limit(packet)
         && let Some(number) = walk.next::<S>(token, tree, &shaft, depth(&shaft, limit))
     {
         test::<D>(token, scene, packet, search, number);
@@ -84,16 +101,36 @@ fn test<V: Lane<Element = f64>>(
     let primitive = scene.primitive(number);
     let geometry = scene.geometry(primitive.shape);
     let found = Candidate { number, primitive, geometry };
-    let Some(body) = geometry.body(primitive.part) else {
-        search.test_triangle::<V>(token, packet, &found);
+    if search.open(packet, &found) == 0 {
         return;
-    };
-    let rays = match geometry.bounds(primitive.part) {
-        Some(bounds) => through::<V>(token, packet, &bounds),
-        None => u64::MAX,
-    };
-    if rays & packet.in_use != 0 {
-        search.test_body::<V>(token, packet, &found, &PacketBody::new(body, packet), rays & packet.in_use);
+    }
+    if let Geometry::Mesh(mesh) = geometry {
+        let triangle = PacketTriangle::new(&mesh.corners(primitive.part), packet);
+        for octet in set_bits(triangle.octets::<V>(token, packet).into()) {
+            if has_any_of(search.open(packet, &found), octet) {
+                for at in (octet * OCTET..(octet + 1) * OCTET).step_by(V::COUNT) {
+                    search.test_triangle::<V>(token, packet, &found, &triangle, at);
+                }
+            }
+        }
+    } else if let Some(body) = geometry.body(primitive.part) {
+        let rays = match geometry.bounds(primitive.part) {
+            Some(bounds) => through::<V>(token, packet, &bounds),
+            None => u64::MAX,
+        };
+        let rays = rays & search.open(packet, &found);
+        let body = PacketBody::new(body, packet);
+        let mut left = 0;
+        for at in (0..RAYS).step_by(V::COUNT) {
+            #[expect(clippy::cast_possible_truncation, reason = "the bits of a vector")]
+            let rays = (rays >> at & ((1 << V::COUNT) - 1)) as u32;
+            if rays != 0 {
+                left |= u64::from(search.test_body::<V>(token, packet, &found, &body, at, rays)) << at;
+            }
+        }
+        if left != 0 {
+            search.test_rays(packet, &found, left);
+        }
     }
 }
 

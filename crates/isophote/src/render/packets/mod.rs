@@ -1,10 +1,10 @@
 //! Any shapes, seen by any camera: rays are traced in packets, tile by tile.
 //!
 //! The rays of a tile, and later those from its surface points to each light, go through the tree together, and the primitives
-//! that they may meet are tested for several rays at a time. That decides which primitive each ray hits, and which points see
-//! a light; the points themselves come from [`Geometry::intersect`](crate::shape::Geometry::intersect), and the kernel shades
-//! them. What is too close to call is traced ray by ray. Since each decision is made per ray, neither tiles nor packets change
-//! a bit.
+//! that they may meet are tested for several rays at a time, with a margin for every rounding error. That decides which primitive
+//! each ray certainly hits, and which points certainly see a light. The points themselves are then computed in lanes of 32 digits,
+//! and the kernel shades them. What is too close to call is traced ray by ray. Since each decision is made per ray, neither tiles
+//! nor packets change a bit.
 
 mod blocked;
 mod body;
@@ -32,7 +32,7 @@ use crate::ray::Ray;
 use crate::render::band::{self, Band, Tile};
 use crate::render::hits::HitBlock;
 use crate::render::shading::emitters::Lighting;
-use crate::render::{Observer, RenderError};
+use crate::render::{Observer, RenderError, rays as single_rays};
 use crate::shape::Primitive;
 
 /// Columns and rows of a tile.
@@ -54,7 +54,7 @@ pub struct Packets<'a> {
 }
 
 /// Whether a scene is rendered by packets: the visibility of each light at each point of a tile is stored, so there must not
-/// be too many lights. Machines without wide vectors gain little.
+/// be too many lights. Packets are not compiled for machines whose vectors have two numbers.
 pub fn supports(scene: &PreparedScene, instructions: Instructions) -> bool {
     instructions.are_wide() && scene.emitters().all().len() <= MOST_LIGHTS
 }
@@ -124,13 +124,9 @@ impl Work<'_> {
         doubtful |= self.clear_offsets();
         for ray in set_bits(doubtful) {
             let pixel = pixel_of(tile, ray);
-            let position = ScreenPosition::PixelCenter(pixel);
-            if let Some(hit) = scene.trace(position) {
-                self.one_by_one.push(band.index(pixel), &hit, Some(position));
+            if let Some(hit) = scene.trace_pixel(pixel) {
+                single_rays::put(pixel, &hit, band, &mut self.one_by_one)?;
                 self.seen[band.index(pixel)] = shape_of(&hit);
-                if self.one_by_one.is_full() {
-                    self.one_by_one.put(band)?;
-                }
             }
             self.hits[ray] = None;
         }
@@ -162,7 +158,7 @@ impl Work<'_> {
                 }
             }
         }
-        nearest.clear(packet.in_use);
+        nearest.clear();
     }
 
     /// The points that the rays hit; returns the rays for which a double is not enough, as bits.
@@ -201,13 +197,18 @@ impl Work<'_> {
             let is_sharp = |ray: usize| scene.has_sharper_highlight(primitives[ray], SHARPEST);
             let in_lanes = *is_precise && !set_bits(on_shape).any(is_sharp);
             if in_lanes {
-                let parts = primitives.map(|primitive| primitive.part);
-                instructions.run_wide(FindPoints { rays: precise, on_shape, geometry, parts: &parts, points });
+                instructions.run_wide(FindPoints {
+                    rays: precise,
+                    on_shape,
+                    geometry,
+                    primitives: &primitives,
+                    points,
+                });
             }
             for index in set_bits(on_shape) {
                 let primitive = primitives[index];
                 hits[index] = if in_lanes {
-                    points.hit(index, primitive, points::anchor_of(geometry, primitive.part), precise)
+                    points.hit(index, primitive, precise)
                 } else {
                     let position = ScreenPosition::PixelCenter(pixel_of(tile, index));
                     let hit = scene.hit_on(primitive, &packet.ray(index));
@@ -242,7 +243,7 @@ impl Work<'_> {
             let direction = hit.shadow_ray_offset * (1.0 / length);
             Some((Ray { anchor: hit.point.anchor, offset: hit.point.offset, direction }, Some(length)))
         };
-        let mut blocked = Blocked { scene, own: &own, ray: &ray, in_use, surely: 0, maybe: 0 };
+        let mut blocked = Blocked { scene, own: &own, ray: &ray, surely: 0, maybe: 0 };
         instructions.run_wide(Find { scene, packet, walk, search: &mut blocked });
         let mut doubtful = 0;
         for index in set_bits(blocked.surely | blocked.maybe) {

@@ -2,16 +2,15 @@
 
 use super::body::{First, PacketBody};
 use super::candidates::{Candidate, Search};
-use super::rays::{OCTET, RAYS, RayPacket, has_any_of};
+use super::rays::{RAYS, RayPacket};
+use super::set_bits;
 use super::triangle::{Met, PacketTriangle};
 use crate::lanes::Lane;
 use crate::prepare::ERROR_OF_DISTANCE;
-use crate::shape::{Accuracy, Geometry};
+use crate::shape::Accuracy;
 
 /// The nearest hits so far.
 pub struct Nearest {
-    /// The rays that are still in use.
-    in_use: u64,
     /// t of the nearest hit, its possible error, and the number of the primitive, −1 for none.
     distance: [f64; RAYS],
     error: [f64; RAYS],
@@ -36,7 +35,6 @@ impl Nearest {
     /// Nothing found yet.
     pub fn new() -> Box<Self> {
         Box::new(Self {
-            in_use: 0,
             distance: [0.0; RAYS],
             error: [0.0; RAYS],
             number: [0.0; RAYS],
@@ -45,9 +43,8 @@ impl Nearest {
         })
     }
 
-    /// Forgets everything; these rays are in use.
-    pub fn clear(&mut self, in_use: u64) {
-        self.in_use = in_use;
+    /// Forgets everything.
+    pub fn clear(&mut self) {
         self.distance.fill(f64::INFINITY);
         self.error.fill(0.0);
         self.number.fill(-1.0);
@@ -72,28 +69,6 @@ impl Nearest {
         // Written so that NaN counts as doubtful from the start.
         let from = if from > 0.0 { from } else { 0.0 };
         self.doubtful_from[ray] = self.doubtful_from[ray].min(from);
-    }
-
-    /// Tests the rays of an octet.
-    #[inline(always)]
-    fn test_octet<V: Lane<Element = f64>>(
-        &mut self,
-        token: V::Token,
-        packet: &RayPacket,
-        triangle: &PacketTriangle,
-        octet: usize,
-        number: u32,
-    ) {
-        for at in (octet * OCTET..(octet + 1) * OCTET).step_by(V::COUNT) {
-            let crossing = triangle.cross::<V>(token, packet, at);
-            let Met { surely, maybe } = triangle.met(token, &crossing, packet.range, 0.0);
-            if maybe != 0 {
-                self.doubt_some(at, maybe, crossing.t - crossing.error);
-            }
-            if surely != 0 {
-                self.take(token, at, surely, crossing.t, crossing.error, number);
-            }
-        }
     }
 
     /// Takes hits of some of the rays.
@@ -133,16 +108,26 @@ impl Nearest {
 
 impl Search for Nearest {
     #[inline(always)]
-    fn test_triangle<V: Lane<Element = f64>>(&mut self, token: V::Token, packet: &RayPacket, found: &Candidate<'_>) {
-        let Geometry::Mesh(mesh) = found.geometry else { return };
-        let triangle = PacketTriangle::new(&mesh.corners(found.primitive.part), packet);
-        let mut octets = triangle.octets::<V>(token, packet);
-        while octets != 0 {
-            let octet = octets.trailing_zeros() as usize;
-            octets &= octets - 1;
-            if has_any_of(packet.in_use, octet) {
-                self.test_octet::<V>(token, packet, &triangle, octet, found.number);
-            }
+    fn open(&self, packet: &RayPacket, _: &Candidate<'_>) -> u64 {
+        packet.in_use
+    }
+
+    #[inline(always)]
+    fn test_triangle<V: Lane<Element = f64>>(
+        &mut self,
+        token: V::Token,
+        packet: &RayPacket,
+        found: &Candidate<'_>,
+        triangle: &PacketTriangle,
+        at: usize,
+    ) {
+        let crossing = triangle.cross::<V>(token, packet, at);
+        let Met { surely, maybe } = triangle.met(token, &crossing, packet.range, 0.0);
+        if maybe != 0 {
+            self.doubt_some(at, maybe, crossing.t - crossing.error);
+        }
+        if surely != 0 {
+            self.take(token, at, surely, crossing.t, crossing.error, found.number);
         }
     }
 
@@ -153,52 +138,19 @@ impl Search for Nearest {
         packet: &RayPacket,
         found: &Candidate<'_>,
         body: &PacketBody,
-        rays: u64,
-    ) {
-        let mut doubtful = 0;
-        for at in (0..RAYS).step_by(V::COUNT) {
-            let here = rays >> at & ((1 << V::COUNT) - 1);
-            if here == 0 {
-                continue;
-            }
-            let First { t, error, met: Met { surely, maybe } } = body.first::<V>(token, packet, at);
-            doubtful |= (u64::from(maybe) & here) << at;
-            #[expect(clippy::cast_possible_truncation, reason = "the bits of a vector")]
-            let surely = surely & here as u32;
-            if surely != 0 {
-                self.take(token, at, surely, t, error, found.number);
-            }
+        at: usize,
+        rays: u32,
+    ) -> u32 {
+        let First { t, error, met: Met { surely, maybe } } = body.first::<V>(token, packet, at);
+        if surely & rays != 0 {
+            self.take(token, at, surely & rays, t, error, found.number);
         }
-        if doubtful != 0 {
-            self.test_rays(packet, found, doubtful);
-        }
+        maybe & rays
     }
 
-    #[inline(always)]
-    fn limit(&mut self) -> Option<f64> {
-        if let Some(farthest) = self.farthest {
-            return Some(farthest);
-        }
-        let mut farthest = 0.0_f64;
-        for (ray, (distance, error)) in self.distance.iter().zip(&self.error).enumerate() {
-            if self.in_use >> ray & 1 == 1 {
-                farthest = farthest.max(distance + error);
-            }
-        }
-        // What is doubtful may be a little farther.
-        let farthest = farthest * (1.0 + 1e-9);
-        self.farthest = Some(farthest);
-        Some(farthest)
-    }
-}
-
-impl Nearest {
-    /// Tests rays one by one.
     #[inline(never)]
-    fn test_rays(&mut self, packet: &RayPacket, found: &Candidate<'_>, mut rays: u64) {
-        while rays != 0 {
-            let index = rays.trailing_zeros() as usize;
-            rays &= rays - 1;
+    fn test_rays(&mut self, packet: &RayPacket, found: &Candidate<'_>, rays: u64) {
+        for index in set_bits(rays) {
             let intersection =
                 found.geometry.intersect(found.primitive.part, &packet.ray(index), Accuracy::OF_VISIBILITY);
             if let Some(from) = intersection.doubtful_from {
@@ -216,5 +168,18 @@ impl Nearest {
                 self.farthest = None;
             }
         }
+    }
+
+    #[inline(always)]
+    fn limit(&mut self, packet: &RayPacket) -> Option<f64> {
+        if self.farthest.is_none() {
+            let mut farthest = 0.0_f64;
+            for ray in set_bits(packet.in_use) {
+                farthest = farthest.max(self.distance[ray] + self.error[ray]);
+            }
+            // What is doubtful may be a little farther.
+            self.farthest = Some(farthest * (1.0 + 1e-9));
+        }
+        self.farthest
     }
 }

@@ -3,12 +3,13 @@
 //! They are computed in lanes of 32 digits: the accuracy of a double, which the result has, is then enough for any highlight.
 
 use super::precise::{PreciseRays, Way, exact, exact_number, exactly, nearest};
-use super::rays::{OCTET, RAYS, Vectors, get, load, put, splat};
+use super::rays::{OCTET, OCTETS, RAYS, Vectors, has_any_of};
 use super::set_bits;
 use crate::double_double::DoubleDouble;
 use crate::lanes::{Lane, LaneJob, SimdToken};
 use crate::prepare::Hit;
 use crate::real::Real;
+use crate::render::vectors::{get, load, put, splat};
 use crate::shape::{Cone, Cuboid, Ellipsoid, Geometry, Placement, Primitive, Sphere, SurfacePoint};
 use crate::vector::Vector;
 
@@ -22,6 +23,8 @@ pub struct Points {
     from_inside: u64,
     /// The rays for which a double is not enough.
     doubtful: u64,
+    /// The corners of the triangles. Of other shapes, the first one is the anchor of the points; of spheres, which is the centre,
+    /// the second one holds the radius.
     corners: [Vectors; 3],
     normals: [Vectors; 3],
 }
@@ -49,12 +52,12 @@ impl Points {
     }
 
     /// The point of a ray on a primitive; `None` if it takes more than a double.
-    pub fn hit(&self, ray: usize, primitive: Primitive, anchor: Vector, rays: &PreciseRays) -> Option<Hit> {
+    pub fn hit(&self, ray: usize, primitive: Primitive, rays: &PreciseRays) -> Option<Hit> {
         if self.doubtful >> ray & 1 == 1 {
             return None;
         }
         let point = SurfacePoint {
-            anchor,
+            anchor: get(&self.corners[0], ray),
             offset: get(&self.offset, ray),
             normal: get(&self.normal, ray),
             view: -rays.direction_of(ray),
@@ -78,8 +81,8 @@ pub struct FindPoints<'f> {
     pub on_shape: u64,
     /// The shape.
     pub geometry: &'f Geometry,
-    /// The part of the shape that each of them hits.
-    pub parts: &'f [u32; RAYS],
+    /// The primitive that each of them hits.
+    pub primitives: &'f [Primitive; RAYS],
     /// Where the points go.
     pub points: &'f mut Points,
 }
@@ -91,14 +94,6 @@ fn flat(geometry: &Geometry) -> Option<&Placement> {
         Geometry::Rectangle(rectangle) => Some(rectangle.placement()),
         Geometry::Disk(disk) => Some(disk.placement()),
         _ => None,
-    }
-}
-
-/// The anchor of the points on a part of a shape.
-pub fn anchor_of(geometry: &Geometry, part: u32) -> Vector {
-    match geometry {
-        Geometry::Mesh(mesh) => mesh.corners(part)[0],
-        other => other.body(part).map(|body| body.origin).unwrap_or_default(),
     }
 }
 
@@ -161,31 +156,33 @@ struct Found<V> {
 }
 
 impl FindPoints<'_> {
-    /// Looks the corners of triangles up, and centres and radii of spheres; returns whether triangles have normals.
+    /// Looks up where the shape is; returns whether it is made of triangles that have normals.
     fn gather(&mut self) -> bool {
         let mut is_smooth = false;
+        let origin = self.geometry.body(0).map(|body| body.origin).unwrap_or_default();
         for ray in set_bits(self.on_shape) {
+            let part = self.primitives[ray].part;
             let (corners, normals) = match self.geometry {
-                Geometry::Mesh(mesh) => mesh.corners_and_normals(self.parts[ray]),
+                Geometry::Mesh(mesh) => mesh.corners_and_normals(part),
                 Geometry::Sphere(sphere) => (of_sphere(sphere), None),
-                Geometry::Spheres(cloud) => (of_sphere(&cloud.spheres[self.parts[ray] as usize]), None),
-                _ => return false,
+                Geometry::Spheres(cloud) => (of_sphere(&cloud.spheres[part as usize]), None),
+                _ => ([origin; 3], None),
             };
             for (out, corner) in self.points.corners.iter_mut().zip(corners) {
-                put(out, ray, corner);
+                put(corner, ray, out);
             }
             for (out, normal) in self.points.normals.iter_mut().zip(normals.into_iter().flatten()) {
-                put(out, ray, normal);
+                put(normal, ray, out);
                 is_smooth = true;
             }
         }
         // The other lanes of a vector compute something too.
         let any = self.on_shape.trailing_zeros() as usize;
-        for octet in (0..RAYS).step_by(OCTET).filter(|octet| self.on_shape >> octet & 0xff != 0) {
-            for ray in (octet..octet + OCTET).filter(|ray| self.on_shape >> ray & 1 == 0) {
+        for octet in (0..OCTETS).filter(|octet| has_any_of(self.on_shape, *octet)) {
+            for ray in (octet * OCTET..(octet + 1) * OCTET).filter(|ray| self.on_shape >> ray & 1 == 0) {
                 for vectors in self.points.corners.iter_mut().chain(&mut self.points.normals) {
                     let vector = get(vectors, any);
-                    put(vectors, ray, vector);
+                    put(vector, ray, vectors);
                 }
             }
         }
@@ -209,17 +206,17 @@ impl FindPoints<'_> {
     fn on_triangles<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64, is_smooth: bool) {
         let Way { start, along, direction } = self.rays.way::<V>(token, at);
         let [a, b, c] = &self.points.corners;
-        let corners = [load::<V>(token, a, at), load::<V>(token, b, at), load::<V>(token, c, at)];
+        let corners = [load::<V, _>(token, at, a), load::<V, _>(token, at, b), load::<V, _>(token, at, c)];
         let wide = [exactly(corners[0]), exactly(corners[1]), exactly(corners[2])];
-        let seen = [wide[0] + -start, wide[1] + -start, wide[2] + -start];
+        let seen = [wide[0] - start, wide[1] - start, wide[2] - start];
         let edges =
             [along.dot(seen[1].cross(seen[2])), along.dot(seen[2].cross(seen[0])), along.dot(seen[0].cross(seen[1]))];
         let whole = edges[0] + edges[1] + edges[2];
         let inverse = whole.splat_like(1.0) / whole;
         let weights = [(edges[0] * inverse).nearest(), (edges[1] * inverse).nearest(), (edges[2] * inverse).nearest()];
-        let sides = [corners[1] + -corners[0], corners[2] + -corners[0]];
+        let sides = [corners[1] - corners[0], corners[2] - corners[0]];
         let offset = sides[0] * weights[1] + sides[1] * weights[2];
-        let across = (wide[1] + -wide[0]).cross(wide[2] + -wide[0]);
+        let across = (wide[1] - wide[0]).cross(wide[2] - wide[0]);
         let face = nearest(across).normalized();
         let zero = V::splat(token, 0.0);
         let negligible = V::splat(token, 1e-14);
@@ -229,9 +226,9 @@ impl FindPoints<'_> {
         let (normal, shadow_ray_offset, mut doubtful) = if is_smooth {
             let [a, b, c] = &self.points.normals;
             let filled = [
-                or_else(load::<V>(token, a, at), face),
-                or_else(load::<V>(token, b, at), face),
-                or_else(load::<V>(token, c, at), face),
+                or_else(load::<V, _>(token, at, a), face),
+                or_else(load::<V, _>(token, at, b), face),
+                or_else(load::<V, _>(token, at, c), face),
             ];
             let mixed = filled[0] * weights[0] + filled[1] * weights[1] + filled[2] * weights[2];
             let square = mixed.dot(mixed);
@@ -243,7 +240,7 @@ impl FindPoints<'_> {
             let mut shadow_ray_offset = none;
             for corner in 0..3 {
                 let normal = filled[corner] * turn;
-                let below = (-(offset + -corners[corner]).dot(normal)).max_zero();
+                let below = (-(offset - corners[corner]).dot(normal)).max_zero();
                 shadow_ray_offset = shadow_ray_offset + normal * (below * weights[corner]);
             }
             let doubtful =
@@ -264,8 +261,9 @@ impl FindPoints<'_> {
     #[inline(always)]
     fn on_plane<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64) {
         let Some(placement) = flat(self.geometry) else { return };
-        let Way { start, along, direction } = self.rays.way::<V>(token, at);
-        let start = start + -exact::<V>(token, Vector::from_f64(placement.origin));
+        let way = self.rays.way::<V>(token, at);
+        let along = way.along;
+        let start = way.start - exact::<V>(token, Vector::from_f64(placement.origin));
         let [first, second, third] = placement.axes::<DoubleDouble>();
         let (first, second) = (exact::<V>(token, first), exact::<V>(token, second));
         let third = exact::<V>(token, third);
@@ -274,16 +272,17 @@ impl FindPoints<'_> {
         let place = along.mul_add(parameter, start);
         let [x, y] = [place.dot(first).nearest(), place.dot(second).nearest()];
         let offset = nearest(first) * x + nearest(second) * y;
-        let found = self.facing::<V>(token, at, direction, offset, nearest(third), parameter.nearest());
+        let found = Self::facing::<V>(token, &way, offset, nearest(third), parameter.nearest());
         self.keep(at, lanes, &found, 0);
     }
 
     /// The points of a box.
     #[inline(always)]
     fn on_box<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64, cuboid: &Cuboid) {
-        let Way { start, along, direction } = self.rays.way::<V>(token, at);
+        let way = self.rays.way::<V>(token, at);
+        let along = way.along;
         let placement = cuboid.placement();
-        let start = start + -exact::<V>(token, Vector::from_f64(placement.origin));
+        let start = way.start - exact::<V>(token, Vector::from_f64(placement.origin));
         let [x, y, z] = placement.axes::<DoubleDouble>();
         let (x, y, z) = (exact::<V>(token, x), exact::<V>(token, y), exact::<V>(token, z));
         let local = [(start.dot(x), along.dot(x)), (start.dot(y), along.dot(y)), (start.dot(z), along.dot(z))];
@@ -304,7 +303,7 @@ impl FindPoints<'_> {
             let number = V::splat(token, AXES[axis]);
             let inverse = DoubleDouble::exactly(V::splat(token, 1.0)) / along;
             let wide_side = DoubleDouble::exactly(side);
-            let (first, last) = ((wide_side + -start) * inverse, (-wide_side + -start) * inverse);
+            let (first, last) = ((wide_side - start) * inverse, (-wide_side - start) * inverse);
             let is_later = enter.0.is_less(first);
             enter = (
                 DoubleDouble::select(is_later, first, enter.0),
@@ -338,7 +337,7 @@ impl FindPoints<'_> {
                 V::select(is_face, units[axis].z, normal.z),
             );
         }
-        let found = self.facing::<V>(token, at, direction, offset, normal, parameter.nearest());
+        let found = Self::facing::<V>(token, &way, offset, normal, parameter.nearest());
         self.keep(at, lanes, &found, 0);
     }
 
@@ -347,10 +346,10 @@ impl FindPoints<'_> {
     fn on_spheres<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64) {
         let Way { start, along, .. } = self.rays.way::<V>(token, at);
         let [center, radius, _] = &self.points.corners;
-        let start = start + -exactly(load::<V>(token, center, at));
+        let start = start - exactly(load::<V, _>(token, at, center));
         let radius = V::load(token, &radius[0][at..]);
         let wide = DoubleDouble::exactly(radius);
-        let squares = [along.dot(along), start.dot(along), start.dot(start) + -(wide * wide)];
+        let squares = [along.dot(along), start.dot(along), start.dot(start) - (wide * wide)];
         let Roots { parameter, root, is_inside } = roots(squares);
         self.points.from_inside |= (u64::from(V::bits(is_inside)) & lanes) << at;
         let offset = nearest(along.mul_add(parameter, start));
@@ -372,7 +371,7 @@ impl FindPoints<'_> {
     fn on_ellipsoid<V: Lane<Element = f64>>(&mut self, token: V::Token, at: usize, lanes: u64, ellipsoid: &Ellipsoid) {
         let Way { start, along, .. } = self.rays.way::<V>(token, at);
         let placement = ellipsoid.placement();
-        let start = start + -exact::<V>(token, Vector::from_f64(placement.origin));
+        let start = start - exact::<V>(token, Vector::from_f64(placement.origin));
         let [x, y, z] = placement.axes::<DoubleDouble>();
         let (x, y, z) = (exact::<V>(token, x), exact::<V>(token, y), exact::<V>(token, z));
         let radii = ellipsoid.radii();
@@ -381,7 +380,7 @@ impl FindPoints<'_> {
         let scaled_start = Vector::new(start.dot(x) * inverse.x, start.dot(y) * inverse.y, start.dot(z) * inverse.z);
         let scaled = Vector::new(along.dot(x) * inverse.x, along.dot(y) * inverse.y, along.dot(z) * inverse.z);
         let one = DoubleDouble::exactly(V::splat(token, 1.0));
-        let squares = [scaled.dot(scaled), scaled_start.dot(scaled), scaled_start.dot(scaled_start) + -one];
+        let squares = [scaled.dot(scaled), scaled_start.dot(scaled), scaled_start.dot(scaled_start) - one];
         let Roots { parameter, root, is_inside } = roots(squares);
         self.points.from_inside |= (u64::from(V::bits(is_inside)) & lanes) << at;
         let unit = nearest(scaled.mul_add(parameter, scaled_start));
@@ -412,7 +411,7 @@ impl FindPoints<'_> {
         };
         let Way { start, along, .. } = self.rays.way::<V>(token, at);
         let placement = cone.placement();
-        let start = start + -exact::<V>(token, Vector::from_f64(placement.origin));
+        let start = start - exact::<V>(token, Vector::from_f64(placement.origin));
         let [x, y, z] = placement.axes::<DoubleDouble>();
         let (x, y, z) = (exact::<V>(token, x), exact::<V>(token, y), exact::<V>(token, z));
         let start = Vector::new(start.dot(x), start.dot(y), start.dot(z));
@@ -426,19 +425,19 @@ impl FindPoints<'_> {
         let radius = slope.mul_add(start.z, base_radius);
         let widening = slope * local.z;
         let squares = [
-            across(&local, &local) + -(widening * widening),
-            across(&start, &local) + -(widening * radius),
-            across(&start, &start) + -(radius * radius),
+            across(&local, &local) - (widening * widening),
+            across(&start, &local) - (widening * radius),
+            across(&start, &start) - (radius * radius),
         ];
         let root = wide_root(squares);
         let inverse = DoubleDouble::exactly(one) / squares[0];
-        let (near, far) = ((-squares[1] + -root) * inverse, (-squares[1] + root) * inverse);
+        let (near, far) = ((-squares[1] - root) * inverse, (-squares[1] + root) * inverse);
         // The ends: z = 0 and z = h.
         let smallest = V::splat(token, 1e-250);
         let is_parallel = local.z.nearest().max(-local.z.nearest()).is_less(smallest);
         let way = DoubleDouble::select(is_parallel, DoubleDouble::exactly(smallest), local.z);
         let inverse = DoubleDouble::exactly(one) / way;
-        let (base, end) = (-start.z * inverse, (height + -start.z) * inverse);
+        let (base, end) = (-start.z * inverse, (height - start.z) * inverse);
         let is_rising = zero.is_less(way.nearest());
         let (first, last) = (DoubleDouble::select(is_rising, base, end), DoubleDouble::select(is_rising, end, base));
         // From outside, the later of the entrances; from inside, the sooner of the exits.
@@ -489,23 +488,20 @@ impl FindPoints<'_> {
     /// Points at a place of a plane, whose normal is turned to the eye.
     #[inline(always)]
     fn facing<V: Lane<Element = f64>>(
-        &self,
         token: V::Token,
-        at: usize,
-        direction: Vector<V>,
+        way: &Way<V>,
         offset: Vector<V>,
         normal: Vector<V>,
         parameter: V,
     ) -> Found<V> {
         let zero = V::splat(token, 0.0);
-        let slope = normal.dot(direction);
+        let slope = normal.dot(way.direction);
         let normal = normal * V::select(zero.is_less(slope), V::splat(token, -1.0), V::splat(token, 1.0));
-        let along = nearest(self.rays.way::<V>(token, at).along);
         Found {
             offset,
             normal,
-            cos_theta_o: -normal.dot(direction),
-            distance: parameter * along.length(),
+            cos_theta_o: -normal.dot(way.direction),
+            distance: parameter * nearest(way.along).length(),
             shadow_ray_offset: Vector::new(zero, zero, zero),
         }
     }
@@ -559,7 +555,7 @@ struct Roots<V: Lane> {
 /// √(b² − ac), 0 where it is negative.
 #[inline(always)]
 fn wide_root<V: Lane<Element = f64>>([a, b, c]: [DoubleDouble<V>; 3]) -> DoubleDouble<V> {
-    (b * b + -(a * c)).max_zero().sqrt()
+    (b * b - (a * c)).max_zero().sqrt()
 }
 
 /// The roots of at² + 2bt + c.
@@ -568,7 +564,7 @@ fn roots<V: Lane<Element = f64>>(squares: [DoubleDouble<V>; 3]) -> Roots<V> {
     let [a, b, _] = squares;
     let root = wide_root(squares);
     let inverse = a.splat_like(1.0) / a;
-    let (near, far) = ((-b + -root) * inverse, (-b + root) * inverse);
+    let (near, far) = ((-b - root) * inverse, (-b + root) * inverse);
     let is_inside = near.is_less(near.splat_like(0.0));
     Roots { parameter: DoubleDouble::select(is_inside, far, near), root: root.nearest(), is_inside }
 }

@@ -1,12 +1,13 @@
 //! The rays of a tile with 32 digits, and numbers with 32 digits in lanes.
 
 use super::place_of;
-use super::rays::{RAYS, RayPacket, Vectors, get, load, put, splat, store};
+use super::rays::{RAYS, RayPacket, Vectors};
 use crate::double_double::DoubleDouble;
 use crate::lanes::{Lane, LaneJob};
 use crate::map::Pixel;
 use crate::prepare::PreparedScene;
 use crate::render::band::{Band, Tile};
+use crate::render::vectors::{get, load, put, splat, store};
 use crate::vector::Vector;
 
 /// The rays of a tile with 32 digits: a ray's direction, or its start if all rays are parallel, is the sum of what its column
@@ -82,8 +83,8 @@ impl PreciseRays {
             let column = self.columns[(column + across.min(tile.width - 1)) as usize];
             let row = self.rows[(row + down.min(tile.height - 1)) as usize];
             for half in 0..2 {
-                put(&mut self.of_columns[half], ray, column[half]);
-                put(&mut self.of_rows[half], ray, row[half]);
+                put(column[half], ray, &mut self.of_columns[half]);
+                put(row[half], ray, &mut self.of_rows[half]);
             }
         }
     }
@@ -93,7 +94,7 @@ impl PreciseRays {
     pub fn way<V: Lane<Element = f64>>(&self, token: V::Token, at: usize) -> Way<V> {
         let sum = pairs::<V>(token, &self.sums, at);
         let common = exact::<V>(token, self.common);
-        let direction = load::<V>(token, &self.directions, at);
+        let direction = load::<V, _>(token, at, &self.directions);
         if self.is_parallel {
             Way { start: sum, along: common, direction }
         } else {
@@ -140,24 +141,24 @@ impl Combine<'_> {
         for at in (0..RAYS).step_by(V::COUNT) {
             let sum = pairs::<V>(token, of_columns, at) + pairs(token, of_rows, at);
             let high = nearest(sum);
-            store(&mut sums[0], at, high);
-            let low = sum + -exactly(high);
-            store(&mut sums[1], at, nearest(low));
+            store(high, at, &mut sums[0]);
+            let low = sum - exactly(high);
+            store(nearest(low), at, &mut sums[1]);
             let (start, direction) = if *is_parallel {
-                (nearest(sum + -origin), parallel)
+                (nearest(sum - origin), parallel)
             } else {
                 (Vector::new(zero, zero, zero), high.normalized())
             };
-            store(directions, at, direction);
-            store(&mut packet.start, at, start);
-            store(&mut packet.direction, at, direction);
+            store(direction, at, directions);
+            store(start, at, &mut packet.start);
+            store(direction, at, &mut packet.direction);
         }
     }
 }
 
 #[inline(always)]
 fn pairs<V: Lane<Element = f64>>(token: V::Token, [high, low]: &[Vectors; 2], at: usize) -> Vector<DoubleDouble<V>> {
-    let (high, low) = (load::<V>(token, high, at), load::<V>(token, low, at));
+    let (high, low) = (load::<V, _>(token, at, high), load::<V, _>(token, at, low));
     Vector::new(
         DoubleDouble::sum_of(high.x, low.x),
         DoubleDouble::sum_of(high.y, low.y),

@@ -2,6 +2,7 @@
 
 use crate::lanes::Lane;
 use crate::ray::Ray;
+use crate::render::vectors::{self, get, greatest_of, least_of, load, put, splat, store};
 use crate::shape::Bounds;
 use crate::vector::Vector;
 
@@ -12,10 +13,10 @@ pub const RAYS: usize = 64;
 pub const OCTET: usize = 8;
 
 /// The number of octets in a packet.
-const OCTETS: usize = RAYS / OCTET;
+pub const OCTETS: usize = RAYS / OCTET;
 
 /// A vector per ray, by axis.
-pub type Vectors = [[f64; RAYS]; 3];
+pub type Vectors = vectors::Vectors<f64, RAYS>;
 
 /// Rays from `origin + start`, in metres. The parameter t of a point counts lengths of its ray's direction.
 pub struct RayPacket {
@@ -36,7 +37,7 @@ pub struct RayPacket {
     /// direction × start: zero where all rays start at the origin.
     moment: Vectors,
     /// The middle of each octet's directions and moments, and the largest distance from there.
-    middle: [[[f64; OCTETS]; 3]; 2],
+    middle: [vectors::Vectors<f64, OCTETS>; 2],
     spread: [[f64; OCTETS]; 2],
 }
 
@@ -70,8 +71,8 @@ impl RayPacket {
     /// Sets a ray.
     #[inline(always)]
     pub fn set(&mut self, ray: usize, start: Vector, direction: Vector) {
-        put(&mut self.start, ray, start);
-        put(&mut self.direction, ray, direction);
+        put(start, ray, &mut self.start);
+        put(direction, ray, &mut self.direction);
     }
 
     /// A ray, whose direction is a unit vector.
@@ -104,14 +105,14 @@ impl RayPacket {
         let zero = V::splat(token, 0.0);
         let (mut reach, mut longest, mut shortest) = (zero, zero, V::splat(token, f64::MAX));
         for at in (0..RAYS).step_by(V::COUNT) {
-            let (start, direction) = (load::<V>(token, &self.start, at), load::<V>(token, &self.direction, at));
-            store(&mut self.moment, at, direction.cross(start));
+            let (start, direction) = (load::<V, _>(token, at, &self.start), load::<V, _>(token, at, &self.direction));
+            store(direction.cross(start), at, &mut self.moment);
             reach = reach.max(start.dot(start));
             let square = direction.dot(direction);
             (longest, shortest) = (longest.max(square), shortest.min(square));
         }
-        self.reach = largest(reach).sqrt();
-        self.lengths = [(-largest(-shortest)).sqrt(), largest(longest).sqrt()];
+        self.reach = greatest_of(reach).sqrt();
+        self.lengths = [least_of(shortest).sqrt(), greatest_of(longest).sqrt()];
         for octet in 0..OCTETS {
             let rays = octet * OCTET..(octet + 1) * OCTET;
             for (of, vectors) in [&self.direction, &self.moment].into_iter().enumerate() {
@@ -142,9 +143,9 @@ impl RayPacket {
         let t = V::splat(token, t);
         let (mut starts, mut ends) = (Range::none(token), Range::none(token));
         for at in (0..RAYS).step_by(V::COUNT) {
-            let start = load::<V>(token, &self.start, at);
+            let start = load::<V, _>(token, at, &self.start);
             starts.widen(start);
-            ends.widen(load::<V>(token, &self.direction, at).mul_add(t, start));
+            ends.widen(load::<V, _>(token, at, &self.direction).mul_add(t, start));
         }
         [starts.bounds(self.origin), ends.bounds(self.origin)]
     }
@@ -152,30 +153,30 @@ impl RayPacket {
     /// S and D of some rays.
     #[inline(always)]
     pub fn rays<V: Lane<Element = f64>>(&self, token: V::Token, at: usize) -> [Vector<V>; 2] {
-        [load(token, &self.start, at), load(token, &self.direction, at)]
+        [load(token, at, &self.start), load(token, at, &self.direction)]
     }
 
     /// On which side of an edge some rays pass.
     #[inline(always)]
     pub fn side<V: Lane<Element = f64>>(&self, token: V::Token, at: usize, edge: &EdgeSide) -> V {
-        let side = load::<V>(token, &self.direction, at).dot(splat(token, edge.across));
+        let side = load::<V, _>(token, at, &self.direction).dot(splat(token, edge.across));
         if self.is_central() {
             return side;
         }
-        side - load::<V>(token, &self.moment, at).dot(splat(token, edge.along))
+        side - load::<V, _>(token, at, &self.moment).dot(splat(token, edge.along))
     }
 
     /// The range of that function over each octet: of some octets, its middle and half its width.
     #[inline(always)]
     pub fn side_of_octets<V: Lane<Element = f64>>(&self, token: V::Token, at: usize, edge: &EdgeSide) -> [V; 2] {
-        let direction = of_octets::<V>(token, &self.middle[0], at);
+        let direction = load::<V, _>(token, at, &self.middle[0]);
         let of_direction = V::load(token, &self.spread[0][at..]);
         let middle = direction.dot(splat(token, edge.across));
         let half = of_direction * V::splat(token, edge.across.length());
         if self.is_central() {
             return [middle, half];
         }
-        let moment = of_octets::<V>(token, &self.middle[1], at);
+        let moment = load::<V, _>(token, at, &self.middle[1]);
         let of_moment = V::load(token, &self.spread[1][at..]);
         let middle = middle - moment.dot(splat(token, edge.along));
         [middle, of_moment.mul_add(V::splat(token, edge.along.length()), half)]
@@ -205,63 +206,14 @@ impl<V: Lane<Element = f64>> Range<V> {
     #[inline(always)]
     fn bounds(self, origin: Vector) -> Bounds {
         let Self { least, greatest } = self;
-        let least = Vector::new(-largest(-least.x), -largest(-least.y), -largest(-least.z));
-        let greatest = Vector::new(largest(greatest.x), largest(greatest.y), largest(greatest.z));
+        let least = Vector::new(least_of(least.x), least_of(least.y), least_of(least.z));
+        let greatest = Vector::new(greatest_of(greatest.x), greatest_of(greatest.y), greatest_of(greatest.z));
         Bounds { least: origin + least, greatest: origin + greatest }
     }
-}
-
-#[inline(always)]
-fn of_octets<V: Lane<Element = f64>>(token: V::Token, [x, y, z]: &[[f64; OCTETS]; 3], at: usize) -> Vector<V> {
-    Vector::new(V::load(token, &x[at..]), V::load(token, &y[at..]), V::load(token, &z[at..]))
 }
 
 /// Whether any bit of an octet is set.
 #[inline(always)]
 pub fn has_any_of(bits: u64, octet: usize) -> bool {
     bits >> (octet * OCTET) << (RAYS - OCTET) != 0
-}
-
-/// Writes a vector.
-#[inline(always)]
-pub fn put([x, y, z]: &mut Vectors, at: usize, vector: Vector) {
-    (x[at], y[at], z[at]) = (vector.x, vector.y, vector.z);
-}
-
-/// Reads a vector.
-#[inline(always)]
-pub fn get([x, y, z]: &Vectors, at: usize) -> Vector {
-    Vector::new(x[at], y[at], z[at])
-}
-
-/// Reads some vectors.
-#[inline(always)]
-pub fn load<V: Lane<Element = f64>>(token: V::Token, [x, y, z]: &Vectors, at: usize) -> Vector<V> {
-    Vector::new(V::load(token, &x[at..]), V::load(token, &y[at..]), V::load(token, &z[at..]))
-}
-
-/// Writes some vectors.
-#[inline(always)]
-pub fn store<V: Lane<Element = f64>>([x, y, z]: &mut Vectors, at: usize, vectors: Vector<V>) {
-    vectors.x.store(&mut x[at..]);
-    vectors.y.store(&mut y[at..]);
-    vectors.z.store(&mut z[at..]);
-}
-
-/// The same vector in every lane.
-#[inline(always)]
-pub fn splat<V: Lane<Element = f64>>(token: V::Token, vector: Vector) -> Vector<V> {
-    Vector::new(V::splat(token, vector.x), V::splat(token, vector.y), V::splat(token, vector.z))
-}
-
-/// The largest number of a vector.
-#[inline(always)]
-fn largest<V: Lane<Element = f64>>(numbers: V) -> f64 {
-    let mut all = [f64::NEG_INFINITY; 16];
-    numbers.store(&mut all);
-    let mut largest = all[0];
-    for number in &all[1..V::COUNT] {
-        largest = if *number > largest { *number } else { largest };
-    }
-    largest
 }

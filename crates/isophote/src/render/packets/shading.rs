@@ -1,6 +1,6 @@
 //! The light that reaches the points of a tile, and their brightness.
 
-use super::rays::{RAYS, RayPacket, Vectors, load, put, splat, store};
+use super::rays::{RAYS, RayPacket, Vectors};
 use super::{Blocked, Find, Hits, Packets, bits, pixel_of, set_bits};
 use crate::accelerate::Walk;
 use crate::camera::ScreenPosition;
@@ -12,9 +12,10 @@ use crate::render::RenderError;
 use crate::render::band::{Band, Tile};
 use crate::render::fan_out::{Pixels, Shaded};
 use crate::render::shading::block::{ShadedBlock, SurfaceBlock};
-use crate::render::shading::emitters::{BLOCK, Chosen};
+use crate::render::shading::emitters::Chosen;
 use crate::render::shading::kernel::{PerPoint, ShadeBlock};
 use crate::render::shading::lobe::Power;
+use crate::render::vectors::{get, load, put, splat, store};
 use crate::vector::Vector;
 
 /// Shades the points of tiles, one tile after another.
@@ -31,6 +32,8 @@ pub struct Shader<'a> {
     shadow_ray_offset: Vectors,
     /// The number of each ray's primitive.
     own: [u32; RAYS],
+    /// The first ray that has a point.
+    first: usize,
     /// The emitters that are above the horizon of any point.
     chosen: Vec<(usize, usize)>,
     /// v of every ray for each of them.
@@ -50,16 +53,16 @@ impl<'a> Shader<'a> {
     pub fn new(packets: &Packets<'a>) -> Self {
         let zeros = [[0.0; RAYS]; 3];
         let scene = packets.scene;
-        let lights_anything = |index: &usize| scene.emitters().all()[*index].intensity > 0.0;
         Self {
             packets: *packets,
             layers: scene.layers(),
-            order: packets.lighting.order().iter().copied().filter(lights_anything).enumerate().collect(),
+            order: packets.lighting.shining(scene).enumerate().collect(),
             anchor: zeros,
             offset: zeros,
             normal: zeros,
             shadow_ray_offset: zeros,
             own: [0; RAYS],
+            first: 0,
             chosen: Vec::new(),
             visible: Vec::new(),
             points: SurfaceBlock::anchored(),
@@ -84,6 +87,7 @@ impl<'a> Shader<'a> {
         if left == 0 {
             return Ok(());
         }
+        self.first = left.trailing_zeros() as usize;
         self.spread_out(hits);
         self.see_lights(hits, left, tile, packet, walk);
         // The points of one material after those of another.
@@ -107,13 +111,13 @@ impl<'a> Shader<'a> {
         for (ray, hit) in hits.iter().enumerate() {
             let Some(hit) = hit else {
                 // It faces no light.
-                put(&mut self.normal, ray, Vector::default());
+                put(Vector::default(), ray, &mut self.normal);
                 continue;
             };
-            put(&mut self.anchor, ray, hit.point.anchor);
-            put(&mut self.offset, ray, hit.point.offset);
-            put(&mut self.normal, ray, hit.point.normal);
-            put(&mut self.shadow_ray_offset, ray, hit.shadow_ray_offset);
+            put(hit.point.anchor, ray, &mut self.anchor);
+            put(hit.point.offset, ray, &mut self.offset);
+            put(hit.point.normal, ray, &mut self.normal);
+            put(hit.shadow_ray_offset, ray, &mut self.shadow_ray_offset);
             self.own[ray] = self.packets.scene.number_of(hit.primitive);
         }
     }
@@ -152,7 +156,7 @@ impl<'a> Shader<'a> {
                     scene.shadow_ray(&hit.point, hit.shadow_ray_offset, index)
                 };
                 packet.in_use = in_use;
-                let mut blocked = Blocked { scene, own: &self.own, ray: &ray, in_use, surely: 0, maybe: 0 };
+                let mut blocked = Blocked { scene, own: &self.own, ray: &ray, surely: 0, maybe: 0 };
                 instructions.run_wide(Find { scene, packet, walk, search: &mut blocked });
                 let surely = blocked.surely & !close;
                 dark |= surely;
@@ -196,17 +200,7 @@ impl<'a> Shader<'a> {
                 let AmbientIrradiance { irradiance, standard_error } = share.of(layer.scene().ambient());
                 (points.ambient[at], shaded.ambient_error[at]) = (irradiance, standard_error);
             }
-            // Blocks are those of all emitters, whichever are above the horizon.
-            let mut block = 0;
-            emitters.clear();
-            for (place, index) in &*chosen {
-                if place / BLOCK != block {
-                    block = place / BLOCK;
-                    emitters.end_block();
-                }
-                emitters.push(layer, lighting, *index, &layer.emitters().all()[*index].seen_from(Vector::default()));
-            }
-            emitters.end_block();
+            emitters.choose(layer, lighting, chosen, |emitter| emitter.seen_from(Vector::default()));
             let formula = layer.formula(primitive);
             instructions.run(ShadeBlock {
                 points,
@@ -255,31 +249,31 @@ impl LaneJob for Aim<'_, '_> {
 impl Aim<'_, '_> {
     #[inline(always)]
     fn aim<V: Lane<Element = f64>>(self, token: V::Token) -> Lit {
-        let Self { shader: Shader { anchor, offset, normal, shadow_ray_offset, .. }, emitter, packet } = self;
+        let Self { shader: Shader { anchor, offset, normal, shadow_ray_offset, first, .. }, emitter, packet } = self;
         let position = splat::<V>(token, emitter.position);
         let is_parallel = emitter.place().is_none();
         let (mut lit, mut close) = (0, 0);
         (packet.origin, packet.range) = match emitter.place() {
             Some(place) => (place, [0.0, 1.0]),
-            None => (Vector::new(anchor[0][0], anchor[1][0], anchor[2][0]), [0.0, f64::INFINITY]),
+            None => (get(anchor, *first), [0.0, f64::INFINITY]),
         };
         let origin = splat::<V>(token, packet.origin);
         let zero = V::splat(token, 0.0);
         for at in (0..RAYS).step_by(V::COUNT) {
-            let (anchor, offset) = (load::<V>(token, anchor, at), load::<V>(token, offset, at));
-            let (normal, spare) = (load::<V>(token, normal, at), load::<V>(token, shadow_ray_offset, at));
+            let (anchor, offset) = (load::<V, _>(token, at, anchor), load::<V, _>(token, at, offset));
+            let (normal, spare) = (load::<V, _>(token, at, normal), load::<V, _>(token, at, shadow_ray_offset));
             if is_parallel {
                 lit |= u64::from(V::bits(zero.is_less(normal.dot(position)))) << at;
-                store(&mut packet.start, at, (anchor - origin) + (offset + spare));
-                store(&mut packet.direction, at, position);
+                store((anchor - origin) + (offset + spare), at, &mut packet.start);
+                store(position, at, &mut packet.direction);
                 continue;
             }
             let to_light = (position - anchor) - offset;
             lit |= u64::from(V::bits(zero.is_less(normal.dot(to_light)))) << at;
             let longest = spare.dot(spare) * V::splat(token, 4.0);
             close |= u64::from(V::bits(to_light.dot(to_light).is_less(longest))) << at;
-            store(&mut packet.start, at, Vector::new(zero, zero, zero));
-            store(&mut packet.direction, at, spare - to_light);
+            store(Vector::new(zero, zero, zero), at, &mut packet.start);
+            store(spare - to_light, at, &mut packet.direction);
         }
         Lit { lit, close }
     }

@@ -1,10 +1,13 @@
 //! A triangle as the rays of a packet meet it: which of them certainly hit it, and which may.
 //!
-//! Only that is decided here, with margins for every rounding error; the point that a ray hits is computed by
-//! [`Mesh::intersect`](crate::shape::Mesh::intersect), and what is doubtful is left to it.
+//! Only that is decided here, with margins for every rounding error; the points that rays hit are computed in [`points`], and
+//! what is doubtful is traced ray by ray.
+//!
+//! [`points`]: super::points
 
-use super::rays::{EdgeSide, OCTET, RayPacket, splat};
+use super::rays::{EdgeSide, OCTETS, RayPacket};
 use crate::lanes::Lane;
+use crate::render::vectors::splat;
 use crate::vector::Vector;
 
 /// A triangle relative to a packet.
@@ -70,7 +73,7 @@ impl PacketTriangle {
     pub fn octets<V: Lane<Element = f64>>(&self, token: V::Token, packet: &RayPacket) -> u32 {
         let error = V::splat(token, self.edge_error);
         let mut bits = 0;
-        for at in (0..OCTET).step_by(V::COUNT) {
+        for at in (0..OCTETS).step_by(V::COUNT) {
             let [first, second, third] = &self.edges;
             let [middle, half] = packet.side_of_octets::<V>(token, at, first);
             let (mut low, mut high) = (middle - half, middle + half);

@@ -3,6 +3,7 @@
 use crate::lanes::{Element, Lane, LaneJob};
 use crate::outline::{Ellipse, PlaceInRow, PointInRow};
 use crate::prepare::Hit;
+use crate::render::vectors::{get, load, put, store};
 use crate::shape::{Primitive, SurfacePoint};
 use crate::vector::Vector;
 
@@ -141,8 +142,7 @@ impl<E: Element> SurfaceBlock<E> {
 
     /// N of a point.
     pub fn normal_of(&self, index: usize) -> [E; 3] {
-        let [x, y, z] = &self.normal;
-        [x[index], y[index], z[index]]
+        get(&self.normal, index).to_array()
     }
 
     /// A vector of points.
@@ -169,13 +169,11 @@ impl SurfaceBlock<f64> {
     /// Writes a point of an [anchored](Self::anchored) block.
     pub fn set(&mut self, at: usize, hit: &Hit) {
         let point = &hit.point;
-        let vectors =
-            [(&mut self.offset, point.offset), (&mut self.normal, point.normal), (&mut self.view, point.view)];
-        let anchors = self.anchors.as_deref_mut().map(|anchors| (anchors, point.anchor));
-        for (numbers, vector) in vectors.into_iter().chain(anchors) {
-            for (numbers, component) in numbers.iter_mut().zip(vector.to_array()) {
-                numbers[at] = component;
-            }
+        put(point.offset, at, &mut self.offset);
+        put(point.normal, at, &mut self.normal);
+        put(point.view, at, &mut self.view);
+        if let Some(anchors) = self.anchors.as_deref_mut() {
+            put(point.anchor, at, anchors);
         }
         (self.cos_theta_o[at], self.distance[at]) = (point.cos_theta_o, hit.distance);
     }
@@ -194,10 +192,8 @@ impl SurfaceBlock<f64> {
 
     /// The position of a point, in metres.
     pub fn position_of(&self, index: usize) -> Vector {
-        let [x, y, z] = &self.offset;
-        let offset = Vector::new(x[index], y[index], z[index]) * self.unit;
-        let anchor = self.anchors.as_deref().map(|[x, y, z]| Vector::new(x[index], y[index], z[index]));
-        self.anchor + anchor.unwrap_or_default() + offset
+        let own_anchor = self.anchors.as_deref().map(|anchors| get(anchors, index));
+        own_anchor.map_or(self.anchor, |own| self.anchor + own) + get(&self.offset, index) * self.unit
     }
 }
 
@@ -240,16 +236,4 @@ impl<E: Element> ShadedBlock<E> {
             by_light: vec![zeros; lights],
         })
     }
-}
-
-#[inline(always)]
-fn load<V: Lane>(token: V::Token, at: usize, [x, y, z]: &[[V::Element; SIZE]; 3]) -> Vector<V> {
-    Vector { x: V::load(token, &x[at..]), y: V::load(token, &y[at..]), z: V::load(token, &z[at..]) }
-}
-
-#[inline(always)]
-fn store<V: Lane>(vector: Vector<V>, at: usize, [x, y, z]: &mut [[V::Element; SIZE]; 3]) {
-    vector.x.store(&mut x[at..]);
-    vector.y.store(&mut y[at..]);
-    vector.z.store(&mut z[at..]);
 }

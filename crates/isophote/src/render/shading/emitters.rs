@@ -82,9 +82,10 @@ impl Lighting {
         Self { order: by_place(scene.emitters()), asked_for: places }
     }
 
-    /// The order in which emitters are summed, as indices among the scene's.
-    pub fn order(&self) -> &[usize] {
-        &self.order
+    /// The emitters of nonzero intensity in the order in which they are summed, as indices among the scene's.
+    pub fn shining(&self, scene: &PreparedScene) -> impl Iterator<Item = usize> {
+        let all = scene.emitters().all();
+        self.order.iter().copied().filter(|index| all[*index].intensity > 0.0)
     }
 
     /// Computes the emitters as seen from a sphere.
@@ -94,7 +95,7 @@ impl Lighting {
         placed.clear();
         indices.clear();
         blocks.clear();
-        indices.extend(self.order.iter().filter(|index| all[**index].intensity > 0.0));
+        indices.extend(self.shining(scene));
         placed.extend(indices.iter().map(|index| all[*index].seen_from::<f64>(sphere.center).in_unit(sphere.radius)));
         if placed.len() > BLOCK {
             blocks.extend(placed.chunks(BLOCK).map(Ball::around));
@@ -156,7 +157,7 @@ impl ShapeEmitters {
 
 impl<E: Element> Chosen<E> {
     /// Empties the selection.
-    pub fn clear(&mut self) {
+    fn clear(&mut self) {
         self.emitters.clear();
         self.block_ends.clear();
         self.asked_for.clear();
@@ -206,9 +207,30 @@ impl<E: Element> Chosen<E> {
         self.end_blocks_by_count();
     }
 
+    /// Selects some of a shape's emitters, given by their positions in the order of the sum and their indices among the scene's,
+    /// with the values that they have in a layer. Blocks are those of all emitters, whichever are selected.
+    pub fn choose(
+        &mut self,
+        layer: &PreparedScene,
+        lighting: &Lighting,
+        chosen: &[(usize, usize)],
+        place: impl Fn(&Emitter) -> PlacedEmitter,
+    ) {
+        self.clear();
+        let mut block = 0;
+        for (position, index) in chosen {
+            if position / BLOCK != block {
+                block = position / BLOCK;
+                self.end_block();
+            }
+            self.push(layer, lighting, *index, &place(&layer.emitters().all()[*index]));
+        }
+        self.end_block();
+    }
+
     /// Adds an emitter, given by its index among the scene's and by how it is seen.
     #[inline(always)]
-    pub fn push(&mut self, scene: &PreparedScene, lighting: &Lighting, index: usize, placed: &PlacedEmitter) {
+    fn push(&mut self, scene: &PreparedScene, lighting: &Lighting, index: usize, placed: &PlacedEmitter) {
         if let Some(place) = lighting.asked_for[scene.emitters().all()[index].light] {
             self.asked_for.push((place, self.emitters.len()));
         }
@@ -217,7 +239,7 @@ impl<E: Element> Chosen<E> {
 
     /// Ends a block after the last emitter, unless the block is empty.
     #[inline(always)]
-    pub fn end_block(&mut self) {
+    fn end_block(&mut self) {
         let end = self.emitters.len();
         if self.block_ends.last().copied().unwrap_or(0) < end {
             self.block_ends.push(end);

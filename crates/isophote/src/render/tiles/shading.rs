@@ -12,7 +12,7 @@ use crate::render::RenderError;
 use crate::render::band::Band;
 use crate::render::fan_out::{Pixels, Shaded};
 use crate::render::shading::block::{Places, SeePoints, ShadedBlock, SurfaceBlock};
-use crate::render::shading::emitters::{BLOCK, Chosen, Lighting, ShapeEmitters};
+use crate::render::shading::emitters::{Chosen, Lighting, ShapeEmitters};
 use crate::render::shading::kernel::{PerPoint, ShadeBlock};
 use crate::render::shading::lobe::Power;
 use crate::shape::Sphere;
@@ -269,22 +269,13 @@ impl Light<'_> {
         });
     }
 
-    /// Selects the emitters, with the values that they have in this layer. Blocks are those of the full set, whichever
-    /// emitters are above the horizon.
+    /// Selects the emitters.
     fn choose<E: Element>(&self, center: Vector, radius: f64, chosen: &mut Chosen<E>) {
         // Reciprocals, where rows divide: the last digits stay what they were.
         let (per_unit, per_square) = (1.0 / radius, 1.0 / (radius * radius));
-        let mut block = 0;
-        chosen.clear();
-        for (place, index) in self.chosen {
-            if place / BLOCK != block {
-                block = place / BLOCK;
-                chosen.end_block();
-            }
-            let seen: PlacedEmitter = self.layer.emitters().all()[*index].seen_from(center);
-            let (position, intensity) = (seen.position * per_unit, seen.intensity * per_square);
-            chosen.push(self.layer, self.lighting, *index, &PlacedEmitter { position, intensity, ..seen });
-        }
-        chosen.end_block();
+        chosen.choose(self.layer, self.lighting, self.chosen, |emitter| {
+            let seen = emitter.seen_from::<f64>(center);
+            PlacedEmitter { position: seen.position * per_unit, intensity: seen.intensity * per_square, ..seen }
+        });
     }
 }

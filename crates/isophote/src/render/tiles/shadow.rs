@@ -4,6 +4,7 @@ use super::group::{Group, MOST};
 use crate::lanes::Lane;
 use crate::prepare::PreparedScene;
 use crate::render::shading::block::SurfaceBlock;
+use crate::render::vectors::{greatest_of, least_of, splat};
 use crate::vector::Vector;
 
 /// Decisions with a smaller relative margin than this are left to 32 digits. Rounding errors can reach some 1e-14.
@@ -202,26 +203,6 @@ impl Shadows {
         }
         rest == 0
     }
-}
-
-#[inline(always)]
-fn splat<D: Lane<Element = f64>>(token: D::Token, vector: Vector) -> Vector<D> {
-    vector.map(
-        #[inline(always)]
-        |x| D::splat(token, x),
-    )
-}
-
-#[inline(always)]
-fn greatest_of<D: Lane<Element = f64>>(numbers: D) -> f64 {
-    let mut all = [0.0; 16];
-    numbers.store(&mut all);
-    all[..D::COUNT].iter().copied().fold(f64::NEG_INFINITY, f64::max)
-}
-
-#[inline(always)]
-fn least_of<D: Lane<Element = f64>>(numbers: D) -> f64 {
-    -greatest_of(-numbers)
 }
 
 /// Extends a range of numbers to include more.
