@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::Result;
-use isophote::analysis::section::Sample;
+use isophote::analysis::section::{self, Axis, Sample};
 use isophote::map::Quantity;
 use isophote::message;
 use isophote::prepare::PreparedScene;
@@ -16,7 +16,7 @@ use isophote_export::figure::{Figure, SectionOptions, SectionPoint, Series, sect
 use serde::Serialize;
 
 use super::output::{FigureFormat, figure_format, refuse_twice, write_bytes, write_figure};
-use super::section_lines::{self, Axis, Line};
+use super::section_lines::{self, Line};
 use crate::args::SectionArguments;
 use crate::channels::{named, unit};
 use crate::failure::{self, Usage};
@@ -91,17 +91,7 @@ impl Output {
 
 fn quantities(arguments: &SectionArguments, scene: &Scene) -> Result<Vec<Quantity>> {
     let quantities = named(&arguments.channel, scene)?;
-    let unsuitable = |quantity: &&Quantity| {
-        !quantity.is_scalar()
-            || matches!(quantity, Quantity::Light(_))
-            || Quantity::OF_SAMPLING.contains(quantity)
-            || quantity.is_derived()
-    };
-    if let Some(quantity) = quantities.iter().find(unsuitable) {
-        let allowed = "brightness, irradiance, ambient, diffuse, specular, depth";
-        let channel = quantity.name();
-        return Err(Usage(message!("a section cannot show `{channel}`; allowed: {allowed}", channel, allowed)).into());
-    }
+    quantities.iter().try_for_each(section::refuse).map_err(Usage)?;
     Ok(if quantities.is_empty() { vec![Quantity::Brightness] } else { quantities })
 }
 
@@ -123,15 +113,7 @@ struct Sections<'s> {
 
 impl Section<'_> {
     fn value(&self, sample: &Sample, quantity: &Quantity) -> Option<f64> {
-        let (hit, shading) = sample.seen.as_ref()?;
-        Some(match quantity {
-            Quantity::Irradiance => shading.irradiance,
-            Quantity::Ambient => shading.ambient,
-            Quantity::Diffuse => shading.diffuse,
-            Quantity::Specular => shading.specular,
-            Quantity::Depth => self.scene.length().from_metres(hit.distance),
-            _ => shading.brightness(),
-        })
+        sample.value(quantity, self.scene.length())
     }
 
     fn screen(&self, sample: &Sample) -> [f64; 2] {
@@ -140,15 +122,8 @@ impl Section<'_> {
 
     /// The coordinate along the line.
     fn along(&self, sample: &Sample) -> f64 {
-        let [x, y] = self.screen(sample);
-        match self.line.axis {
-            Axis::X => x,
-            Axis::Y => y,
-            Axis::Distance => {
-                let [x0, y0] = self.samples.first().map_or([x, y], |first| self.screen(first));
-                (x - x0).hypot(y - y0)
-            }
-        }
+        let place = self.screen(sample);
+        self.line.axis.position(place, self.samples.first().map_or(place, |first| self.screen(first)))
     }
 
     fn to_table(&self, language: Language) -> String {

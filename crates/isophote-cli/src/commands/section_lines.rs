@@ -1,7 +1,7 @@
 //! The lines of `isophote section`, with their names.
 
 use anyhow::Result;
-use isophote::analysis::section::SectionLine;
+use isophote::analysis::section::{Axis, SectionLine};
 use isophote::camera::{Extent, ScreenPosition};
 use isophote::map::Pixel;
 use isophote::message;
@@ -11,9 +11,6 @@ use isophote::text::{Message, significant};
 use super::there_are;
 use crate::args::SectionArguments;
 use crate::failure::Usage;
-
-/// Default number of points on a line; odd, so that one of them is in the middle.
-const DEFAULT_SAMPLES: u32 = 513;
 
 /// A line, and how it is shown.
 pub(super) struct Line {
@@ -25,19 +22,10 @@ pub(super) struct Line {
     pub(super) note: Option<Message>,
 }
 
-/// What the position along a line is.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Axis {
-    X,
-    Y,
-    /// The distance from its first point.
-    Distance,
-}
-
 /// All lines that the arguments ask for.
 pub(super) fn lines(arguments: &SectionArguments, scene: &PreparedScene) -> Result<Vec<Line>> {
     let asked = &arguments.line;
-    let maker = Maker { scene, samples: arguments.samples.unwrap_or(DEFAULT_SAMPLES) };
+    let maker = Maker { scene, samples: arguments.samples.unwrap_or(SectionLine::SAMPLES) };
     let are_pixels = [asked.through.len(), asked.horizontal.len(), asked.vertical.len(), asked.line.len()]
         .iter()
         .all(|count| *count == 0);
@@ -105,14 +93,12 @@ impl Maker<'_> {
     }
 
     fn horizontal(&self, y: f64, through: Option<&str>) -> Line {
-        let [left, right] = self.extent().x;
-        let along = SectionLine::Between { from: [left, y], to: [right, y], samples: self.samples };
+        let along = SectionLine::horizontal(self.scene.scene().camera(), y, self.samples);
         Line { along, axis: Axis::X, name: through_text(format!("y = {}", self.text(y)), through), note: None }
     }
 
     fn vertical(&self, x: f64, through: Option<&str>) -> Line {
-        let [bottom, top] = self.extent().y;
-        let along = SectionLine::Between { from: [x, bottom], to: [x, top], samples: self.samples };
+        let along = SectionLine::vertical(self.scene.scene().camera(), x, self.samples);
         Line { along, axis: Axis::Y, name: through_text(format!("x = {}", self.text(x)), through), note: None }
     }
 

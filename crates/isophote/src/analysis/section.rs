@@ -1,12 +1,13 @@
 //! Values along a line on the screen.
 
-use crate::camera::ScreenPosition;
-use crate::map::Pixel;
+use crate::camera::{Camera, ScreenPosition};
+use crate::map::{Pixel, Quantity};
 use crate::message;
 use crate::prepare::{Hit, PreparedScene};
 use crate::render::Observer;
 use crate::shade::Shading;
 use crate::text::Message;
+use crate::units::{Keyword, LengthUnit};
 
 /// A line on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +27,17 @@ pub enum SectionLine {
     },
 }
 
+/// What the position along a line is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// x.
+    X,
+    /// y.
+    Y,
+    /// The distance from its first point.
+    Distance,
+}
+
 /// A point of a section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
@@ -33,6 +45,85 @@ pub struct Sample {
     pub screen: [f64; 2],
     /// The hit and its shading; `None` where no surface is seen.
     pub seen: Option<(Hit, Shading)>,
+}
+
+impl Keyword for Axis {
+    const ALL: &'static [Self] = &[Self::X, Self::Y, Self::Distance];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Distance => "distance",
+        }
+    }
+}
+
+impl SectionLine {
+    /// The usual number of points on a line; odd, so that one of them is in the middle.
+    pub const SAMPLES: u32 = 513;
+
+    /// A line across the whole image at this y, in metres or degrees.
+    #[must_use]
+    pub fn horizontal(camera: &Camera, y: f64, samples: u32) -> Self {
+        let [left, right] = camera.projection.extent(camera.resolution).x;
+        Self::Between { from: [left, y], to: [right, y], samples }
+    }
+
+    /// A line from the bottom of the image to its top at this x, in metres or degrees.
+    #[must_use]
+    pub fn vertical(camera: &Camera, x: f64, samples: u32) -> Self {
+        let [bottom, top] = camera.projection.extent(camera.resolution).y;
+        Self::Between { from: [x, bottom], to: [x, top], samples }
+    }
+}
+
+impl Axis {
+    /// The position of a screen point on a line that starts at another one, in the unit of both.
+    #[must_use]
+    pub fn position(self, [x, y]: [f64; 2], start: [f64; 2]) -> f64 {
+        match self {
+            Self::X => x,
+            Self::Y => y,
+            Self::Distance => (x - start[0]).hypot(y - start[1]),
+        }
+    }
+}
+
+impl Sample {
+    /// The value of a quantity that [sections can show](refuse), lengths in a unit; `None` where no surface is seen.
+    #[must_use]
+    pub fn value(&self, quantity: &Quantity, length: LengthUnit) -> Option<f64> {
+        let (hit, shading) = self.seen.as_ref()?;
+        Some(match quantity {
+            Quantity::Irradiance => shading.irradiance,
+            Quantity::Ambient => shading.ambient,
+            Quantity::Diffuse => shading.diffuse,
+            Quantity::Specular => shading.specular,
+            Quantity::Depth => length.from_metres(hit.distance),
+            _ => shading.brightness(),
+        })
+    }
+}
+
+/// Says why a section cannot show a quantity, if it cannot.
+///
+/// # Errors
+/// What is wrong.
+pub fn refuse(quantity: &Quantity) -> Result<(), Message> {
+    let shown = [
+        Quantity::Brightness,
+        Quantity::Irradiance,
+        Quantity::Ambient,
+        Quantity::Diffuse,
+        Quantity::Specular,
+        Quantity::Depth,
+    ];
+    if shown.contains(quantity) {
+        return Ok(());
+    }
+    let allowed = shown.map(|quantity| quantity.name()).join(", ");
+    Err(message!("a section cannot show `{channel}`; allowed: {allowed}", channel = quantity.name(), allowed))
 }
 
 /// Why there is no section.
