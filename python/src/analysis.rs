@@ -74,7 +74,7 @@ pub fn areas(py: Python<'_>, scene: &Scene) -> PyResult<Vec<(String, Option<Area
             (extreme.value, point, screen, extreme.seen == SeenFromEye::Seen)
         };
         let numbers = |area: &Area| {
-            let reading = content.prepared().area_observed(area, watch)?;
+            let reading = content.prepared().area_observed(area, Some(watch))?;
             let numbers = reading.map(|AreaReading { max, min, mean, mean_error, visible }| {
                 (extreme(&max), extreme(&min), mean, mean_error, visible)
             });

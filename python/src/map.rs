@@ -148,7 +148,8 @@ impl Map {
     fn isophotes<'py>(&self, py: Python<'py>, name: &str, levels: Vec<f64>) -> PyResult<Vec<(f64, Vec<Line<'py>>)>> {
         let quantity = self.quantity(name)?.clone();
         let map = Arc::clone(&self.map);
-        let found = job::run(py, &Progress::none(), move |watch| isophotes_observed(&map, &quantity, &levels, watch))?;
+        let found =
+            job::run(py, &Progress::none(), move |watch| isophotes_observed(&map, &quantity, &levels, Some(watch)))?;
         let found = found.map_err(|error| error::value(py, error))?;
         let mut all = Vec::with_capacity(found.len());
         for isophote in found {

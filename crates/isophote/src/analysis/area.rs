@@ -62,15 +62,20 @@ impl PreparedScene {
     /// The extremes and the mean of the brightness over an area; `None` if it shows no surface.
     #[must_use]
     pub fn area(&self, area: &Area) -> Option<AreaReading> {
-        Over { scene: self, area, observer: None, is_stopped: Cell::new(false) }.reading()
+        // Nobody asks to stop.
+        self.area_observed(area, None).unwrap_or_default()
     }
 
     /// As [`area`](Self::area), with an observer, which hears of points and may end the work.
     ///
     /// # Errors
     /// [`RenderError::Interrupted`] at the observer's wish.
-    pub fn area_observed(&self, area: &Area, observer: &dyn Observer) -> Result<Option<AreaReading>, RenderError> {
-        let over = Over { scene: self, area, observer: Some(observer), is_stopped: Cell::new(false) };
+    pub fn area_observed(
+        &self,
+        area: &Area,
+        observer: Option<&dyn Observer>,
+    ) -> Result<Option<AreaReading>, RenderError> {
+        let over = Over { scene: self, area, observer, is_stopped: Cell::new(false) };
         let reading = over.reading();
         if over.is_stopped.get() { Err(RenderError::Interrupted) } else { Ok(reading) }
     }

@@ -77,7 +77,7 @@ pub enum IsophoteError {
 /// # Errors
 /// [`IsophoteError`]: the channel is missing or not scalar, or a level is not finite.
 pub fn isophotes(map: &Map, quantity: &Quantity, levels: &[f64]) -> Result<Vec<Isophote>, IsophoteError> {
-    contours(map, quantity, levels, None)
+    isophotes_observed(map, quantity, levels, None)
 }
 
 /// As [`isophotes`], with an observer, which hears of levels and may end the work.
@@ -85,15 +85,6 @@ pub fn isophotes(map: &Map, quantity: &Quantity, levels: &[f64]) -> Result<Vec<I
 /// # Errors
 /// Those of [`isophotes`], or the observer's wish to end.
 pub fn isophotes_observed(
-    map: &Map,
-    quantity: &Quantity,
-    levels: &[f64],
-    observer: &dyn Observer,
-) -> Result<Vec<Isophote>, IsophoteError> {
-    contours(map, quantity, levels, Some(observer))
-}
-
-fn contours(
     map: &Map,
     quantity: &Quantity,
     levels: &[f64],

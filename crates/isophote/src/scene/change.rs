@@ -22,8 +22,7 @@ pub enum PartPlace<'p> {
 
 impl Scene {
     /// The scene with parts written anew, each as JSON; `None` leaves out a value or a material. What stays is not read again,
-    /// and no file is: the time depends on the parts, but for the checks of names and places, which take microseconds for each
-    /// thousand items.
+    /// and no file is: apart from the parts, only names and places are checked, a microsecond or two for each item.
     ///
     /// # Errors
     /// Every problem of the parts and of the scene with them, a place that no scene or this one does not have, or a part that
