@@ -141,6 +141,12 @@ impl CameraFrame<DoubleDouble> {
 }
 
 impl LinearRays<'_> {
+    /// What the two coordinates of a screen position add; the second one includes what all rays have.
+    pub fn of(&self, position: ScreenPosition) -> [Vector<DoubleDouble>; 2] {
+        let (x, y) = self.frame.screen_point(position);
+        [self.frame.right * x, self.center + self.frame.up * y]
+    }
+
     /// What a column adds.
     pub fn of_column(&self, column: u32) -> Vector<DoubleDouble> {
         let [left, right] = self.frame.extent.x;

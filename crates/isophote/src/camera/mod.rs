@@ -6,8 +6,8 @@ mod panorama;
 mod projection;
 
 pub use fisheye::{Fisheye, Mapping};
-pub(crate) use frame::between;
 pub use frame::{CameraFrame, Sight};
+pub(crate) use frame::{LinearRays, between};
 pub use projection::{Extent, Projection, Screen};
 
 use serde::{Deserialize, Serialize};

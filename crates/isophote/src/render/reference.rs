@@ -27,7 +27,7 @@ impl ReferenceRenderer {
         let centres =
             |memory, scene: &PreparedScene, settings: &RenderSettings<'_>| self.centres(memory, scene, settings);
         let layers = if scene.scene().sampling().is_multisampled() {
-            let renders = Renders { parallel: &centres, serial: &centres };
+            let renders = Renders { parallel: &centres, serial: &centres, instructions: None };
             sampling::render(scene, settings, &Threads::single(), &renders)?
         } else {
             self.centres(Vec::new(), scene, settings)?

@@ -73,7 +73,8 @@ impl SimdRenderer {
                 }
             };
             let single = Threads::single();
-            let renders = Renders { parallel: &centres(&self.threads), serial: &centres(&single) };
+            let (parallel, serial) = (&centres(&self.threads), &centres(&single));
+            let renders = Renders { parallel, serial, instructions: Some(self.instructions) };
             sampling::render(scene, settings, &self.threads, &renders)?
         } else {
             self.centres(memory, scene, settings, &self.threads)?
@@ -124,9 +125,8 @@ impl SimdRenderer {
                 let job = RowsJob { scene, band, candidates, lighting, asked_for, precision, observer };
                 self.instructions.run(job)
             }
-            // Not as WebAssembly, where the app would take 40 % longer to build.
-            None if !cfg!(target_arch = "wasm32") && packets::supports(scene, instructions) => {
-                Packets { scene, lighting, asked_for, instructions, observer }.fill(band)
+            None if packets::ARE_COMPILED && packets::supports(scene, instructions) => {
+                Packets { scene, lighting, asked_for, instructions }.fill(band, observer)
             }
             None => rays::fill(&mut band, scene, asked_for, observer),
         }

@@ -1,10 +1,10 @@
-//! Any shapes, seen by any camera: rays are traced in packets, tile by tile.
+//! Any shapes, seen by any camera: rays are traced in packets, those of a tile of pixels or of a pixel's samples.
 //!
-//! The rays of a tile, and later those from its surface points to each light, go through the tree together, and the primitives
+//! The rays of a packet, and later those from its surface points to each light, go through the tree together, and the primitives
 //! that they may meet are tested for several rays at a time, with a margin for every rounding error. That decides which primitive
 //! each ray certainly hits, and which points certainly see a light. The points themselves are then computed in lanes of 32 digits,
-//! and the kernel shades them. What is too close to call is traced ray by ray. Since each decision is made per ray, neither tiles
-//! nor packets change a bit.
+//! and the kernel shades them. What is too close to call is traced ray by ray. Since each decision is made per ray, it does not
+//! matter to a bit which rays are in a packet.
 
 mod blocked;
 mod body;
@@ -21,8 +21,10 @@ use self::candidates::Search;
 use self::nearest::{Nearest, Seen};
 use self::points::{FindPoints, Points};
 use self::precise::{Combine, PreciseRays};
-use self::rays::{OCTET, RAYS, RayPacket};
+pub use self::rays::RAYS;
+use self::rays::{OCTET, RayPacket};
 use self::shading::Shader;
+pub use self::shading::{Output, Subject};
 use crate::accelerate::Walk;
 use crate::camera::ScreenPosition;
 use crate::lanes::{Instructions, Lane, LaneJob};
@@ -30,15 +32,16 @@ use crate::map::{Pixel, Run};
 use crate::prepare::{Hit, PreparedScene};
 use crate::ray::Ray;
 use crate::render::band::{self, Band, Tile};
-use crate::render::hits::HitBlock;
+use crate::render::fan_out::{Pixels, Shaded};
+use crate::render::shading::block::{ShadedBlock, SurfaceBlock};
 use crate::render::shading::emitters::Lighting;
-use crate::render::{Observer, RenderError, rays as single_rays};
+use crate::render::{Observer, RenderError};
 use crate::shape::Primitive;
 
 /// Columns and rows of a tile.
 pub const SIDE: u32 = 8;
 
-/// The settings for filling bands.
+/// The settings for tracing and shading packets.
 #[derive(Clone, Copy)]
 pub struct Packets<'a> {
     /// The scene.
@@ -49,12 +52,13 @@ pub struct Packets<'a> {
     pub asked_for: &'a [usize],
     /// The instruction set to use.
     pub instructions: Instructions,
-    /// Receives progress reports.
-    pub observer: Option<&'a dyn Observer>,
 }
 
+/// Whether packets are compiled: not as WebAssembly, where the app would take 40 % longer to build.
+pub const ARE_COMPILED: bool = !cfg!(target_arch = "wasm32");
+
 /// Whether a scene is rendered by packets: the visibility of each light at each point of a tile is stored, so there must not
-/// be too many lights. Packets are not compiled for machines whose vectors have two numbers.
+/// be too many lights. Machines whose vectors have two numbers have no packets.
 pub fn supports(scene: &PreparedScene, instructions: Instructions) -> bool {
     instructions.are_wide() && scene.emitters().all().len() <= MOST_LIGHTS
 }
@@ -64,95 +68,139 @@ const MOST_LIGHTS: usize = 8192;
 /// A sharper highlight would show that normals in lanes are rounded more than once.
 const SHARPEST: f64 = 1000.0;
 
-/// What each ray of a tile hits.
-type Hits = [Option<Hit>; RAYS];
+/// What each ray of a packet hits.
+pub type Hits = [Option<Hit>; RAYS];
 
 impl Packets<'_> {
     /// Fills a band, and returns what its pixels see.
-    pub fn fill(&self, mut band: Band<'_>) -> Result<Vec<Run>, RenderError> {
-        let mut work = Work {
-            packets: *self,
-            packet: RayPacket::new(),
-            is_precise: false,
-            precise: PreciseRays::new(),
-            nearest: Nearest::new(),
-            points: Points::new(),
-            walk: Walk::default(),
-            hits: Box::new([None; RAYS]),
-            shader: Shader::new(self),
-            one_by_one: HitBlock::new(self.scene, self.asked_for),
-            seen: vec![band::NOTHING; band.size.pixels()],
-        };
-        work.is_precise = work.precise.begin(self.scene, &band);
-        for tile in band.tiles(SIDE, SIDE) {
-            work.tile(tile, &mut band)?;
-            band::advance(self.observer, u64::from(tile.width) * u64::from(tile.height))?;
+    pub fn fill(&self, mut band: Band<'_>, observer: Option<&dyn Observer>) -> Result<Vec<Run>, RenderError> {
+        let mut tracer = Tracer::new(*self);
+        let mut seen = vec![band::NOTHING; band.size.pixels()];
+        if let Some(precise) = &mut tracer.precise {
+            precise.begin(&band);
         }
-        work.one_by_one.put(&mut band)?;
-        Ok(band.runs(&work.seen))
+        for tile in band.tiles(SIDE, SIDE) {
+            tracer.trace_tile(tile);
+            for (ray, hit) in tracer.hits.iter().enumerate() {
+                if let Some(hit) = hit {
+                    let shape = u32::try_from(hit.primitive.shape).unwrap_or(band::NOTHING);
+                    seen[band.index(pixel_of(tile, ray))] = shape;
+                }
+            }
+            tracer.shade(&mut InTile { tile, band: &mut band, indices: Vec::with_capacity(RAYS) })?;
+            band::advance(observer, u64::from(tile.width) * u64::from(tile.height))?;
+        }
+        Ok(band.runs(&seen))
     }
 }
 
-/// The scratch memory of a thread, reused from tile to tile.
-struct Work<'a> {
+/// The pixels of a tile.
+struct InTile<'b, 'm> {
+    tile: Tile,
+    band: &'b mut Band<'m>,
+    indices: Vec<usize>,
+}
+
+impl InTile<'_, '_> {
+    fn find(&mut self, rays: &[usize]) {
+        self.indices.clear();
+        self.indices.extend(rays.iter().map(|ray| self.band.index(pixel_of(self.tile, *ray))));
+    }
+}
+
+/// Traces and shades one packet after another in the same memory.
+pub struct Tracer<'a> {
     packets: Packets<'a>,
     packet: Box<RayPacket>,
     /// The same rays with 32 digits, if the camera has them.
-    is_precise: bool,
-    precise: Box<PreciseRays>,
+    precise: Option<Box<PreciseRays<'a>>>,
+    /// The screen positions of the rays.
+    positions: Box<[ScreenPosition; RAYS]>,
     nearest: Box<Nearest>,
     points: Box<Points>,
     walk: Walk,
     hits: Box<Hits>,
     shader: Shader<'a>,
-    /// Points that are traced and shaded one by one.
-    one_by_one: HitBlock<'a>,
-    /// The shape that each pixel of the band sees.
-    seen: Vec<u32>,
 }
 
-impl Work<'_> {
-    fn tile(&mut self, tile: Tile, band: &mut Band<'_>) -> Result<(), RenderError> {
-        let scene = self.packets.scene;
-        self.aim(tile);
-        if self.packet.in_use == 0 {
-            return Ok(());
+impl<'a> Tracer<'a> {
+    /// Without rays.
+    pub fn new(packets: Packets<'a>) -> Self {
+        Self {
+            packets,
+            packet: RayPacket::new(),
+            precise: packets.scene.precise_frame().linear_rays().map(PreciseRays::new),
+            positions: Box::new([ScreenPosition::PixelCenter(Pixel { column: 0, row: 0 }); RAYS]),
+            nearest: Nearest::new(),
+            points: Points::new(),
+            walk: Walk::default(),
+            hits: Box::new([None; RAYS]),
+            shader: Shader::new(&packets),
         }
-        let Self { packets: Packets { instructions, .. }, packet, nearest, walk, .. } = self;
-        instructions.run_wide(Find { scene, packet, walk, search: &mut **nearest });
-        let mut doubtful = self.find_points(tile);
-        doubtful |= self.clear_offsets();
-        for ray in set_bits(doubtful) {
-            let pixel = pixel_of(tile, ray);
-            if let Some(hit) = scene.trace_pixel(pixel) {
-                single_rays::put(pixel, &hit, band, &mut self.one_by_one)?;
-                self.seen[band.index(pixel)] = shape_of(&hit);
-            }
-            self.hits[ray] = None;
-        }
-        for (ray, hit) in self.hits.iter().enumerate() {
-            if let Some(hit) = hit {
-                self.seen[band.index(pixel_of(tile, ray))] = shape_of(hit);
-            }
-        }
-        self.shader.shade(&self.hits, tile, &mut self.packet, &mut self.walk, band)
     }
 
-    /// Sets the rays of a tile.
-    fn aim(&mut self, tile: Tile) {
-        let Self { packets: Packets { scene, instructions, .. }, packet, is_precise, precise, nearest, .. } = self;
-        packet.range = [0.0, f64::INFINITY];
-        packet.in_use = bits((0..RAYS).map(|index| {
+    /// What the rays have hit.
+    pub fn hits(&self) -> &Hits {
+        &self.hits
+    }
+
+    /// Traces the rays through the pixels of a tile of the band that was begun.
+    fn trace_tile(&mut self, tile: Tile) {
+        for (ray, position) in self.positions.iter_mut().enumerate() {
+            *position = ScreenPosition::PixelCenter(pixel_of(tile, ray));
+        }
+        let is_within = |index| {
             let (column, row) = place_of(index);
             column < tile.width && row < tile.height
-        }));
-        if *is_precise {
-            precise.aim(tile);
+        };
+        let in_use = bits((0..RAYS).map(is_within));
+        if let Some(precise) = &mut self.precise {
+            precise.aim_at_tile(tile);
+        }
+        self.trace_rays(in_use);
+    }
+
+    /// Traces the rays through screen positions, up to as many as a packet has.
+    pub fn trace(&mut self, positions: &[ScreenPosition]) {
+        self.positions[..positions.len()].copy_from_slice(positions);
+        if let Some(precise) = &mut self.precise {
+            precise.aim(positions);
+        }
+        self.trace_rays(bits((0..RAYS).map(|ray| ray < positions.len())));
+    }
+
+    fn trace_rays(&mut self, in_use: u64) {
+        self.hits.fill(None);
+        self.aim(in_use);
+        if self.packet.in_use == 0 {
+            return;
+        }
+        let Self { packets: Packets { scene, instructions, .. }, packet, nearest, walk, .. } = self;
+        instructions.run_wide(Find { scene, packet, walk, search: &mut **nearest });
+        let mut doubtful = self.find_points();
+        doubtful |= self.clear_offsets();
+        for ray in set_bits(doubtful) {
+            self.hits[ray] = self.packets.scene.trace(self.positions[ray]);
+        }
+    }
+
+    /// Shades what the rays have hit.
+    pub fn shade(&mut self, output: &mut impl Output) -> Result<(), RenderError> {
+        let Self { positions, hits, packet, walk, shader, .. } = self;
+        shader.shade(&Subject { hits, seen_at: Some(positions) }, packet, walk, output)
+    }
+
+    /// Sets the rays.
+    fn aim(&mut self, in_use: u64) {
+        let Self { packets: Packets { scene, instructions, .. }, packet, precise, positions, nearest, .. } = self;
+        packet.range = [0.0, f64::INFINITY];
+        packet.in_use = in_use;
+        if let Some(precise) = precise {
             instructions.run_wide(Combine { rays: precise, packet });
         } else {
             packet.origin = scene.frame().eye;
             for index in set_bits(packet.in_use) {
-                match scene.frame().ray(ScreenPosition::PixelCenter(pixel_of(tile, index))) {
+                match scene.frame().ray(positions[index]) {
                     Some(ray) => packet.set(index, ray.start_from(packet.origin), ray.direction),
                     None => packet.in_use &= !(1 << index),
                 }
@@ -162,21 +210,20 @@ impl Work<'_> {
     }
 
     /// The points that the rays hit; returns the rays for which a double is not enough, as bits.
-    fn find_points(&mut self, tile: Tile) -> u64 {
+    fn find_points(&mut self) -> u64 {
         let Self {
             packets: Packets { scene, instructions, .. },
             packet,
-            is_precise,
             precise,
             nearest,
             points,
             hits,
+            positions,
             ..
         } = self;
         let mut doubtful = 0;
         let mut left = 0_u64;
         let mut primitives = [Primitive { shape: 0, part: 0 }; RAYS];
-        hits.fill(None);
         for index in set_bits(packet.in_use) {
             match nearest.seen(index) {
                 Seen::Nothing => {}
@@ -195,24 +242,17 @@ impl Work<'_> {
             left &= !on_shape;
             let geometry = scene.geometry(shape);
             let is_sharp = |ray: usize| scene.has_sharper_highlight(primitives[ray], SHARPEST);
-            let in_lanes = *is_precise && !set_bits(on_shape).any(is_sharp);
-            if in_lanes {
-                instructions.run_wide(FindPoints {
-                    rays: precise,
-                    on_shape,
-                    geometry,
-                    primitives: &primitives,
-                    points,
-                });
+            let in_lanes = precise.as_deref().filter(|_| !set_bits(on_shape).any(is_sharp));
+            if let Some(rays) = in_lanes {
+                instructions.run_wide(FindPoints { rays, on_shape, geometry, primitives: &primitives, points });
             }
             for index in set_bits(on_shape) {
                 let primitive = primitives[index];
-                hits[index] = if in_lanes {
-                    points.hit(index, primitive, precise)
+                hits[index] = if let Some(rays) = in_lanes {
+                    points.hit(index, primitive, rays)
                 } else {
-                    let position = ScreenPosition::PixelCenter(pixel_of(tile, index));
                     let hit = scene.hit_on(primitive, &packet.ray(index));
-                    hit.or_else(|| scene.precise_hit_on(primitive, position))
+                    hit.or_else(|| scene.precise_hit_on(primitive, positions[index]))
                 };
                 doubtful |= u64::from(hits[index].is_none()) << index;
             }
@@ -257,6 +297,20 @@ impl Work<'_> {
     }
 }
 
+impl Output for InTile<'_, '_> {
+    fn put(&mut self, layer: usize, rays: &[usize], shaded: &ShadedBlock<f64>) -> Result<(), RenderError> {
+        self.find(rays);
+        self.band.put(layer, Pixels::At(&self.indices), Shaded::Double(shaded))
+    }
+
+    fn put_geometry(&mut self, rays: &[usize], points: &SurfaceBlock<f64>) {
+        if self.band.has_geometry() {
+            self.find(rays);
+            self.band.put_geometry(Pixels::At(&self.indices), points);
+        }
+    }
+}
+
 /// Searches what the rays of a packet meet.
 struct Find<'f, Q> {
     scene: &'f PreparedScene,
@@ -289,10 +343,6 @@ fn place_of(ray: usize) -> (u32, u32) {
 fn pixel_of(tile: Tile, ray: usize) -> Pixel {
     let (column, row) = place_of(ray);
     Pixel { column: tile.first.column + column, row: tile.first.row + row }
-}
-
-fn shape_of(hit: &Hit) -> u32 {
-    u32::try_from(hit.primitive.shape).unwrap_or(band::NOTHING)
 }
 
 /// The positions of the bits that are set.

@@ -52,7 +52,7 @@ impl Points {
     }
 
     /// The point of a ray on a primitive; `None` if it takes more than a double.
-    pub fn hit(&self, ray: usize, primitive: Primitive, rays: &PreciseRays) -> Option<Hit> {
+    pub fn hit(&self, ray: usize, primitive: Primitive, rays: &PreciseRays<'_>) -> Option<Hit> {
         if self.doubtful >> ray & 1 == 1 {
             return None;
         }
@@ -74,9 +74,9 @@ impl Points {
 }
 
 /// Computes the points of some rays, all on one shape.
-pub struct FindPoints<'f> {
+pub struct FindPoints<'f, 'a> {
     /// The rays.
-    pub rays: &'f PreciseRays,
+    pub rays: &'f PreciseRays<'a>,
     /// Those on the shape, as bits.
     pub on_shape: u64,
     /// The shape.
@@ -97,7 +97,7 @@ fn flat(geometry: &Geometry) -> Option<&Placement> {
     }
 }
 
-impl LaneJob for FindPoints<'_> {
+impl LaneJob for FindPoints<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -155,7 +155,7 @@ struct Found<V> {
     shadow_ray_offset: Vector<V>,
 }
 
-impl FindPoints<'_> {
+impl FindPoints<'_, '_> {
     /// Looks up where the shape is; returns whether it is made of triangles that have normals.
     fn gather(&mut self) -> bool {
         let mut is_smooth = false;

@@ -1,21 +1,19 @@
-//! The rays of a tile with 32 digits, and numbers with 32 digits in lanes.
+//! The rays of a packet with 32 digits, and numbers with 32 digits in lanes.
 
 use super::place_of;
 use super::rays::{RAYS, RayPacket, Vectors};
+use crate::camera::{LinearRays, ScreenPosition};
 use crate::double_double::DoubleDouble;
 use crate::lanes::{Lane, LaneJob};
 use crate::map::Pixel;
-use crate::prepare::PreparedScene;
 use crate::render::band::{Band, Tile};
 use crate::render::vectors::{get, load, put, splat, store};
 use crate::vector::Vector;
 
-/// The rays of a tile with 32 digits: a ray's direction, or its start if all rays are parallel, is the sum of what its column
-/// and its row contribute.
-pub struct PreciseRays {
-    is_parallel: bool,
-    /// The eye; the direction of parallel rays.
-    common: Vector<DoubleDouble>,
+/// The rays of a packet with 32 digits: a ray's direction, or its start if all rays are parallel, is the sum of what its
+/// column and its row contribute.
+pub struct PreciseRays<'a> {
+    rays: LinearRays<'a>,
     /// The upper and the lower halves of what the columns and the rows of a band contribute, and where these begin.
     columns: Vec<[Vector; 2]>,
     rows: Vec<[Vector; 2]>,
@@ -39,13 +37,12 @@ pub struct Way<V> {
     pub direction: Vector<V>,
 }
 
-impl PreciseRays {
-    /// No rays.
-    pub fn new() -> Box<Self> {
+impl<'a> PreciseRays<'a> {
+    /// No rays yet of a camera.
+    pub fn new(rays: LinearRays<'a>) -> Box<Self> {
         let zeros = [[0.0; RAYS]; 3];
         Box::new(Self {
-            is_parallel: false,
-            common: Vector::zero(),
+            rays,
             columns: Vec::new(),
             rows: Vec::new(),
             first: Pixel { column: 0, row: 0 },
@@ -61,31 +58,39 @@ impl PreciseRays {
         get(&self.directions, ray)
     }
 
-    /// Prepares the rays of a band; returns whether they are linear in columns and rows.
-    pub fn begin(&mut self, scene: &PreparedScene, band: &Band<'_>) -> bool {
-        let Some(rays) = scene.precise_frame().linear_rays() else { return false };
-        (self.is_parallel, self.common, self.first) = (rays.is_parallel, rays.common, band.first);
-        let halves = |vector: Vector<DoubleDouble>| {
-            let high = vector.map(DoubleDouble::rounded);
-            [high, (vector - Vector::from_f64(high)).map(DoubleDouble::rounded)]
-        };
+    /// Prepares the rays through the pixels of a band.
+    pub fn begin(&mut self, band: &Band<'_>) {
+        let Self { rays, .. } = self;
         let Pixel { column, row } = band.first;
+        self.first = band.first;
         self.columns.extend((column..column + band.size.width).map(|column| halves(rays.of_column(column))));
         self.rows.extend((row..row + band.size.height).map(|row| halves(rays.of_row(row))));
-        true
     }
 
     /// Chooses the rays of a tile of the band; those beyond its last column or row are copies.
-    pub fn aim(&mut self, tile: Tile) {
+    pub fn aim_at_tile(&mut self, tile: Tile) {
         let (column, row) = (tile.first.column - self.first.column, tile.first.row - self.first.row);
         for ray in 0..RAYS {
             let (across, down) = place_of(ray);
             let column = self.columns[(column + across.min(tile.width - 1)) as usize];
             let row = self.rows[(row + down.min(tile.height - 1)) as usize];
-            for half in 0..2 {
-                put(column[half], ray, &mut self.of_columns[half]);
-                put(row[half], ray, &mut self.of_rows[half]);
-            }
+            self.set(ray, column, row);
+        }
+    }
+
+    /// Chooses the rays through screen positions; those after the last one are copies of it.
+    pub fn aim(&mut self, positions: &[ScreenPosition]) {
+        let Some(last) = positions.last() else { return };
+        for ray in 0..RAYS {
+            let [column, row] = self.rays.of(*positions.get(ray).unwrap_or(last)).map(halves);
+            self.set(ray, column, row);
+        }
+    }
+
+    fn set(&mut self, ray: usize, column: [Vector; 2], row: [Vector; 2]) {
+        for half in 0..2 {
+            put(column[half], ray, &mut self.of_columns[half]);
+            put(row[half], ray, &mut self.of_rows[half]);
         }
     }
 
@@ -93,9 +98,9 @@ impl PreciseRays {
     #[inline(always)]
     pub fn way<V: Lane<Element = f64>>(&self, token: V::Token, at: usize) -> Way<V> {
         let sum = pairs::<V>(token, &self.sums, at);
-        let common = exact::<V>(token, self.common);
+        let common = exact::<V>(token, self.rays.common);
         let direction = load::<V, _>(token, at, &self.directions);
-        if self.is_parallel {
+        if self.rays.is_parallel {
             Way { start: sum, along: common, direction }
         } else {
             Way { start: common, along: sum, direction }
@@ -103,15 +108,21 @@ impl PreciseRays {
     }
 }
 
+/// The upper and the lower half of a vector.
+fn halves(vector: Vector<DoubleDouble>) -> [Vector; 2] {
+    let high = vector.map(DoubleDouble::rounded);
+    [high, (vector - Vector::from_f64(high)).map(DoubleDouble::rounded)]
+}
+
 /// Adds what columns and rows contribute, and sets the rays of a packet.
-pub struct Combine<'c> {
+pub struct Combine<'c, 'a> {
     /// The rays.
-    pub rays: &'c mut PreciseRays,
+    pub rays: &'c mut PreciseRays<'a>,
     /// The packet.
     pub packet: &'c mut RayPacket,
 }
 
-impl LaneJob for Combine<'_> {
+impl LaneJob for Combine<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -124,10 +135,11 @@ impl LaneJob for Combine<'_> {
     }
 }
 
-impl Combine<'_> {
+impl Combine<'_, '_> {
     #[inline(always)]
     fn combine<V: Lane<Element = f64>>(self, token: V::Token) {
-        let PreciseRays { is_parallel, common, of_columns, of_rows, sums, directions, .. } = self.rays;
+        let PreciseRays { rays: LinearRays { is_parallel, common, .. }, of_columns, of_rows, sums, directions, .. } =
+            self.rays;
         let parallel = nearest(exact::<V>(token, *common));
         let packet = self.packet;
         packet.origin = common.map(DoubleDouble::rounded);

@@ -1,7 +1,7 @@
-//! The light that reaches the points of a tile, and their brightness.
+//! The light that reaches the points of a packet, and their brightness.
 
 use super::rays::{RAYS, RayPacket, Vectors};
-use super::{Blocked, Find, Hits, Packets, bits, pixel_of, set_bits};
+use super::{Blocked, Find, Hits, Packets, bits, set_bits};
 use crate::accelerate::Walk;
 use crate::camera::ScreenPosition;
 use crate::lanes::{Lane, LaneJob, Precision};
@@ -9,8 +9,6 @@ use crate::light::Emitter;
 use crate::prepare::{AmbientIrradiance, AmbientShare, PreparedScene};
 use crate::ray::Ray;
 use crate::render::RenderError;
-use crate::render::band::{Band, Tile};
-use crate::render::fan_out::{Pixels, Shaded};
 use crate::render::shading::block::{ShadedBlock, SurfaceBlock};
 use crate::render::shading::emitters::Chosen;
 use crate::render::shading::kernel::{PerPoint, ShadeBlock};
@@ -18,7 +16,27 @@ use crate::render::shading::lobe::Power;
 use crate::render::vectors::{get, load, put, splat, store};
 use crate::vector::Vector;
 
-/// Shades the points of tiles, one tile after another.
+/// What is to be shaded.
+pub struct Subject<'h> {
+    /// What each ray has hit.
+    pub hits: &'h Hits,
+    /// The screen positions of the rays; points that no ray has found are taken as exact.
+    pub seen_at: Option<&'h [ScreenPosition; RAYS]>,
+}
+
+/// Takes what has been shaded.
+pub trait Output {
+    /// Takes the values of some rays in a layer.
+    ///
+    /// # Errors
+    /// A value that a channel of single precision cannot hold.
+    fn put(&mut self, layer: usize, rays: &[usize], shaded: &ShadedBlock<f64>) -> Result<(), RenderError>;
+
+    /// Takes the points of some rays, once for all layers.
+    fn put_geometry(&mut self, rays: &[usize], points: &SurfaceBlock<f64>);
+}
+
+/// Shades the points of packets, one packet after another.
 pub struct Shader<'a> {
     packets: Packets<'a>,
     layers: Vec<&'a PreparedScene>,
@@ -40,7 +58,6 @@ pub struct Shader<'a> {
     visible: Vec<f64>,
     /// The points of one material.
     points: Box<SurfaceBlock<f64>>,
-    indices: Vec<usize>,
     /// v of these points.
     visible_there: Vec<f64>,
     ambient: Vec<AmbientShare>,
@@ -66,7 +83,6 @@ impl<'a> Shader<'a> {
             chosen: Vec::new(),
             visible: Vec::new(),
             points: SurfaceBlock::anchored(),
-            indices: Vec::with_capacity(RAYS),
             visible_there: Vec::new(),
             ambient: Vec::with_capacity(RAYS),
             emitters: Chosen::default(),
@@ -74,22 +90,22 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Shades what the rays of a tile hit.
+    /// Shades what the rays of a packet have hit.
     pub fn shade(
         &mut self,
-        hits: &Hits,
-        tile: Tile,
+        subject: &Subject<'_>,
         packet: &mut RayPacket,
         walk: &mut Walk,
-        band: &mut Band<'_>,
+        output: &mut impl Output,
     ) -> Result<(), RenderError> {
+        let hits = subject.hits;
         let mut left = bits(hits.iter().map(Option::is_some));
         if left == 0 {
             return Ok(());
         }
         self.first = left.trailing_zeros() as usize;
         self.spread_out(hits);
-        self.see_lights(hits, left, tile, packet, walk);
+        self.see_lights(subject, left, packet, walk);
         // The points of one material after those of another.
         let scene = self.packets.scene;
         while left != 0 {
@@ -101,7 +117,7 @@ impl<'a> Shader<'a> {
             for ray in &rays {
                 left &= !(1 << ray);
             }
-            self.shade_some(hits, &rays, tile, band)?;
+            self.shade_some(hits, &rays, output)?;
         }
         Ok(())
     }
@@ -123,7 +139,8 @@ impl<'a> Shader<'a> {
     }
 
     /// Finds which lights the points see.
-    fn see_lights(&mut self, hits: &Hits, present: u64, tile: Tile, packet: &mut RayPacket, walk: &mut Walk) {
+    fn see_lights(&mut self, subject: &Subject<'_>, present: u64, packet: &mut RayPacket, walk: &mut Walk) {
+        let Subject { hits, seen_at } = subject;
         let Packets { scene, instructions, .. } = self.packets;
         let from_inside = bits(hits.iter().map(|hit| hit.as_ref().is_some_and(|hit| hit.from_inside)));
         self.chosen.clear();
@@ -166,18 +183,17 @@ impl<'a> Shader<'a> {
             self.visible.extend((0..RAYS).map(|ray| if dark >> ray & 1 == 1 { 0.0 } else { 1.0 }));
             for ray in set_bits(maybe) {
                 let Some(hit) = &hits[ray] else { continue };
-                let position = ScreenPosition::PixelCenter(pixel_of(tile, ray));
-                self.visible[start + ray] = scene.visibility(hit, Some(position))(index);
+                let position = seen_at.map(|positions| positions[ray]);
+                self.visible[start + ray] = scene.visibility(hit, position)(index);
             }
             self.chosen.push((place, index));
         }
     }
 
     /// Shades some of the points, all of one material.
-    fn shade_some(&mut self, hits: &Hits, rays: &[usize], tile: Tile, band: &mut Band<'_>) -> Result<(), RenderError> {
+    fn shade_some(&mut self, hits: &Hits, rays: &[usize], output: &mut impl Output) -> Result<(), RenderError> {
         let Packets { scene, lighting, instructions, .. } = self.packets;
-        let Self { layers, chosen, visible, points, indices, visible_there, ambient, emitters, shaded, .. } = self;
-        indices.clear();
+        let Self { layers, chosen, visible, points, visible_there, ambient, emitters, shaded, .. } = self;
         ambient.clear();
         points.count = rays.len();
         let mut primitive = None;
@@ -185,7 +201,6 @@ impl<'a> Shader<'a> {
             let Some(hit) = &hits[*ray] else { continue };
             primitive = Some(hit.primitive);
             points.set(at, hit);
-            indices.push(band.index(pixel_of(tile, *ray)));
             ambient.push(scene.ambient_share(hit));
         }
         let (Some(primitive), Some(last)) = (primitive, rays.last()) else { return Ok(()) };
@@ -210,11 +225,9 @@ impl<'a> Shader<'a> {
                 visibility: PerPoint { visible: visible_there, stride },
                 shaded,
             });
-            band.put(number, Pixels::At(indices), Shaded::Double(shaded))?;
+            output.put(number, rays, shaded)?;
         }
-        if band.has_geometry() {
-            band.put_geometry(Pixels::At(indices), points);
-        }
+        output.put_geometry(rays, points);
         Ok(())
     }
 }

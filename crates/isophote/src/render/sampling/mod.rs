@@ -7,6 +7,7 @@ mod outlined;
 mod pattern;
 mod refine;
 mod rule;
+mod tracer;
 mod uncertain;
 
 use std::ops::Range;
@@ -14,11 +15,13 @@ use std::ops::Range;
 use self::narrow::Narrow;
 use self::outlined::{Nodes, Outlined};
 use self::pattern::Patterns;
-use self::refine::{Averages, Refinement, Wanted};
+use self::refine::{Averages, Refinement, Refiner, Wanted};
+use self::tracer::SampleTracer;
 use self::uncertain::{Finder, Suspects, uncertain_in_rows};
 use super::band::{self, advance};
-use super::hits::HitBlock;
+use super::shading::emitters::Lighting;
 use super::{RenderError, RenderSettings};
+use crate::lanes::Instructions;
 use crate::map::{Channel, Map, Mask, Pixel, Quantity, Region, Resolution, Values, totals};
 use crate::prepare::PreparedScene;
 use crate::threads::Threads;
@@ -45,6 +48,8 @@ pub struct Renders<'c> {
     pub parallel: &'c Centres<'c>,
     /// On the calling thread.
     pub serial: &'c Centres<'c>,
+    /// The instruction set for samples; without one, they are traced one by one.
+    pub instructions: Option<Instructions>,
 }
 
 /// Renders means over pixels: of as many samples as the scene asks for, or of more where the value is uncertain.
@@ -95,6 +100,7 @@ fn refined(
     let tolerances: Vec<f64> = peaks(scene, renders)?.into_iter().map(|peak| tolerance * peak).collect();
     let averages: Vec<Averages> = layers.iter().map(Averages::of).collect();
     let asked_for = band::asked_for(&layers[0], scene);
+    let lighting = Lighting::new(scene, &asked_for);
     let (patterns, offsets) = (Patterns::new(sampling.samples), refine::offsets(sampling.filter));
     let wanted =
         Wanted { averages: &averages, sampling, patterns: &patterns, offsets: &offsets, tolerances: &tolerances };
@@ -105,16 +111,23 @@ fn refined(
     let narrow = narrow.find(&asked_for, threads, settings.observer)?;
     let refine = |rows: Range<usize>| {
         let (mut nodes, mut suspects) = (Nodes::new(asked_for.len()), Suspects::default());
-        let mut hits = HitBlock::new(scene, &asked_for);
-        let mut refined = Vec::new();
+        let (mut refined, mut left) = (Vec::new(), Vec::new());
         for uncertain in uncertain_in_rows(&finders, &narrow, rows, &mut suspects) {
             let pixel = layers[0].pixel(uncertain.index);
             if outlined.as_ref().is_some_and(|outlined| outlined.is_missed_by_all(pixel, &uncertain)) {
                 continue;
             }
             advance(settings.observer, 0)?;
-            let mean = outlined.as_ref().and_then(|outlined| outlined.mean(&mut nodes, pixel, &uncertain));
-            refined.push(mean.unwrap_or_else(|| Refinement::new(&mut hits, &wanted, pixel, &uncertain)));
+            match outlined.as_ref().and_then(|outlined| outlined.mean(&mut nodes, pixel, &uncertain)) {
+                Some(mean) => refined.push(mean),
+                None => left.push((pixel, uncertain)),
+            }
+        }
+        if !left.is_empty() {
+            let tracer = SampleTracer::new(scene, &lighting, &asked_for, renders.instructions);
+            let mut refiner = Refiner { tracer, wanted: &wanted };
+            refined.extend(refiner.refine(left.into_iter(), || advance(settings.observer, 0))?);
+            refined.sort_unstable_by_key(|refinement| refinement.index);
         }
         Ok(refined)
     };

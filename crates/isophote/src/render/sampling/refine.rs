@@ -2,6 +2,7 @@
 
 use super::FIRST_SAMPLES;
 use super::pattern::{self, Patterns};
+use super::tracer::{SAMPLES, SampleTracer};
 use super::uncertain::Uncertain;
 use crate::camera::ScreenPosition;
 use crate::hammersley::points;
@@ -9,8 +10,7 @@ use crate::map::{Channel, Map, Mask, Pixel, Quantity, Run, Scalars, Values};
 use crate::prepare::Hit;
 use crate::render::RenderError;
 use crate::render::band::ScalarChannel;
-use crate::render::hits::HitBlock;
-use crate::render::shading::block::{POINTS, ShadedBlock};
+use crate::render::shading::block::ShadedBlock;
 use crate::scene::{Filter, Sampling};
 
 /// The channels of a layer that hold means. The others hold what is visible at the centre.
@@ -104,61 +104,133 @@ pub fn is_mean(quantity: &Quantity) -> bool {
     }
 }
 
-impl Refinement {
-    /// Traces as many rays through a pixel as its contrast requires.
-    pub fn new(hits: &mut HitBlock<'_>, wanted: &Wanted<'_>, pixel: Pixel, uncertain: &Uncertain) -> Self {
-        let most = wanted.sampling.samples;
-        let enough = |contrasts: &[f64]| {
-            let of_layer = |(contrast, tolerance): (&f64, &f64)| pattern::enough(*contrast, *tolerance, most);
-            contrasts.iter().zip(wanted.tolerances).map(of_layer).max().unwrap_or(1)
+/// Traces as many rays through pixels as their contrasts require.
+pub struct Refiner<'r> {
+    pub tracer: SampleTracer<'r>,
+    pub wanted: &'r Wanted<'r>,
+}
+
+/// A pixel that needs this many samples.
+struct Open {
+    pixel: Pixel,
+    uncertain: Uncertain,
+    samples: u32,
+}
+
+/// The side of the squares whose pixels share packets.
+const SIDE: u32 = 8;
+
+impl Refiner<'_> {
+    /// Refines pixels; the order of the results is any.
+    pub fn refine(
+        &mut self,
+        pixels: impl Iterator<Item = (Pixel, Uncertain)>,
+        mut advance: impl FnMut() -> Result<(), RenderError>,
+    ) -> Result<Vec<Refinement>, RenderError> {
+        let most = self.wanted.sampling.samples;
+        let open = |(pixel, uncertain): (Pixel, Uncertain)| {
+            let samples = self.wanted.enough(&uncertain.contrasts).max(FIRST_SAMPLES.min(most));
+            Open { pixel, uncertain, samples }
         };
-        let mut samples = enough(&uncertain.contrasts).max(FIRST_SAMPLES.min(most));
-        loop {
-            let (refinement, contrasts) = Self::of_samples(hits, wanted, pixel, uncertain, samples);
-            let enough = enough(&contrasts);
-            if enough <= samples {
-                let error_bounds = contrasts.iter().map(|contrast| pattern::error_bound(*contrast, samples)).collect();
-                return Self { error_bounds, ..refinement };
+        let mut open: Vec<Open> = pixels.map(open).collect();
+        let mut refined = Vec::with_capacity(open.len());
+        while !open.is_empty() {
+            // Rays of a packet should pass close to each other. Which ones they are does not matter to the results.
+            let square = |pixel: Pixel| (pixel.row / SIDE, pixel.column / SIDE);
+            let class = |open: &Open| (open.samples, square(open.pixel));
+            open.sort_by_key(|open| (class(open), open.uncertain.index));
+            let mut next = Vec::new();
+            for group in open.chunk_by(|one, other| class(one) == class(other)) {
+                let together = (SAMPLES / group[0].samples as usize).max(1);
+                for some in group.chunks(together) {
+                    advance()?;
+                    self.add(some, &mut refined, &mut next)?;
+                }
             }
-            samples = enough;
+            open = next;
+        }
+        Ok(refined)
+    }
+
+    /// Traces the samples of pixels that need equally many of them, and finds out which of them need more.
+    fn add(&mut self, pixels: &[Open], refined: &mut Vec<Refinement>, next: &mut Vec<Open>) -> Result<(), RenderError> {
+        let wanted = self.wanted;
+        let samples = pixels[0].samples;
+        let mut means: Vec<PixelMeans> = pixels.iter().map(|_| PixelMeans::new(wanted)).collect();
+        for places in wanted.patterns.of(samples).chunks(SAMPLES) {
+            let in_pixel = |open: &Open| {
+                let pixel = open.pixel;
+                places.iter().map(move |place| ScreenPosition::InPixel { pixel, place: *place })
+            };
+            let positions: Vec<ScreenPosition> = pixels.iter().flat_map(in_pixel).collect();
+            self.tracer.trace(&positions)?;
+            for (number, means) in means.iter_mut().enumerate() {
+                means.add(&self.tracer, number * places.len(), places, wanted);
+            }
+        }
+        for (open, means) in pixels.iter().zip(means) {
+            let contrasts: Vec<f64> = means.layers.iter().map(LayerMeans::contrast).collect();
+            let enough = wanted.enough(&contrasts);
+            if enough > samples {
+                next.push(Open { uncertain: open.uncertain.clone(), samples: enough, ..*open });
+                continue;
+            }
+            let error_bounds = contrasts.iter().map(|contrast| pattern::error_bound(*contrast, samples)).collect();
+            refined.push(means.finish(&open.uncertain, samples, error_bounds));
+        }
+        Ok(())
+    }
+}
+
+impl Wanted<'_> {
+    /// How many samples are enough where brightness differs by this much in each layer.
+    fn enough(&self, contrasts: &[f64]) -> u32 {
+        let of_layer =
+            |(contrast, tolerance): (&f64, &f64)| pattern::enough(*contrast, *tolerance, self.sampling.samples);
+        contrasts.iter().zip(self.tolerances).map(of_layer).max().unwrap_or(1)
+    }
+}
+
+/// The sums over the samples of a pixel.
+struct PixelMeans<'w> {
+    layers: Vec<LayerMeans<'w>>,
+    covered: u32,
+    first_hit: Option<Hit>,
+}
+
+impl<'w> PixelMeans<'w> {
+    fn new(wanted: &Wanted<'w>) -> Self {
+        let layers = wanted.averages.iter().map(|of| LayerMeans::new(of, wanted.offsets)).collect();
+        Self { layers, covered: 0, first_hit: None }
+    }
+
+    /// Adds samples that have been traced, given by the number of the first one and their positions in the pixel.
+    fn add(&mut self, tracer: &SampleTracer<'_>, first: usize, places: &[[f64; 2]], wanted: &Wanted<'_>) {
+        for hit in (first..first + places.len()).filter_map(|sample| tracer.hit(sample)) {
+            self.covered += 1;
+            self.first_hit = self.first_hit.or(Some(*hit));
+        }
+        for (layer, means) in self.layers.iter_mut().enumerate() {
+            let (shaded, at) = tracer.values(layer);
+            let seen = places.iter().zip(first..);
+            let seen = seen.map(|(place, sample)| (*place, tracer.hit(sample).map(|_| at(sample))));
+            means.add(seen, shaded, wanted.sampling.filter, wanted.offsets);
         }
     }
 
-    /// With this many samples; also returns how much their brightness differs in each layer.
-    fn of_samples(
-        hits: &mut HitBlock<'_>,
-        wanted: &Wanted<'_>,
-        pixel: Pixel,
-        uncertain: &Uncertain,
-        samples: u32,
-    ) -> (Self, Vec<f64>) {
-        let mut means: Vec<LayerMeans> = wanted.averages.iter().map(|of| LayerMeans::new(of, wanted.offsets)).collect();
-        let (mut covered, mut first_hit) = (0_u32, None);
-        for places in wanted.patterns.of(samples).chunks(POINTS) {
-            hits.clear();
-            let mut trace = |place: &[f64; 2]| {
-                let position = ScreenPosition::InPixel { pixel, place: *place };
-                let hit = hits.trace(position);
-                covered += u32::from(hit.is_some());
-                first_hit = first_hit.or(hit);
-                hit.map(|hit| {
-                    hits.push(0, &hit, Some(position));
-                    hits.len() - 1
-                })
-            };
-            let seen: Vec<([f64; 2], Option<usize>)> = places.iter().map(|place| (*place, trace(place))).collect();
-            for (layer, means) in means.iter_mut().enumerate() {
-                means.add(&seen, hits.shaded(layer), wanted.sampling.filter, wanted.offsets);
-            }
-        }
+    fn finish(self, uncertain: &Uncertain, samples: u32, error_bounds: Vec<f64>) -> Refinement {
         let share = 1.0 / f64::from(samples);
-        let contrasts = means.iter().map(LayerMeans::contrast).collect();
-        let sums = means.into_iter().map(|means| means.finish(share)).collect();
-        let coverage = f64::from(covered) * share;
-        let seen = first_hit.map(|hit| hit.primitive.shape);
         let Uncertain { index, sees, .. } = *uncertain;
-        let (hit, error_bounds) = (first_hit.map(Box::new), Vec::new());
-        (Self { index, sees, samples, coverage, error_bounds, seen, hit, sums }, contrasts)
+        Refinement {
+            index,
+            sees,
+            samples,
+            coverage: f64::from(self.covered) * share,
+            error_bounds,
+            seen: self.first_hit.map(|hit| hit.primitive.shape),
+            hit: self.first_hit.map(Box::new),
+            sums: self.layers.into_iter().map(|means| means.finish(share)).collect(),
+        }
     }
 }
 
@@ -177,10 +249,10 @@ impl<'w> LayerMeans<'w> {
         Self { channels, sums, least: f64::INFINITY, greatest: f64::NEG_INFINITY }
     }
 
-    /// Adds samples, given by their positions and what is visible there.
+    /// Adds samples, given by their positions and where their values are, if they see anything.
     fn add(
         &mut self,
-        seen: &[([f64; 2], Option<usize>)],
+        seen: impl Iterator<Item = ([f64; 2], Option<usize>)>,
         shaded: &ShadedBlock<f64>,
         filter: Filter,
         offsets: &[[f64; 2]],

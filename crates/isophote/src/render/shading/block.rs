@@ -236,4 +236,22 @@ impl<E: Element> ShadedBlock<E> {
             by_light: vec![zeros; lights],
         })
     }
+
+    /// Takes the values of another block: each point's to its place.
+    pub fn scatter(&mut self, places: &[usize], points: &Self) {
+        let Self { brightness, irradiance, diffuse, specular, ambient, ambient_error, by_light } = self;
+        let arrays = [
+            (brightness, &points.brightness),
+            (irradiance, &points.irradiance),
+            (diffuse, &points.diffuse),
+            (specular, &points.specular),
+            (ambient, &points.ambient),
+            (ambient_error, &points.ambient_error),
+        ];
+        for (out, values) in arrays.into_iter().chain(by_light.iter_mut().zip(&points.by_light)) {
+            for (value, place) in values.iter().zip(places) {
+                out[*place] = *value;
+            }
+        }
+    }
 }
