@@ -102,7 +102,8 @@ impl Vector {
     /// revisited", Journal of Computer Graphics Techniques 6(1), 2017.)
     #[must_use]
     pub fn perpendiculars(self) -> [Self; 2] {
-        let sign = 1.0_f64.copysign(self.z);
+        // A zero has a sign too, which must not matter.
+        let sign = 1.0_f64.copysign(self.z + 0.0);
         let a = -1.0 / (sign + self.z);
         let b = self.x * self.y * a;
         [

@@ -6,8 +6,8 @@ use isophote::lanes::{Instructions, Precision};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::PreparedScene;
 use isophote::render::{ReferenceRenderer, RenderSettings, Renderer, SimdRenderer};
-use isophote::scene::source::{ProjectionName, WindowSource};
-use isophote::scene::{MemoryFiles, Scene, SceneSource, Syntax};
+use isophote::scene::source::{AmbientSource, ProjectionName, SamplingSource, WindowSource};
+use isophote::scene::{Filter, MemoryFiles, Scene, SceneSource, Syntax};
 use isophote::tolerance::DOUBLE;
 use proptest::prelude::*;
 
@@ -139,6 +139,43 @@ proptest! {
         for renderer in renderers() {
             let result = conforms(&renderer, &scene, &DOUBLE);
             prop_assert!(result.is_ok(), "{}: {}", renderer.name(), result.unwrap_err());
+        }
+    }
+
+    /// Shapes block ambient light in the same directions, and samples of pixels see the same, as when rays are traced one by
+    /// one.
+    #[test]
+    fn random_samples_and_ambient_light_are_those_of_single_rays(
+        mut source in random::solids(),
+        projection in 0_usize..8,
+        has_ambient in any::<bool>(),
+        filter in prop_oneof![Just(Filter::Box), Just(Filter::Triangle)],
+    ) {
+        seen_by(&mut source, projection);
+        if has_ambient {
+            let (radiance, samples) = (Some(0.5.into()), Some(16));
+            source.ambient = Some(AmbientSource { radiance, obstructed: Some(true), samples });
+        } else {
+            let (samples, tolerance) = (Some(256), Some(0.05));
+            source.sampling = Some(SamplingSource { samples, tolerance, filter: Some(filter) });
+        }
+        let Ok(scene) = Scene::try_from(source) else { return Ok(()) };
+        let scene = PreparedScene::new(&scene);
+        // Where all light is grazing, its relative error is larger.
+        let intensities: f64 = scene.emitters().all().iter().map(|emitter| emitter.intensity).sum();
+        let expected = rendered(&ReferenceRenderer, &scene, None);
+        for renderer in renderers() {
+            let found = rendered(&renderer, &scene, None);
+            prop_assert_eq!(found.mask().shapes(), expected.mask().shapes());
+            for quantity in [Quantity::Brightness, Quantity::Irradiance, Quantity::Ambient, Quantity::Specular] {
+                let values = [&found, &expected].map(|map| map.scalar(&quantity).expect("it is common"));
+                let pixels = found.region.size.pixels();
+                let peak = (0..pixels).map(|index| values[1].at(index)).fold(1e-6 * intensities, f64::max);
+                for index in 0..pixels {
+                    let off = (values[0].at(index) - values[1].at(index)).abs();
+                    prop_assert!(off <= 1e-12 * peak, "{quantity:?} of pixel {index} is off by {off}, of {peak}");
+                }
+            }
         }
     }
 

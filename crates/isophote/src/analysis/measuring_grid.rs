@@ -1,9 +1,10 @@
 //! Grids of points on a plane, as used for measurements and calculations in lighting.
 
-use crate::analysis::cells::{self, Cell, Layout};
+use crate::analysis::cells::{self, Layout};
 use crate::map::{Coordinates, Map, Pixel, Quantity, Resolution, Window};
 use crate::message;
 use crate::prepare::PreparedScene;
+use crate::render::cells::Cells;
 use crate::render::{Observer, RenderError};
 use crate::scene::Grid;
 use crate::shape::SurfacePoint;
@@ -99,7 +100,8 @@ impl PreparedScene {
             renderer: format!("grid {}, double", grid.name),
             shape: 0,
         };
-        let map = cells::map(self, layout, quantities, observer, |cell| Some(Cell::Free(grid.surface_point(cell))));
+        let cells = Cells::Free(&|cell| Some(grid.surface_point(cell)));
+        let map = cells::map(self, layout, quantities, observer, &cells);
         map.map_err(|error| match error {
             RenderError::Interrupted => GridError::Interrupted,
             RenderError::NoSuchLight { name } => GridError::NoSuchLight { name },

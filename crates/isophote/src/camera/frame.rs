@@ -1,7 +1,7 @@
 //! The camera's axes, its rays, and the projection of points in space onto the screen.
 
 use super::{Camera, Extent, Handedness, Projection, ScreenPosition, panorama};
-use crate::double_double::DoubleDouble;
+use crate::double_double::{DoubleDouble, ExactProduct};
 use crate::map::Resolution;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
@@ -115,14 +115,14 @@ impl<T: Scalar> CameraFrame<T> {
     }
 }
 
-/// Rays that differ only in what their column and their row add to the direction, or, if they are parallel, to the start.
+/// Rays whose directions, or starts if they are parallel, are linear in column and row: in lanes, with 32 digits.
 pub(crate) struct LinearRays<'f> {
     frame: &'f CameraFrame<DoubleDouble>,
     /// Whether the starts differ, and not the directions.
     pub is_parallel: bool,
     /// What all rays have in common: the eye, or the direction of parallel rays.
     pub common: Vector<DoubleDouble>,
-    /// The rest of what differs.
+    /// What differs, at the centre of the screen.
     center: Vector<DoubleDouble>,
 }
 
@@ -141,27 +141,40 @@ impl CameraFrame<DoubleDouble> {
 }
 
 impl LinearRays<'_> {
-    /// What the two coordinates of a screen position add; the second one includes what all rays have.
-    pub fn of(&self, position: ScreenPosition) -> [Vector<DoubleDouble>; 2] {
-        let (x, y) = self.frame.screen_point(position);
-        [self.frame.right * x, self.center + self.frame.up * y]
+    /// The directions, of any length, or the starts, at columns and rows counted from the centre of the first pixel, which
+    /// may be fractional.
+    #[inline(always)]
+    pub fn at<T: ExactProduct>(&self, column: T, row: T) -> Vector<DoubleDouble<T>> {
+        let CameraFrame { right, up, extent: Extent { x, y: [bottom, top] }, resolution, .. } = self.frame;
+        let [right, up, center] = [*right, *up, self.center].map(
+            #[inline(always)]
+            |vector| {
+                vector.map(
+                    #[inline(always)]
+                    |number| {
+                        number.map(
+                            #[inline(always)]
+                            |half| column.splat_like(half),
+                        )
+                    },
+                )
+            },
+        );
+        let (x, y) =
+            (between_exactly(*x, column, resolution.width), between_exactly([*top, *bottom], row, resolution.height));
+        center + right * x + up * y
     }
+}
 
-    /// What a column adds.
-    pub fn of_column(&self, column: u32) -> Vector<DoubleDouble> {
-        let [left, right] = self.frame.extent.x;
-        self.frame.right * self.at([left, right], column, 0, self.frame.resolution.width)
-    }
-
-    /// What a row adds, and what all rays have.
-    pub fn of_row(&self, row: u32) -> Vector<DoubleDouble> {
-        let [bottom, top] = self.frame.extent.y;
-        self.center + self.frame.up * self.at([top, bottom], row, 1, self.frame.resolution.height)
-    }
-
-    fn at(&self, [first, last]: [f64; 2], pixel: u32, axis: usize, count: u32) -> DoubleDouble {
-        between(first, last, f64::from(pixel) + (self.frame.place[axis] - 0.5), count)
-    }
+/// [`between`] for several cells at a time.
+#[inline(always)]
+fn between_exactly<T: ExactProduct>([first, last]: [f64; 2], index: T, count: u32) -> DoubleDouble<T> {
+    let after = index + index + index.splat_like(1.0);
+    let twice = index.splat_like(2.0 * f64::from(count));
+    let before = twice - after;
+    let weighted = DoubleDouble::product_of(index.splat_like(first), before)
+        + DoubleDouble::product_of(index.splat_like(last), after);
+    weighted / DoubleDouble::exactly(twice)
 }
 
 impl CameraFrame {

@@ -22,16 +22,24 @@ struct Touched {
 pub(crate) struct LightAtPoint {
     touched: Touched,
     precise: OnceCell<SurfacePoint<DoubleDouble>>,
-    /// The part of the ambient light that arrives.
-    pub(crate) ambient: AmbientShare,
+}
+
+impl LightAtPoint {
+    /// Whether the point lies on one surface at most, which hides nothing.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.touched.own.len() <= 1 && self.touched.walls.is_empty()
+    }
+
+    /// The primitive that it lies on, the first one of several.
+    pub(crate) fn primitive(&self) -> Option<Primitive> {
+        self.touched.own.first().copied()
+    }
 }
 
 impl PreparedScene {
-    /// The surroundings of a point, and the part of the ambient light that arrives there.
+    /// The surroundings of a point.
     pub(crate) fn light_at(&self, point: &SurfacePoint) -> LightAtPoint {
-        let touched = self.touched(point.position());
-        let ambient = self.free_point_ambient(&touched, point);
-        LightAtPoint { touched, precise: OnceCell::new(), ambient }
+        LightAtPoint { touched: self.touched(point.position()), precise: OnceCell::new() }
     }
 
     /// v of an emitter at a point.
@@ -57,17 +65,17 @@ impl PreparedScene {
         self.blocking_from(&touched.own, point, Vector::zero(), emitter)
     }
 
-    fn free_point_ambient(&self, touched: &Touched, point: &SurfacePoint) -> AmbientShare {
+    /// The part of the ambient light that arrives at a point.
+    pub(crate) fn ambient_share_at(&self, light: &LightAtPoint, point: &SurfacePoint) -> AmbientShare {
+        let LightAtPoint { touched, .. } = light;
         if self.scene.ambient.is_none() {
             return AmbientShare::ALL;
         }
-        let hemisphere = self.hemisphere.as_deref().filter(|_| !self.shapes.is_empty());
         let sees_the_environment = |direction: Vector| {
             let ray = Ray { anchor: point.anchor, offset: point.offset, direction };
-            self.wall_before(touched, direction, None).is_none()
-                && self.nearest_blocker(&touched.own, &ray, None).blocker.is_none()
+            self.wall_before(touched, direction, None).is_none() && self.sees_environment(&touched.own, &ray)
         };
-        sampled(hemisphere, point.normal, sees_the_environment)
+        sampled(self.obstructed_hemisphere(false), point.normal, sees_the_environment)
     }
 
     /// The closed shape that hides a target in a direction (at a place, or infinitely far away) because the target is behind

@@ -42,6 +42,12 @@ impl<T: Scalar> Hit<T> {
 }
 
 impl Hit {
+    /// A point that lies on no shape.
+    pub(crate) fn on_no_shape(point: SurfacePoint) -> Self {
+        let primitive = Primitive { shape: 0, part: 0 };
+        Self { primitive, distance: 0.0, point, from_inside: false, shadow_ray_offset: Vector::zero() }
+    }
+
     pub(super) fn exactly(&self) -> Hit<DoubleDouble> {
         self.map(DoubleDouble::from_f64)
     }

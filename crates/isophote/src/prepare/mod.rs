@@ -15,10 +15,10 @@ use std::sync::{Arc, OnceLock};
 
 pub use components::Components;
 use formulas::{PreparedFormula, formulas};
+pub(crate) use free_point::LightAtPoint;
 pub use hit::Hit;
 pub use obstruction::AmbientIrradiance;
-pub(crate) use obstruction::AmbientShare;
-use obstruction::Hemisphere;
+pub(crate) use obstruction::{AmbientShare, Hemisphere, HemisphereDirection};
 pub(crate) use tracing::ERROR_OF_DISTANCE;
 pub use visibility::Blocking;
 pub(crate) use visibility::Blocks;

@@ -4,6 +4,8 @@ use super::{Hit, PreparedScene};
 use crate::hammersley::points;
 use crate::light::Ambient;
 use crate::ray::Ray;
+use crate::real::Real;
+use crate::shape::Primitive;
 use crate::vector::Vector;
 
 /// The irradiance of a surface point due to the ambient light.
@@ -23,7 +25,7 @@ pub(crate) struct AmbientShare {
 }
 
 impl AmbientShare {
-    pub(super) const ALL: Self = Self { share: 1.0, standard_error: 0.0 };
+    pub(crate) const ALL: Self = Self { share: 1.0, standard_error: 0.0 };
 
     /// The irradiance due to this environment, if there is one.
     pub(crate) fn of(self, ambient: Option<&Ambient>) -> AmbientIrradiance {
@@ -54,20 +56,48 @@ impl PreparedScene {
         if is_walled_in {
             return AmbientShare { share: 0.0, standard_error: 0.0 };
         }
-        let hemisphere = self.hemisphere.as_deref().filter(|_| self.has_shapes_beside_one());
-        sampled(hemisphere, hit.point.normal, |direction| {
+        sampled(self.obstructed_hemisphere(true), hit.point.normal, |direction| {
             let ray = Ray { anchor: hit.point.anchor, offset: hit.point.offset + hit.shadow_ray_offset, direction };
-            self.nearest_blocker(&[hit.primitive], &ray, None).blocker.is_none()
+            self.sees_environment(&[hit.primitive], &ray)
         })
+    }
+
+    /// The directions in which the ambient light of a point may be blocked, if it may: one convex primitive does not block
+    /// that of its own points.
+    pub(crate) fn obstructed_hemisphere(&self, is_on_shape: bool) -> Option<&Hemisphere> {
+        self.hemisphere.as_deref().filter(|_| self.primitive_count() > u32::from(is_on_shape))
+    }
+
+    /// Whether nothing stands between the start of a ray, on its `own` primitives, and the environment.
+    pub(crate) fn sees_environment(&self, own: &[Primitive], ray: &Ray) -> bool {
+        self.nearest_blocker(own, ray, None).blocker.is_none()
     }
 }
 
 /// Directions of a hemisphere, with a density proportional to the cosine: they are lifted from evenly spread points of a
 /// disc, because the density of their projections onto the disc goes as the cosine.
 #[derive(Clone, Debug)]
-pub(super) struct Hemisphere {
-    /// cosφ and sinφ around the normal, then the components across and along it.
-    directions: Vec<[f64; 4]>,
+pub(crate) struct Hemisphere {
+    directions: Vec<HemisphereDirection>,
+}
+
+/// A direction relative to a normal.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HemisphereDirection {
+    /// cosφ and sinφ around the normal.
+    around: [f64; 2],
+    /// The components across and along it.
+    parts: [f64; 2],
+}
+
+impl HemisphereDirection {
+    /// The unit vector about a normal, of which two unit vectors across it are given.
+    #[inline(always)]
+    pub(crate) fn about<T: Real>(&self, normal: Vector<T>, [first, second]: [Vector<T>; 2]) -> Vector<T> {
+        let number = |number| normal.x.splat_like(number);
+        let ([cosine, sine], [across, along]) = (self.around, self.parts);
+        ((first * number(cosine) + second * number(sine)) * number(across) + normal * number(along)).normalized()
+    }
 }
 
 impl Hemisphere {
@@ -75,17 +105,25 @@ impl Hemisphere {
     pub(super) fn new(count: u32) -> Self {
         let direction = |[across, around]: [f64; 2]| {
             let angle = std::f64::consts::TAU * around;
-            [libm::cos(angle), libm::sin(angle), across.sqrt(), (1.0 - across).sqrt()]
+            HemisphereDirection {
+                around: [libm::cos(angle), libm::sin(angle)],
+                parts: [across.sqrt(), (1.0 - across).sqrt()],
+            }
         };
         Self { directions: points(count).into_iter().map(direction).collect() }
     }
 
-    /// The directions about a normal, unit vectors.
-    fn about(&self, normal: Vector) -> impl Iterator<Item = Vector> {
-        let [first, second] = normal.perpendiculars();
-        self.directions.iter().map(move |[cosine, sine, across, along]| {
-            ((first * *cosine + second * *sine) * *across + normal * *along).normalized()
-        })
+    /// All directions.
+    pub(crate) fn directions(&self) -> &[HemisphereDirection] {
+        &self.directions
+    }
+
+    /// The share of the ambient light that arrives if this many of the directions see the environment.
+    #[expect(clippy::cast_precision_loss, reason = "there are few")]
+    pub(crate) fn share(&self, free: usize) -> AmbientShare {
+        let (free, samples) = (free as f64, self.directions.len() as f64);
+        let estimate = (free + 1.0) / (samples + 2.0);
+        AmbientShare { share: free / samples, standard_error: (estimate * (1.0 - estimate) / samples).sqrt() }
     }
 }
 
@@ -97,9 +135,7 @@ pub(super) fn sampled(
     sees_the_environment: impl Fn(Vector) -> bool,
 ) -> AmbientShare {
     let Some(hemisphere) = hemisphere else { return AmbientShare::ALL };
-    let free = hemisphere.about(normal).filter(|direction| sees_the_environment(*direction)).count();
-    #[expect(clippy::cast_precision_loss, reason = "there are few")]
-    let (free, samples) = (free as f64, hemisphere.directions.len() as f64);
-    let estimate = (free + 1.0) / (samples + 2.0);
-    AmbientShare { share: free / samples, standard_error: (estimate * (1.0 - estimate) / samples).sqrt() }
+    let across = normal.perpendiculars();
+    let directions = hemisphere.directions.iter().map(|direction| direction.about(normal, across));
+    hemisphere.share(directions.filter(|direction| sees_the_environment(*direction)).count())
 }

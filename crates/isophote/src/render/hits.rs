@@ -79,7 +79,13 @@ impl<'s> HitBlock<'s> {
         let primitive = Primitive { shape: 0, part: 0 };
         let hit =
             Hit { primitive, distance: 0.0, point: *point, from_inside: false, shadow_ray_offset: Vector::zero() };
-        self.push_lit(index, &hit, light.ambient, visibility, PreparedScene::formula_without_material);
+        self.push_lit(
+            index,
+            &hit,
+            scene.ambient_share_at(&light, point),
+            visibility,
+            PreparedScene::formula_without_material,
+        );
     }
 
     /// Shades a point in every layer; the light that reaches it is computed once.

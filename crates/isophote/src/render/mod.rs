@@ -1,6 +1,7 @@
 //! From a prepared scene to a map.
 
 pub(crate) mod band;
+pub(crate) mod cells;
 mod derived;
 mod fan_out;
 pub(crate) mod hits;

@@ -9,11 +9,12 @@ mod sphere;
 mod tests;
 mod totals;
 
-use crate::analysis::cells::{self, Cell, Layout};
+use crate::analysis::cells::{self, Layout};
 use crate::camera::{Sight, between};
 use crate::map::{Map, Pixel, Quantity, Resolution, Window};
 use crate::message;
 use crate::prepare::{Hit, PreparedScene};
+use crate::render::cells::Cells;
 use crate::render::{Observer, RenderError};
 use crate::shape::{Primitive, Side, SurfacePoint};
 use crate::text::Message;
@@ -206,10 +207,11 @@ impl Surface<'_> {
             renderer: self.description(),
             shape: self.request.primitive.shape,
         };
-        let map = cells::map(self.scene, layout, quantities, observer, |cell| {
+        let cells = Cells::OnShapes(&|cell| {
             let hit = self.hit(cell);
-            (!needs_eye || hit.point.cos_theta_o > 0.0).then_some(Cell::OnShape(hit))
+            (!needs_eye || hit.point.cos_theta_o > 0.0).then_some(hit)
         });
+        let map = cells::map(self.scene, layout, quantities, observer, &cells);
         map.map_err(|error| match error {
             RenderError::Interrupted => SurfaceError::Interrupted,
             RenderError::NoSuchLight { name } => SurfaceError::NoSuchLight { name },
@@ -281,7 +283,7 @@ impl Surface<'_> {
     }
 
     /// The centre of a cell as a hit from the requested side.
-    fn hit(&self, cell: Pixel) -> Hit {
+    pub(super) fn hit(&self, cell: Pixel) -> Hit {
         let ChartPoint { anchor, offset, normal } = self.chart_point(cell);
         let normal = normal * self.request.side.sign();
         let Sight { view, distance, .. } = self.scene.frame().sight(anchor, offset);

@@ -16,7 +16,7 @@ pub struct Blocked<'a> {
     /// The number of the primitive that each ray belongs to, which does not block it.
     pub own: &'a [u32; RAYS],
     /// A ray, and its length if it ends.
-    pub ray: &'a dyn Fn(usize) -> Option<(Ray, Option<f64>)>,
+    pub ray: &'a dyn Fn(&RayPacket, usize) -> Option<(Ray, Option<f64>)>,
     /// Those that are certainly blocked.
     pub surely: u64,
     /// Those that may be.
@@ -70,9 +70,9 @@ impl Search for Blocked<'_> {
     }
 
     #[inline(never)]
-    fn test_rays(&mut self, _: &RayPacket, found: &Candidate<'_>, rays: u64) {
+    fn test_rays(&mut self, packet: &RayPacket, found: &Candidate<'_>, rays: u64) {
         for index in set_bits(rays) {
-            let Some((ray, distance)) = (self.ray)(index) else { continue };
+            let Some((ray, distance)) = (self.ray)(packet, index) else { continue };
             match self.scene.blocks(found.primitive, &ray, distance) {
                 Blocks::Surely => self.surely |= 1 << index,
                 Blocks::Maybe => self.maybe |= 1 << index,

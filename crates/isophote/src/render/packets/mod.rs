@@ -6,6 +6,7 @@
 //! and the kernel shades them. What is too close to call is traced ray by ray. Since each decision is made per ray, it does not
 //! matter to a bit which rays are in a packet.
 
+mod ambient;
 mod blocked;
 mod body;
 mod candidates;
@@ -20,11 +21,11 @@ use self::blocked::Blocked;
 use self::candidates::Search;
 use self::nearest::{Nearest, Seen};
 use self::points::{FindPoints, Points};
-use self::precise::{Combine, PreciseRays};
+use self::precise::PreciseRays;
 pub use self::rays::RAYS;
 use self::rays::{OCTET, RayPacket};
-use self::shading::Shader;
-pub use self::shading::{Output, Subject};
+pub use self::shading::Output;
+use self::shading::{Origin, Shader, Subject};
 use crate::accelerate::Walk;
 use crate::camera::ScreenPosition;
 use crate::lanes::{Instructions, Lane, LaneJob};
@@ -32,6 +33,7 @@ use crate::map::{Pixel, Run};
 use crate::prepare::{Hit, PreparedScene};
 use crate::ray::Ray;
 use crate::render::band::{self, Band, Tile};
+use crate::render::cells::Cells;
 use crate::render::fan_out::{Pixels, Shaded};
 use crate::render::shading::block::{ShadedBlock, SurfaceBlock};
 use crate::render::shading::emitters::Lighting;
@@ -68,6 +70,22 @@ const MOST_LIGHTS: usize = 8192;
 /// A sharper highlight would show that normals in lanes are rounded more than once.
 const SHARPEST: f64 = 1000.0;
 
+/// Where a ray passes the screen.
+#[derive(Clone, Copy)]
+pub struct Place {
+    /// The pixel of the full image.
+    pub pixel: Pixel,
+    /// Fractions of its width and height, from its upper left corner.
+    pub within: [f64; 2],
+}
+
+impl Place {
+    /// The same as a screen position.
+    pub fn position(self) -> ScreenPosition {
+        ScreenPosition::InPixel { pixel: self.pixel, place: self.within }
+    }
+}
+
 /// What each ray of a packet hits.
 pub type Hits = [Option<Hit>; RAYS];
 
@@ -76,9 +94,6 @@ impl Packets<'_> {
     pub fn fill(&self, mut band: Band<'_>, observer: Option<&dyn Observer>) -> Result<Vec<Run>, RenderError> {
         let mut tracer = Tracer::new(*self);
         let mut seen = vec![band::NOTHING; band.size.pixels()];
-        if let Some(precise) = &mut tracer.precise {
-            precise.begin(&band);
-        }
         for tile in band.tiles(SIDE, SIDE) {
             tracer.trace_tile(tile);
             for (ray, hit) in tracer.hits.iter().enumerate() {
@@ -88,6 +103,44 @@ impl Packets<'_> {
                 }
             }
             tracer.shade(&mut InTile { tile, band: &mut band, indices: Vec::with_capacity(RAYS) })?;
+            band::advance(observer, u64::from(tile.width) * u64::from(tile.height))?;
+        }
+        Ok(band.runs(&seen))
+    }
+
+    /// Fills a band of a map with points that no rays have found; those that there are belong to this shape.
+    pub fn fill_cells(
+        &self,
+        mut band: Band<'_>,
+        shape: u32,
+        cells: &Cells<'_>,
+        observer: Option<&dyn Observer>,
+    ) -> Result<Vec<Run>, RenderError> {
+        let mut tracer = Tracer::new(*self);
+        let mut lights = Box::new([const { None }; RAYS]);
+        let mut seen = vec![band::NOTHING; band.size.pixels()];
+        for tile in band.tiles(SIDE, SIDE) {
+            tracer.hits.fill(None);
+            for ray in (0..RAYS).filter(|ray| is_in(tile, *ray)) {
+                let pixel = pixel_of(tile, ray);
+                tracer.hits[ray] = match cells {
+                    Cells::OnShapes(cell) => cell(pixel),
+                    Cells::Free(cell) => cell(pixel).map(|point| {
+                        lights[ray] = Some(self.scene.light_at(&point));
+                        Hit::on_no_shape(point)
+                    }),
+                };
+                if tracer.hits[ray].is_some() {
+                    seen[band.index(pixel)] = shape;
+                }
+            }
+            let origin = match cells {
+                Cells::OnShapes(_) => Origin::Given,
+                Cells::Free(_) => Origin::Free(&lights),
+            };
+            let Tracer { hits, packet, walk, shader, .. } = &mut tracer;
+            let mut output = InTile { tile, band: &mut band, indices: Vec::with_capacity(RAYS) };
+            shader.shade(&Subject { hits, origin }, packet, walk, &mut output)?;
             band::advance(observer, u64::from(tile.width) * u64::from(tile.height))?;
         }
         Ok(band.runs(&seen))
@@ -114,8 +167,8 @@ pub struct Tracer<'a> {
     packet: Box<RayPacket>,
     /// The same rays with 32 digits, if the camera has them.
     precise: Option<Box<PreciseRays<'a>>>,
-    /// The screen positions of the rays.
-    positions: Box<[ScreenPosition; RAYS]>,
+    /// Where the rays pass the screen.
+    places: Box<[Place; RAYS]>,
     nearest: Box<Nearest>,
     points: Box<Points>,
     walk: Walk,
@@ -130,7 +183,7 @@ impl<'a> Tracer<'a> {
             packets,
             packet: RayPacket::new(),
             precise: packets.scene.precise_frame().linear_rays().map(PreciseRays::new),
-            positions: Box::new([ScreenPosition::PixelCenter(Pixel { column: 0, row: 0 }); RAYS]),
+            places: Box::new([Place { pixel: Pixel { column: 0, row: 0 }, within: [0.5; 2] }; RAYS]),
             nearest: Nearest::new(),
             points: Points::new(),
             walk: Walk::default(),
@@ -144,29 +197,23 @@ impl<'a> Tracer<'a> {
         &self.hits
     }
 
-    /// Traces the rays through the pixels of a tile of the band that was begun.
+    /// Traces the rays through the pixels of a tile.
     fn trace_tile(&mut self, tile: Tile) {
-        for (ray, position) in self.positions.iter_mut().enumerate() {
-            *position = ScreenPosition::PixelCenter(pixel_of(tile, ray));
+        let within = self.packets.scene.frame().place;
+        for (ray, place) in self.places.iter_mut().enumerate() {
+            *place = Place { pixel: pixel_of(tile, ray), within };
         }
-        let is_within = |index| {
-            let (column, row) = place_of(index);
-            column < tile.width && row < tile.height
-        };
-        let in_use = bits((0..RAYS).map(is_within));
-        if let Some(precise) = &mut self.precise {
-            precise.aim_at_tile(tile);
-        }
-        self.trace_rays(in_use);
+        self.trace_rays(bits((0..RAYS).map(|ray| is_in(tile, ray))));
     }
 
-    /// Traces the rays through screen positions, up to as many as a packet has.
-    pub fn trace(&mut self, positions: &[ScreenPosition]) {
-        self.positions[..positions.len()].copy_from_slice(positions);
-        if let Some(precise) = &mut self.precise {
-            precise.aim(positions);
+    /// Traces rays through pixels, up to as many as a packet has.
+    pub fn trace(&mut self, rays: impl Iterator<Item = Place>) {
+        let mut count = 0;
+        for (place, of_ray) in rays.zip(&mut *self.places) {
+            *of_ray = place;
+            count += 1;
         }
-        self.trace_rays(bits((0..RAYS).map(|ray| ray < positions.len())));
+        self.trace_rays(bits((0..RAYS).map(|ray| ray < count)));
     }
 
     fn trace_rays(&mut self, in_use: u64) {
@@ -180,27 +227,28 @@ impl<'a> Tracer<'a> {
         let mut doubtful = self.find_points();
         doubtful |= self.clear_offsets();
         for ray in set_bits(doubtful) {
-            self.hits[ray] = self.packets.scene.trace(self.positions[ray]);
+            self.hits[ray] = self.packets.scene.trace(self.places[ray].position());
         }
     }
 
     /// Shades what the rays have hit.
     pub fn shade(&mut self, output: &mut impl Output) -> Result<(), RenderError> {
-        let Self { positions, hits, packet, walk, shader, .. } = self;
-        shader.shade(&Subject { hits, seen_at: Some(positions) }, packet, walk, output)
+        let Self { places, hits, packet, walk, shader, .. } = self;
+        shader.shade(&Subject { hits, origin: Origin::Seen(places) }, packet, walk, output)
     }
 
     /// Sets the rays.
     fn aim(&mut self, in_use: u64) {
-        let Self { packets: Packets { scene, instructions, .. }, packet, precise, positions, nearest, .. } = self;
+        let Self { packets: Packets { scene, instructions, .. }, packet, precise, places, nearest, .. } = self;
         packet.range = [0.0, f64::INFINITY];
         packet.in_use = in_use;
         if let Some(precise) = precise {
-            instructions.run_wide(Combine { rays: precise, packet });
+            precise.aim(places);
+            instructions.run_wide(precise::Aim { rays: precise, packet });
         } else {
             packet.origin = scene.frame().eye;
             for index in set_bits(packet.in_use) {
-                match scene.frame().ray(positions[index]) {
+                match scene.frame().ray(places[index].position()) {
                     Some(ray) => packet.set(index, ray.start_from(packet.origin), ray.direction),
                     None => packet.in_use &= !(1 << index),
                 }
@@ -212,14 +260,7 @@ impl<'a> Tracer<'a> {
     /// The points that the rays hit; returns the rays for which a double is not enough, as bits.
     fn find_points(&mut self) -> u64 {
         let Self {
-            packets: Packets { scene, instructions, .. },
-            packet,
-            precise,
-            nearest,
-            points,
-            hits,
-            positions,
-            ..
+            packets: Packets { scene, instructions, .. }, packet, precise, nearest, points, hits, places, ..
         } = self;
         let mut doubtful = 0;
         let mut left = 0_u64;
@@ -252,7 +293,7 @@ impl<'a> Tracer<'a> {
                     points.hit(index, primitive, rays)
                 } else {
                     let hit = scene.hit_on(primitive, &packet.ray(index));
-                    hit.or_else(|| scene.precise_hit_on(primitive, positions[index]))
+                    hit.or_else(|| scene.precise_hit_on(primitive, places[index].position()))
                 };
                 doubtful |= u64::from(hits[index].is_none()) << index;
             }
@@ -277,7 +318,7 @@ impl<'a> Tracer<'a> {
             own[index] = scene.number_of(hit.primitive);
             packet.set(index, (hit.point.anchor - packet.origin) + hit.point.offset, hit.shadow_ray_offset);
         }
-        let ray = |index: usize| {
+        let ray = |_: &RayPacket, index: usize| {
             let hit = hits[index].as_ref()?;
             let length = hit.shadow_ray_offset.length();
             let direction = hit.shadow_ray_offset * (1.0 / length);
@@ -338,6 +379,12 @@ impl<Q: Search> LaneJob for Find<'_, Q> {
 fn place_of(ray: usize) -> (u32, u32) {
     let (octet, lane) = (ray / OCTET, ray % OCTET);
     ((octet % 2 * 4 + lane % 4) as u32, (octet / 2 * 2 + lane / 4) as u32)
+}
+
+/// Whether there is a pixel for a ray in a tile, which may be cut.
+fn is_in(tile: Tile, ray: usize) -> bool {
+    let (column, row) = place_of(ray);
+    column < tile.width && row < tile.height
 }
 
 fn pixel_of(tile: Tile, ray: usize) -> Pixel {

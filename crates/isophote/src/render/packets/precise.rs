@@ -1,28 +1,21 @@
 //! The rays of a packet with 32 digits, and numbers with 32 digits in lanes.
 
-use super::place_of;
+use super::Place;
 use super::rays::{RAYS, RayPacket, Vectors};
-use crate::camera::{LinearRays, ScreenPosition};
+use crate::camera::LinearRays;
 use crate::double_double::DoubleDouble;
 use crate::lanes::{Lane, LaneJob};
-use crate::map::Pixel;
-use crate::render::band::{Band, Tile};
-use crate::render::vectors::{get, load, put, splat, store};
+use crate::render::vectors::{get, load, splat, store};
 use crate::vector::Vector;
 
-/// The rays of a packet with 32 digits: a ray's direction, or its start if all rays are parallel, is the sum of what its
-/// column and its row contribute.
+/// The rays of a packet with 32 digits.
 pub struct PreciseRays<'a> {
     rays: LinearRays<'a>,
-    /// The upper and the lower halves of what the columns and the rows of a band contribute, and where these begin.
-    columns: Vec<[Vector; 2]>,
-    rows: Vec<[Vector; 2]>,
-    first: Pixel,
-    /// The same for each ray.
-    of_columns: [Vectors; 2],
-    of_rows: [Vectors; 2],
-    /// The upper and the lower halves of the sums.
-    sums: [Vectors; 2],
+    /// Their columns and rows, counted from the centre of the first pixel.
+    columns: [f64; RAYS],
+    rows: [f64; RAYS],
+    /// The upper and the lower halves of their directions, or starts if they are parallel.
+    halves: [Vectors; 2],
     /// Unit vectors along the rays.
     directions: Vectors,
 }
@@ -40,17 +33,8 @@ pub struct Way<V> {
 impl<'a> PreciseRays<'a> {
     /// No rays yet of a camera.
     pub fn new(rays: LinearRays<'a>) -> Box<Self> {
-        let zeros = [[0.0; RAYS]; 3];
-        Box::new(Self {
-            rays,
-            columns: Vec::new(),
-            rows: Vec::new(),
-            first: Pixel { column: 0, row: 0 },
-            of_columns: [zeros; 2],
-            of_rows: [zeros; 2],
-            sums: [zeros; 2],
-            directions: zeros,
-        })
+        let (numbers, zeros) = ([0.0; RAYS], [[0.0; RAYS]; 3]);
+        Box::new(Self { rays, columns: numbers, rows: numbers, halves: [zeros; 2], directions: zeros })
     }
 
     /// The unit vector along a ray.
@@ -58,71 +42,37 @@ impl<'a> PreciseRays<'a> {
         get(&self.directions, ray)
     }
 
-    /// Prepares the rays through the pixels of a band.
-    pub fn begin(&mut self, band: &Band<'_>) {
-        let Self { rays, .. } = self;
-        let Pixel { column, row } = band.first;
-        self.first = band.first;
-        self.columns.extend((column..column + band.size.width).map(|column| halves(rays.of_column(column))));
-        self.rows.extend((row..row + band.size.height).map(|row| halves(rays.of_row(row))));
-    }
-
-    /// Chooses the rays of a tile of the band; those beyond its last column or row are copies.
-    pub fn aim_at_tile(&mut self, tile: Tile) {
-        let (column, row) = (tile.first.column - self.first.column, tile.first.row - self.first.row);
-        for ray in 0..RAYS {
-            let (across, down) = place_of(ray);
-            let column = self.columns[(column + across.min(tile.width - 1)) as usize];
-            let row = self.rows[(row + down.min(tile.height - 1)) as usize];
-            self.set(ray, column, row);
-        }
-    }
-
-    /// Chooses the rays through screen positions; those after the last one are copies of it.
-    pub fn aim(&mut self, positions: &[ScreenPosition]) {
-        let Some(last) = positions.last() else { return };
-        for ray in 0..RAYS {
-            let [column, row] = self.rays.of(*positions.get(ray).unwrap_or(last)).map(halves);
-            self.set(ray, column, row);
-        }
-    }
-
-    fn set(&mut self, ray: usize, column: [Vector; 2], row: [Vector; 2]) {
-        for half in 0..2 {
-            put(column[half], ray, &mut self.of_columns[half]);
-            put(row[half], ray, &mut self.of_rows[half]);
+    /// Chooses the rays.
+    pub fn aim(&mut self, places: &[Place; RAYS]) {
+        for (ray, Place { pixel, within: [across, down] }) in places.iter().enumerate() {
+            self.columns[ray] = f64::from(pixel.column) + (across - 0.5);
+            self.rows[ray] = f64::from(pixel.row) + (down - 0.5);
         }
     }
 
     /// Some of the rays.
     #[inline(always)]
     pub fn way<V: Lane<Element = f64>>(&self, token: V::Token, at: usize) -> Way<V> {
-        let sum = pairs::<V>(token, &self.sums, at);
+        let differing = pairs::<V>(token, &self.halves, at);
         let common = exact::<V>(token, self.rays.common);
         let direction = load::<V, _>(token, at, &self.directions);
         if self.rays.is_parallel {
-            Way { start: sum, along: common, direction }
+            Way { start: differing, along: common, direction }
         } else {
-            Way { start: common, along: sum, direction }
+            Way { start: common, along: differing, direction }
         }
     }
 }
 
-/// The upper and the lower half of a vector.
-fn halves(vector: Vector<DoubleDouble>) -> [Vector; 2] {
-    let high = vector.map(DoubleDouble::rounded);
-    [high, (vector - Vector::from_f64(high)).map(DoubleDouble::rounded)]
-}
-
-/// Adds what columns and rows contribute, and sets the rays of a packet.
-pub struct Combine<'c, 'a> {
+/// Computes the rays, and sets those of a packet.
+pub struct Aim<'c, 'a> {
     /// The rays.
     pub rays: &'c mut PreciseRays<'a>,
     /// The packet.
     pub packet: &'c mut RayPacket,
 }
 
-impl LaneJob for Combine<'_, '_> {
+impl LaneJob for Aim<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -131,33 +81,31 @@ impl LaneJob for Combine<'_, '_> {
         S: Lane<Element = f32>,
         D: Lane<Element = f64, Token = S::Token>,
     {
-        self.combine::<D::Narrow>(token);
+        self.aim::<D::Narrow>(token);
     }
 }
 
-impl Combine<'_, '_> {
+impl Aim<'_, '_> {
     #[inline(always)]
-    fn combine<V: Lane<Element = f64>>(self, token: V::Token) {
-        let PreciseRays { rays: LinearRays { is_parallel, common, .. }, of_columns, of_rows, sums, directions, .. } =
-            self.rays;
-        let parallel = nearest(exact::<V>(token, *common));
+    fn aim<V: Lane<Element = f64>>(self, token: V::Token) {
+        let PreciseRays { rays, columns, rows, halves, directions } = self.rays;
+        let common = rays.common.map(DoubleDouble::rounded);
+        let parallel = splat::<V>(token, common);
         let packet = self.packet;
-        packet.origin = common.map(DoubleDouble::rounded);
-        if *is_parallel {
+        packet.origin = common;
+        if rays.is_parallel {
             // The first start.
-            let first = |halves: &[Vectors; 2]| get(&halves[0], 0);
-            packet.origin = first(of_columns) + first(of_rows);
+            packet.origin = rays.at(columns[0], rows[0]).map(DoubleDouble::rounded);
         }
         let origin = exactly(splat::<V>(token, packet.origin));
         let zero = V::splat(token, 0.0);
         for at in (0..RAYS).step_by(V::COUNT) {
-            let sum = pairs::<V>(token, of_columns, at) + pairs(token, of_rows, at);
-            let high = nearest(sum);
-            store(high, at, &mut sums[0]);
-            let low = sum - exactly(high);
-            store(nearest(low), at, &mut sums[1]);
-            let (start, direction) = if *is_parallel {
-                (nearest(sum - origin), parallel)
+            let differing = rays.at(V::load(token, &columns[at..]), V::load(token, &rows[at..]));
+            let high = nearest(differing);
+            store(high, at, &mut halves[0]);
+            store(nearest(differing - exactly(high)), at, &mut halves[1]);
+            let (start, direction) = if rays.is_parallel {
+                (nearest(differing - origin), parallel)
             } else {
                 (Vector::new(zero, zero, zero), high.normalized())
             };

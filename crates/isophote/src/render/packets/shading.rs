@@ -1,27 +1,121 @@
 //! The light that reaches the points of a packet, and their brightness.
 
+use super::ambient::AmbientLight;
 use super::rays::{RAYS, RayPacket, Vectors};
-use super::{Blocked, Find, Hits, Packets, bits, set_bits};
+use super::{Blocked, Find, Hits, Packets, Place, bits, set_bits};
 use crate::accelerate::Walk;
-use crate::camera::ScreenPosition;
 use crate::lanes::{Lane, LaneJob, Precision};
 use crate::light::Emitter;
-use crate::prepare::{AmbientIrradiance, AmbientShare, PreparedScene};
+use crate::prepare::{AmbientIrradiance, AmbientShare, Hemisphere, Hit, LightAtPoint, PreparedScene};
 use crate::ray::Ray;
+use crate::reflectance::BrightnessFormula;
 use crate::render::RenderError;
 use crate::render::shading::block::{ShadedBlock, SurfaceBlock};
 use crate::render::shading::emitters::Chosen;
 use crate::render::shading::kernel::{PerPoint, ShadeBlock};
 use crate::render::shading::lobe::Power;
 use crate::render::vectors::{get, load, put, splat, store};
+use crate::shape::Primitive;
 use crate::vector::Vector;
 
 /// What is to be shaded.
 pub struct Subject<'h> {
-    /// What each ray has hit.
+    /// The point of each ray.
     pub hits: &'h Hits,
-    /// The screen positions of the rays; points that no ray has found are taken as exact.
-    pub seen_at: Option<&'h [ScreenPosition; RAYS]>,
+    /// Where they come from.
+    pub origin: Origin<'h>,
+}
+
+/// Where points come from.
+#[derive(Clone, Copy)]
+pub enum Origin<'h> {
+    /// Rays have hit them that pass the screen here.
+    Seen(&'h [Place; RAYS]),
+    /// Points of shapes are taken as exact.
+    Given,
+    /// They lie on no shape but those that this knows of: only the light that they receive is computed.
+    Free(&'h [Option<LightAtPoint>; RAYS]),
+}
+
+impl Subject<'_> {
+    /// v of an emitter at a point, computed for itself.
+    fn visibility(&self, scene: &PreparedScene, ray: usize, emitter: usize) -> f64 {
+        let Some(hit) = &self.hits[ray] else { return 0.0 };
+        match self.origin {
+            Origin::Seen(places) => scene.visibility(hit, Some(places[ray].position()))(emitter),
+            Origin::Given => scene.visibility(hit, None)(emitter),
+            Origin::Free(lights) => {
+                lights[ray].as_ref().map_or(0.0, |light| scene.visibility_at(light, &hit.point, emitter))
+            }
+        }
+    }
+
+    /// The ambient light at a point, computed for itself.
+    pub fn ambient_share(&self, scene: &PreparedScene, ray: usize) -> AmbientShare {
+        let Some(hit) = &self.hits[ray] else { return AmbientShare::ALL };
+        match self.origin {
+            Origin::Seen(_) | Origin::Given => scene.ambient_share(hit),
+            Origin::Free(lights) => {
+                let share = |light| scene.ambient_share_at(light, &hit.point);
+                lights[ray].as_ref().map_or(AmbientShare::ALL, share)
+            }
+        }
+    }
+
+    /// Whether the light of a point is blocked by what is in its way alone.
+    pub fn is_plain(&self, ray: usize) -> bool {
+        match self.origin {
+            Origin::Seen(_) | Origin::Given => self.hits[ray].as_ref().is_some_and(|hit| !hit.from_inside),
+            Origin::Free(lights) => lights[ray].as_ref().is_some_and(LightAtPoint::is_plain),
+        }
+    }
+
+    /// Whether a ray from a point sees the environment.
+    pub fn sees_environment(&self, scene: &PreparedScene, ray: usize, to_environment: &Ray) -> bool {
+        match self.own(ray) {
+            Some(own) => scene.sees_environment(&[own], to_environment),
+            None => scene.sees_environment(&[], to_environment),
+        }
+    }
+
+    /// The primitive that a point lies on.
+    fn own(&self, ray: usize) -> Option<Primitive> {
+        match self.origin {
+            Origin::Seen(_) | Origin::Given => self.hits[ray].as_ref().map(|hit| hit.primitive),
+            Origin::Free(lights) => lights[ray].as_ref().and_then(LightAtPoint::primitive),
+        }
+    }
+
+    /// Whether a light casts shadows on a point.
+    fn gets_shadows(&self, scene: &PreparedScene, ray: usize, light: usize) -> bool {
+        let scene = scene.scene();
+        match (self.origin, &self.hits[ray]) {
+            (Origin::Free(_), _) => scene.shadows() && scene.lights()[light].casts_shadows,
+            (_, Some(hit)) => scene.casts_shadows(hit.primitive.shape, light),
+            (_, None) => false,
+        }
+    }
+
+    /// The directions in which the ambient light of the points may be blocked, if it may.
+    pub fn obstructed_hemisphere<'s>(&self, scene: &'s PreparedScene) -> Option<&'s Hemisphere> {
+        scene.obstructed_hemisphere(!matches!(self.origin, Origin::Free(_)))
+    }
+
+    /// Tells the materials of points apart.
+    fn formula_index(&self, scene: &PreparedScene, hit: &Hit) -> usize {
+        match self.origin {
+            Origin::Seen(_) | Origin::Given => scene.formula_index(hit.primitive),
+            Origin::Free(_) => 0,
+        }
+    }
+
+    /// The convention applied to the material of a primitive, if points have one.
+    fn formula<'s>(&self, scene: &'s PreparedScene, primitive: Primitive) -> &'s BrightnessFormula {
+        match self.origin {
+            Origin::Seen(_) | Origin::Given => scene.formula(primitive),
+            Origin::Free(_) => scene.formula_without_material(),
+        }
+    }
 }
 
 /// Takes what has been shaded.
@@ -38,18 +132,18 @@ pub trait Output {
 
 /// Shades the points of packets, one packet after another.
 pub struct Shader<'a> {
-    packets: Packets<'a>,
+    pub(super) packets: Packets<'a>,
     layers: Vec<&'a PreparedScene>,
     /// The emitters that light anything, in the order in which they are summed: their positions in that order, and their
     /// indices among the scene's.
     order: Vec<(usize, usize)>,
     /// The points by ray: where they are, their normals, and the offsets of their shadow rays.
-    anchor: Vectors,
-    offset: Vectors,
-    normal: Vectors,
-    shadow_ray_offset: Vectors,
+    pub(super) anchor: Vectors,
+    pub(super) offset: Vectors,
+    pub(super) normal: Vectors,
+    pub(super) shadow_ray_offset: Vectors,
     /// The number of each ray's primitive.
-    own: [u32; RAYS],
+    pub(super) own: [u32; RAYS],
     /// The first ray that has a point.
     first: usize,
     /// The emitters that are above the horizon of any point.
@@ -60,7 +154,8 @@ pub struct Shader<'a> {
     points: Box<SurfaceBlock<f64>>,
     /// v of these points.
     visible_there: Vec<f64>,
-    ambient: Vec<AmbientShare>,
+    /// The ambient light by ray.
+    pub(super) ambient: AmbientLight,
     emitters: Chosen<f64>,
     shaded: Box<ShadedBlock<f64>>,
 }
@@ -84,7 +179,7 @@ impl<'a> Shader<'a> {
             visible: Vec::new(),
             points: SurfaceBlock::anchored(),
             visible_there: Vec::new(),
-            ambient: Vec::with_capacity(RAYS),
+            ambient: AmbientLight::new(),
             emitters: Chosen::default(),
             shaded: ShadedBlock::new(packets.asked_for.len()),
         }
@@ -104,27 +199,29 @@ impl<'a> Shader<'a> {
             return Ok(());
         }
         self.first = left.trailing_zeros() as usize;
-        self.spread_out(hits);
+        self.spread_out(subject);
         self.see_lights(subject, left, packet, walk);
+        self.see_environment(subject, left, packet, walk);
         // The points of one material after those of another.
         let scene = self.packets.scene;
         while left != 0 {
             let Some(first) = &hits[left.trailing_zeros() as usize] else { break };
-            let formula = scene.formula_index(first.primitive);
+            let formula = subject.formula_index(scene, first);
             let has_formula =
-                |ray: &usize| hits[*ray].as_ref().is_some_and(|hit| scene.formula_index(hit.primitive) == formula);
+                |ray: &usize| hits[*ray].as_ref().is_some_and(|hit| subject.formula_index(scene, hit) == formula);
             let rays: Vec<usize> = set_bits(left).filter(has_formula).collect();
             for ray in &rays {
                 left &= !(1 << ray);
             }
-            self.shade_some(hits, &rays, output)?;
+            self.shade_some(subject, &rays, output)?;
         }
         Ok(())
     }
 
     /// Writes the points by axis.
-    fn spread_out(&mut self, hits: &Hits) {
-        for (ray, hit) in hits.iter().enumerate() {
+    fn spread_out(&mut self, subject: &Subject<'_>) {
+        let scene = self.packets.scene;
+        for (ray, hit) in subject.hits.iter().enumerate() {
             let Some(hit) = hit else {
                 // It faces no light.
                 put(Vector::default(), ray, &mut self.normal);
@@ -134,15 +231,20 @@ impl<'a> Shader<'a> {
             put(hit.point.offset, ray, &mut self.offset);
             put(hit.point.normal, ray, &mut self.normal);
             put(hit.shadow_ray_offset, ray, &mut self.shadow_ray_offset);
-            self.own[ray] = self.packets.scene.number_of(hit.primitive);
+            self.own[ray] = subject.own(ray).map_or(u32::MAX, |own| scene.number_of(own));
         }
     }
 
     /// Finds which lights the points see.
     fn see_lights(&mut self, subject: &Subject<'_>, present: u64, packet: &mut RayPacket, walk: &mut Walk) {
-        let Subject { hits, seen_at } = subject;
+        let hits = subject.hits;
         let Packets { scene, instructions, .. } = self.packets;
         let from_inside = bits(hits.iter().map(|hit| hit.as_ref().is_some_and(|hit| hit.from_inside)));
+        // Those whose lights are seen one by one.
+        let special = match subject.origin {
+            Origin::Free(_) => bits((0..RAYS).map(|ray| hits[ray].is_some() && !subject.is_plain(ray))),
+            Origin::Seen(_) | Origin::Given => 0,
+        };
         self.chosen.clear();
         self.visible.clear();
         for at in 0..self.order.len() {
@@ -153,22 +255,21 @@ impl<'a> Shader<'a> {
             if lit == 0 {
                 continue;
             }
-            let casts_shadow = |ray: &usize| {
-                hits[*ray].as_ref().is_some_and(|hit| scene.scene().casts_shadows(hit.primitive.shape, emitter.light))
-            };
             let mut dark = 0;
             for ray in set_bits(lit & from_inside) {
                 let own = hits[ray].map(|hit| hit.primitive);
                 dark |= u64::from(own.is_some_and(|own| !scene.encloses(own, emitter))) << ray;
             }
             let in_use = if scene.scene().shadows() {
-                set_bits(lit & !dark).filter(casts_shadow).fold(0, |bits, ray| bits | 1 << ray)
+                let gets_shadows = |ray: &usize| subject.gets_shadows(scene, *ray, emitter.light);
+                set_bits(lit & !dark).filter(gets_shadows).fold(0_u64, |bits, ray| bits | 1 << ray)
             } else {
                 0
             };
-            let mut maybe = 0;
+            let mut maybe = in_use & special;
+            let in_use = in_use & !special;
             if in_use != 0 {
-                let ray = |ray: usize| -> Option<(Ray, Option<f64>)> {
+                let ray = |_: &RayPacket, ray: usize| -> Option<(Ray, Option<f64>)> {
                     let hit = hits[ray].as_ref()?;
                     scene.shadow_ray(&hit.point, hit.shadow_ray_offset, index)
                 };
@@ -177,31 +278,32 @@ impl<'a> Shader<'a> {
                 instructions.run_wide(Find { scene, packet, walk, search: &mut blocked });
                 let surely = blocked.surely & !close;
                 dark |= surely;
-                maybe = (blocked.maybe | close & in_use) & !surely;
+                maybe |= (blocked.maybe | close & in_use) & !surely;
             }
             let start = self.visible.len();
             self.visible.extend((0..RAYS).map(|ray| if dark >> ray & 1 == 1 { 0.0 } else { 1.0 }));
             for ray in set_bits(maybe) {
-                let Some(hit) = &hits[ray] else { continue };
-                let position = seen_at.map(|positions| positions[ray]);
-                self.visible[start + ray] = scene.visibility(hit, position)(index);
+                self.visible[start + ray] = subject.visibility(scene, ray, index);
             }
             self.chosen.push((place, index));
         }
     }
 
     /// Shades some of the points, all of one material.
-    fn shade_some(&mut self, hits: &Hits, rays: &[usize], output: &mut impl Output) -> Result<(), RenderError> {
-        let Packets { scene, lighting, instructions, .. } = self.packets;
+    fn shade_some(
+        &mut self,
+        subject: &Subject<'_>,
+        rays: &[usize],
+        output: &mut impl Output,
+    ) -> Result<(), RenderError> {
+        let Packets { lighting, instructions, .. } = self.packets;
         let Self { layers, chosen, visible, points, visible_there, ambient, emitters, shaded, .. } = self;
-        ambient.clear();
         points.count = rays.len();
         let mut primitive = None;
         for (at, ray) in rays.iter().enumerate() {
-            let Some(hit) = &hits[*ray] else { continue };
+            let Some(hit) = &subject.hits[*ray] else { continue };
             primitive = Some(hit.primitive);
             points.set(at, hit);
-            ambient.push(scene.ambient_share(hit));
         }
         let (Some(primitive), Some(last)) = (primitive, rays.last()) else { return Ok(()) };
         points.repeat_last();
@@ -211,12 +313,13 @@ impl<'a> Shader<'a> {
             visible_there.extend(rays.iter().chain(std::iter::repeat(last)).take(stride).map(|ray| visible[*ray]));
         }
         for (number, layer) in layers.iter().enumerate() {
-            for (at, share) in ambient.iter().enumerate() {
+            for (at, ray) in rays.iter().enumerate() {
+                let share = ambient.shares[*ray];
                 let AmbientIrradiance { irradiance, standard_error } = share.of(layer.scene().ambient());
                 (points.ambient[at], shaded.ambient_error[at]) = (irradiance, standard_error);
             }
             emitters.choose(layer, lighting, chosen, |emitter| emitter.seen_from(Vector::default()));
-            let formula = layer.formula(primitive);
+            let formula = subject.formula(layer, primitive);
             instructions.run(ShadeBlock {
                 points,
                 formula,

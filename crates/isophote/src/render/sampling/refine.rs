@@ -4,12 +4,12 @@ use super::FIRST_SAMPLES;
 use super::pattern::{self, Patterns};
 use super::tracer::{SAMPLES, SampleTracer};
 use super::uncertain::Uncertain;
-use crate::camera::ScreenPosition;
 use crate::hammersley::points;
 use crate::map::{Channel, Map, Mask, Pixel, Quantity, Run, Scalars, Values};
 use crate::prepare::Hit;
 use crate::render::RenderError;
 use crate::render::band::ScalarChannel;
+use crate::render::packets::Place;
 use crate::render::shading::block::ShadedBlock;
 use crate::scene::{Filter, Sampling};
 
@@ -160,10 +160,9 @@ impl Refiner<'_> {
         for places in wanted.patterns.of(samples).chunks(SAMPLES) {
             let in_pixel = |open: &Open| {
                 let pixel = open.pixel;
-                places.iter().map(move |place| ScreenPosition::InPixel { pixel, place: *place })
+                places.iter().map(move |within| Place { pixel, within: *within })
             };
-            let positions: Vec<ScreenPosition> = pixels.iter().flat_map(in_pixel).collect();
-            self.tracer.trace(&positions)?;
+            self.tracer.trace(pixels.iter().flat_map(in_pixel))?;
             for (number, means) in means.iter_mut().enumerate() {
                 means.add(&self.tracer, number * places.len(), places, wanted);
             }

@@ -1,11 +1,10 @@
 //! Rays through samples of pixels: traced and shaded in packets, or one by one where packets are not supported.
 
-use crate::camera::ScreenPosition;
 use crate::lanes::Instructions;
 use crate::prepare::{Hit, PreparedScene};
 use crate::render::RenderError;
 use crate::render::hits::HitBlock;
-use crate::render::packets::{self, Output, Packets, RAYS, Tracer};
+use crate::render::packets::{self, Output, Packets, Place, RAYS, Tracer};
 use crate::render::shading::block::{ShadedBlock, SurfaceBlock};
 use crate::render::shading::emitters::Lighting;
 
@@ -32,8 +31,7 @@ impl<'a> SampleTracer<'a> {
         instructions: Option<Instructions>,
     ) -> Self {
         if packets::ARE_COMPILED
-            && let Some(instructions) = instructions
-            && packets::supports(scene, instructions)
+            && let Some(instructions) = instructions.filter(|of| packets::supports(scene, *of))
         {
             let tracer = Box::new(Tracer::new(Packets { scene, lighting, asked_for, instructions }));
             let shaded = scene.layers().iter().map(|_| ShadedBlock::new(asked_for.len())).collect();
@@ -43,7 +41,7 @@ impl<'a> SampleTracer<'a> {
     }
 
     /// Traces and shades samples, up to [`SAMPLES`] of them.
-    pub fn trace(&mut self, samples: &[ScreenPosition]) -> Result<(), RenderError> {
+    pub fn trace(&mut self, samples: impl Iterator<Item = Place>) -> Result<(), RenderError> {
         match self {
             Self::InPackets { tracer, shaded } => {
                 tracer.trace(samples);
@@ -54,10 +52,11 @@ impl<'a> SampleTracer<'a> {
                 places.clear();
                 block.clear();
                 for sample in samples {
-                    let hit = block.trace(*sample);
+                    let position = sample.position();
+                    let hit = block.trace(position);
                     places.push(block.len());
                     if let Some(hit) = &hit {
-                        block.push(0, hit, Some(*sample));
+                        block.push(0, hit, Some(position));
                     }
                     hits.push(hit);
                 }
