@@ -7,7 +7,7 @@ use crate::message;
 use crate::prepare::{Hit, PreparedScene};
 use crate::scene::Scene;
 use crate::shade::{LightTerm, Shading};
-use crate::shape::{Located, Miss, Primitive, surface_at};
+use crate::shape::{Located, Miss, Primitive};
 use crate::text::Message;
 use crate::units::LengthUnit;
 use crate::vector::Vector;
@@ -195,14 +195,13 @@ impl PreparedScene {
     }
 
     fn probe_numbers(&self, place: &ProbePosition) -> Result<ProbeReading, ProbeError> {
-        let geometries = || self.scene().shapes().iter().map(|shape| &shape.geometry);
         match *place {
-            ProbePosition::Point(point) => match surface_at(geometries(), point) {
+            ProbePosition::Point(point) => match self.surface_at(point) {
                 Ok(located) => Ok(self.reading_at(&located)),
                 Err(Some(miss)) => Err(ProbeError::OffSurface(miss)),
                 Err(None) => Err(ProbeError::NoShapes),
             },
-            ProbePosition::NearestTo(point) => match surface_at(geometries(), point) {
+            ProbePosition::NearestTo(point) => match self.surface_at(point) {
                 Ok(located) => Ok(self.reading_at(&located)),
                 Err(Some(miss)) => {
                     let Miss { shape, nearest, .. } = *miss;

@@ -3,6 +3,7 @@
 use std::cell::OnceCell;
 
 use super::obstruction::{AmbientShare, sampled};
+use super::places::SurfaceAt;
 use super::{Blocking, PreparedScene};
 use crate::double_double::DoubleDouble;
 use crate::ray::Ray;
@@ -95,15 +96,11 @@ impl PreparedScene {
         if !self.scene.shadows && !is_obstructed {
             return touched;
         }
-        for (shape, prepared) in self.shapes.iter().enumerate() {
-            let geometry = &prepared.geometry;
-            if geometry.signed_distance(point).abs() <= geometry.surface_tolerance(point) {
-                let nearest = geometry.nearest(point);
-                let primitive = Primitive { shape, part: nearest.part };
-                touched.own.push(primitive);
-                if geometry.is_closed() && self.scene.shapes[shape].casts_shadow {
-                    touched.walls.push((primitive, nearest));
-                }
+        for SurfaceAt { shape, nearest, .. } in self.surfaces_at(point) {
+            let primitive = Primitive { shape, part: nearest.part };
+            touched.own.push(primitive);
+            if self.shapes[shape].geometry.is_closed() && self.scene.shapes[shape].casts_shadow {
+                touched.walls.push((primitive, nearest));
             }
         }
         touched

@@ -5,6 +5,7 @@ mod formulas;
 mod free_point;
 mod hit;
 mod obstruction;
+mod places;
 mod shading;
 mod tracing;
 mod views;

@@ -263,6 +263,25 @@ impl Geometry {
         }
     }
 
+    /// The signed distance of a point from a part alone.
+    pub(crate) fn part_signed_distance(&self, part: u32, point: Vector) -> f64 {
+        match self {
+            Self::Mesh(mesh) => mesh.triangle(part).distance(point),
+            Self::Spheres(cloud) => cloud.spheres[part as usize].signed_distance(point),
+            _ => self.signed_distance(point),
+        }
+    }
+
+    /// The point of a part that is nearest to a point.
+    pub(crate) fn part_nearest(&self, part: u32, point: Vector) -> NearestPoint {
+        let nearest = match self {
+            Self::Mesh(mesh) => mesh.triangle(part).nearest(point),
+            Self::Spheres(cloud) => cloud.spheres[part as usize].nearest(point),
+            _ => return self.nearest(point),
+        };
+        NearestPoint { part, ..nearest }
+    }
+
     /// The surface point nearest to a point.
     #[must_use]
     pub fn nearest(&self, point: Vector) -> NearestPoint {
@@ -344,6 +363,14 @@ impl Geometry {
     #[must_use]
     pub fn surface_tolerance(&self, point: Vector) -> f64 {
         1e-9 * self.size_near(point)
+    }
+
+    /// The same for a point whose nearest part is known.
+    pub(crate) fn part_tolerance(&self, part: u32, point: Vector) -> f64 {
+        match self {
+            Self::Spheres(cloud) => 1e-9 * cloud.spheres[part as usize].radius,
+            _ => self.surface_tolerance(point),
+        }
     }
 }
 

@@ -1,12 +1,12 @@
-//! The ambient light that arrives at the points of a packet: all of them look in one direction of their hemispheres after
-//! another, and these rays, which are nearly parallel, are a packet themselves.
+//! The ambient light that arrives at the points of a packet. Points of a shape that face the same way look in one direction of
+//! their hemispheres after another: these rays, which are nearly parallel, are a packet themselves.
 
 use super::rays::{RAYS, RayPacket, Vectors};
 use super::shading::{Shader, Subject};
-use super::{Blocked, Find, set_bits};
+use super::{Blocked, Find, Packets, set_bits};
 use crate::accelerate::Walk;
 use crate::lanes::{Lane, LaneJob};
-use crate::prepare::{AmbientShare, HemisphereDirection};
+use crate::prepare::{AmbientShare, Hemisphere, HemisphereDirection};
 use crate::ray::Ray;
 use crate::render::vectors::{get, load, put, splat, store};
 
@@ -17,6 +17,12 @@ pub struct AmbientLight {
     /// Two unit vectors across each normal.
     across: [Vectors; 2],
 }
+
+/// Fewer points than this look around one by one.
+const WORTH_A_PACKET: u32 = 4;
+
+/// The cosine of the angle between axes that are nearly the same.
+const ALIKE: f64 = 0.98;
 
 impl AmbientLight {
     /// Nothing known yet.
@@ -41,28 +47,63 @@ impl Shader<'_> {
             put(first, ray, &mut self.ambient.across[0]);
             put(second, ray, &mut self.ambient.across[1]);
         }
-        let first = sampled.trailing_zeros() as usize;
-        let start = |ray: usize| get(&self.offset, ray) + get(&self.shadow_ray_offset, ray);
-        let to_environment = |packet: &RayPacket, ray: usize| Ray {
-            anchor: get(&self.anchor, ray),
-            offset: start(ray),
+        let mut left = sampled;
+        while left != 0 {
+            let alike = self.facing_alike(subject, left);
+            left &= !alike;
+            if alike.count_ones() < WORTH_A_PACKET {
+                for ray in set_bits(alike) {
+                    self.ambient.shares[ray] = subject.ambient_share(scene, ray);
+                }
+            } else {
+                self.sample(subject, hemisphere, alike, packet, walk);
+            }
+        }
+    }
+
+    /// Of some points, the first one and those of the same shape whose hemispheres have nearly the same directions.
+    fn facing_alike(&self, subject: &Subject<'_>, points: u64) -> u64 {
+        let first = points.trailing_zeros() as usize;
+        let axes = |ray: usize| [get(&self.normal, ray), get(&self.ambient.across[0], ray)];
+        let ([normal, across], shape) = (axes(first), subject.shape(first));
+        let is_alike = |ray: &usize| {
+            let [other_normal, other_across] = axes(*ray);
+            let alike = normal.dot(other_normal).min(across.dot(other_across));
+            alike > ALIKE && subject.shape(*ray) == shape
+        };
+        set_bits(points).filter(is_alike).fold(0, |bits, ray| bits | 1 << ray)
+    }
+
+    /// Samples the ambient light at points that are alike.
+    fn sample(
+        &mut self,
+        subject: &Subject<'_>,
+        hemisphere: &Hemisphere,
+        points: u64,
+        packet: &mut RayPacket,
+        walk: &mut Walk,
+    ) {
+        let Packets { scene, instructions, .. } = self.packets;
+        let first = points.trailing_zeros() as usize;
+        let to_environment = |shader: &Self, packet: &RayPacket, ray: usize| Ray {
+            anchor: get(&shader.anchor, ray),
+            offset: get(&shader.offset, ray) + get(&shader.shadow_ray_offset, ray),
             direction: packet.direction_of(ray),
         };
         let mut free = [0_usize; RAYS];
         for direction in hemisphere.directions() {
-            (packet.in_use, packet.range, packet.origin) = (sampled, [0.0, f64::INFINITY], get(&self.anchor, first));
-            let instructions = self.packets.instructions;
+            (packet.in_use, packet.range, packet.origin) = (points, [0.0, f64::INFINITY], get(&self.anchor, first));
             instructions.run_wide(Look { shader: self, direction, packet });
-            let ray = |packet: &RayPacket, ray: usize| Some((to_environment(packet, ray), None));
+            let ray = |packet: &RayPacket, ray: usize| Some((to_environment(self, packet, ray), None));
             let mut blocked = Blocked { scene, own: &self.own, ray: &ray, surely: 0, maybe: 0 };
             instructions.run_wide(Find { scene, packet, walk, search: &mut blocked });
             let Blocked { surely, maybe, .. } = blocked;
-            for ray in set_bits(sampled & !surely) {
-                let is_clear = |ray| subject.sees_environment(scene, ray, &to_environment(packet, ray));
+            for ray in set_bits(points & !surely) {
+                let is_clear = |ray| subject.sees_environment(scene, ray, &to_environment(self, packet, ray));
                 free[ray] += usize::from(maybe >> ray & 1 == 0 || is_clear(ray));
             }
         }
-        for ray in set_bits(sampled) {
+        for ray in set_bits(points) {
             self.ambient.shares[ray] = hemisphere.share(free[ray]);
         }
     }

@@ -78,6 +78,11 @@ impl Subject<'_> {
         }
     }
 
+    /// The shape that a point belongs to.
+    pub fn shape(&self, ray: usize) -> Option<usize> {
+        self.hits[ray].as_ref().map(|hit| hit.primitive.shape)
+    }
+
     /// The primitive that a point lies on.
     fn own(&self, ray: usize) -> Option<Primitive> {
         match self.origin {

@@ -41,7 +41,7 @@ impl Mesh {
         (corners, normals)
     }
 
-    fn triangle(&self, part: u32) -> Triangle {
+    pub(super) fn triangle(&self, part: u32) -> Triangle {
         let (corners, part) = (self.corners(part), part as usize);
         let vector = |list: &[[f64; 3]], index: u32| Vector::from(list[index as usize]);
         let normals = self.normals.as_ref();
