@@ -12,6 +12,7 @@ mod query;
 mod tests;
 mod walk;
 
+use self::query::Surroundings;
 pub(crate) use query::{Beam, Shaft, Tube};
 pub(crate) use walk::Walk;
 
@@ -51,6 +52,22 @@ impl Accelerator {
         let mut walk = Walk::default();
         walk.start(self);
         while let Some(primitive) = walk.next_with(self.instructions, self, &tube, tube.depth_of(limit)) {
+            limit = limit.min(test(primitive));
+        }
+    }
+
+    /// Visits the primitives around a point, roughly from near to far: `test` returns the distance up to which the search goes
+    /// on.
+    pub(crate) fn around(&self, point: Vector, mut test: impl FnMut(u32) -> f64) {
+        let mut limit = f64::INFINITY;
+        for primitive in &self.unbounded {
+            limit = limit.min(test(*primitive));
+        }
+        let surroundings = Surroundings::new(&self.unit, point);
+        let mut walk = Walk::default();
+        walk.start(self);
+        while let Some(primitive) = walk.next_with(self.instructions, self, &surroundings, surroundings.depth_of(limit))
+        {
             limit = limit.min(test(primitive));
         }
     }

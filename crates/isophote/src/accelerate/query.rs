@@ -1,5 +1,5 @@
-//! The queries of the tree: the boxes in a tube along a ray, those in a beam of rays from a point, and those in a shaft between
-//! two boxes.
+//! The queries of the tree: the boxes in a tube along a ray, those in a beam of rays from a point, those in a shaft between
+//! two boxes, and those around a point.
 
 use super::Unit;
 use super::node::{Node, WIDTH};
@@ -295,5 +295,46 @@ impl Query for Shaft {
             }
         }
         (near, V::bits_not(far.is_less(near)))
+    }
+}
+
+/// Everything around a point. Depths are distances from it.
+#[derive(Clone, Copy, Debug)]
+pub struct Surroundings {
+    point: [f32; 3],
+    slack: f32,
+    /// Units per metre.
+    scale: f64,
+}
+
+impl Surroundings {
+    /// In the unit frame.
+    #[expect(clippy::cast_possible_truncation, reason = "the slack covers the rounding")]
+    pub(super) fn new(unit: &Unit, point: Vector) -> Self {
+        let point = unit.place(point);
+        let slack = unit.slack + 1e-6 * (1.0 + point.length());
+        Self { point: point.to_array().map(|coordinate| coordinate as f32), slack: slack as f32, scale: unit.scale }
+    }
+
+    /// The depth for a distance in metres; rounded up.
+    #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
+    pub fn depth_of(&self, distance: f64) -> f32 {
+        (distance * self.scale * (1.0 + 1e-6)) as f32
+    }
+}
+
+impl Query for Surroundings {
+    #[inline(always)]
+    fn intersect_some<V: Lane<Element = f32>>(&self, token: V::Token, node: &Node, at: usize) -> (V, u32) {
+        let zero = V::splat(token, 0.0);
+        let mut square = zero;
+        for axis in 0..3 {
+            let coordinate = V::splat(token, self.point[axis]);
+            let [least, greatest] = [&node.sides[0][axis], &node.sides[1][axis]];
+            let gap = (V::load(token, &least[at..]) - coordinate).max(coordinate - V::load(token, &greatest[at..]));
+            let gap = gap.max(zero);
+            square = gap.mul_add(gap, square);
+        }
+        ((square.sqrt() - V::splat(token, self.slack)).max(zero), V::bits_not(zero.is_less(zero)))
     }
 }

@@ -3,7 +3,6 @@
 use std::cell::OnceCell;
 
 use super::obstruction::{AmbientShare, sampled};
-use super::places::SurfaceAt;
 use super::{Blocking, PreparedScene};
 use crate::double_double::DoubleDouble;
 use crate::ray::Ray;
@@ -96,9 +95,9 @@ impl PreparedScene {
         if !self.scene.shadows && !is_obstructed {
             return touched;
         }
-        for SurfaceAt { shape, nearest, .. } in self.surfaces_at(point) {
-            let primitive = Primitive { shape, part: nearest.part };
+        for (primitive, nearest) in self.touched_at(point) {
             touched.own.push(primitive);
+            let Primitive { shape, .. } = primitive;
             if self.shapes[shape].geometry.is_closed() && self.scene.shapes[shape].casts_shadow {
                 touched.walls.push((primitive, nearest));
             }

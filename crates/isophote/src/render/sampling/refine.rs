@@ -207,7 +207,9 @@ impl<'w> PixelMeans<'w> {
     fn add(&mut self, tracer: &SampleTracer<'_>, first: usize, places: &[[f64; 2]], wanted: &Wanted<'_>) {
         for hit in (first..first + places.len()).filter_map(|sample| tracer.hit(sample)) {
             self.covered += 1;
-            self.first_hit = self.first_hit.or(Some(*hit));
+            if self.first_hit.is_none() {
+                self.first_hit = Some(*hit);
+            }
         }
         for (layer, means) in self.layers.iter_mut().enumerate() {
             let (shaded, at) = tracer.values(layer);
