@@ -17,6 +17,51 @@ pub struct DoubleDouble<T = f64> {
     low: T,
 }
 
+/// Doubles above this are whole numbers: adding and subtracting it rounds.
+const ROUNDING: f64 = 6_755_399_441_055_744.0;
+
+/// The nearest whole number.
+#[inline(always)]
+fn whole<T: Real>(number: T) -> T {
+    (number + number.splat_like(ROUNDING)) - number.splat_like(ROUNDING)
+}
+
+/// 1/n! for n = 3, 5, 7, …, as pairs.
+const ODD_FACTORIALS: [(f64, f64); 14] = [
+    (0.16666666666666666, 9.25185853854297e-18),
+    (0.008333333333333333, 1.1564823173178714e-19),
+    (0.0001984126984126984, 1.7209558293420705e-22),
+    (2.7557319223985893e-06, -1.858393274046472e-22),
+    (2.505210838544172e-08, -1.448814070935912e-24),
+    (1.6059043836821613e-10, 1.2585294588752098e-26),
+    (7.647163731819816e-13, 7.03872877733453e-30),
+    (2.8114572543455206e-15, 1.6508842730861433e-31),
+    (8.22063524662433e-18, 2.2141894119604265e-34),
+    (1.9572941063391263e-20, -1.3643503830087908e-36),
+    (3.868170170630684e-23, -8.843177655482344e-40),
+    (6.446950284384474e-26, -1.9330404233703465e-42),
+    (9.183689863795546e-29, 1.4303150396787322e-45),
+    (1.1309962886447716e-31, 1.0498015412959506e-47),
+];
+
+/// 1/n! for n = 2, 4, 6, …, as pairs.
+const EVEN_FACTORIALS: [(f64, f64); 14] = [
+    (0.5, 0.0),
+    (0.041666666666666664, 2.3129646346357427e-18),
+    (0.001388888888888889, -5.300543954373577e-20),
+    (2.48015873015873e-05, 2.1511947866775882e-23),
+    (2.755731922398589e-07, 2.3767714622250297e-23),
+    (2.08767569878681e-09, -1.20734505911326e-25),
+    (1.1470745597729725e-11, 2.0655512752830745e-28),
+    (4.779477332387385e-14, 4.399205485834081e-31),
+    (1.5619206968586225e-16, 1.1910679660273754e-32),
+    (4.110317623312165e-19, 1.4412973378659527e-36),
+    (8.896791392450574e-22, -7.911402614872376e-38),
+    (1.6117375710961184e-24, -3.6846573564509766e-41),
+    (2.4795962632247976e-27, -1.2953730964765229e-43),
+    (3.279889237069838e-30, 1.5117542744029879e-46),
+];
+
 /// A number type whose products can be computed exactly, as two numbers.
 ///
 /// Operations on pairs of vectors must be inlined, so that they use the selected instruction set; for pairs of doubles,
@@ -137,6 +182,13 @@ impl DoubleDouble {
     /// π.
     pub const PI: Self = Self { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
 
+    /// The same number as a constant of another type.
+    #[must_use]
+    #[inline(always)]
+    pub fn constant_like<T: ExactProduct>(self, like: T) -> DoubleDouble<T> {
+        DoubleDouble { high: like.splat_like(self.high), low: like.splat_like(self.low) }
+    }
+
     /// eˣ, to about 30 digits, for x in −700…700.
     #[must_use]
     pub fn exp(self) -> Self {
@@ -170,31 +222,6 @@ impl DoubleDouble {
             logarithm = logarithm + self * (-logarithm).exp() - one;
         }
         logarithm
-    }
-
-    /// Sine and cosine of an angle within ±100, to about 29 decimal places.
-    #[must_use]
-    pub fn sine_and_cosine(self) -> (Self, Self) {
-        let one = Self::from_f64(1.0);
-        let quarters = (self.high / std::f64::consts::FRAC_PI_2).round();
-        let rest = self - Self::PI * Self::from_f64(0.5 * quarters);
-        // For an angle up to an eighth of a turn, the series have full accuracy by the 29th power.
-        let square = rest * rest;
-        let (mut sine, mut cosine) = (rest, one);
-        let (mut sine_term, mut cosine_term) = (rest, one);
-        for n in 1..=14_u8 {
-            let even = 2.0 * f64::from(n);
-            cosine_term = -(cosine_term * square) / Self::from_f64((even - 1.0) * even);
-            sine_term = -(sine_term * square) / Self::from_f64(even * (even + 1.0));
-            cosine = cosine + cosine_term;
-            sine = sine + sine_term;
-        }
-        match quarters.rem_euclid(4.0) {
-            0.0 => (sine, cosine),
-            1.0 => (cosine, -sine),
-            2.0 => (-sine, -cosine),
-            _ => (-cosine, sine),
-        }
     }
 
     /// A power with an exponent above 0 of a base in 0…1: the integer part of the exponent by repeated squaring, the rest by
@@ -255,6 +282,38 @@ impl<T: ExactProduct> Real for DoubleDouble<T> {
 }
 
 impl<T: ExactProduct> DoubleDouble<T> {
+    /// Sine and cosine of an angle within ±100, to about 29 decimal places.
+    #[must_use]
+    #[inline(always)]
+    pub fn sine_and_cosine(self) -> (Self, Self) {
+        let one = self.high.splat_like(1.0);
+        let quarters = whole(self.high * one.splat_like(std::f64::consts::FRAC_2_PI));
+        let rest = self - DoubleDouble::PI.constant_like(one) * Self::exactly(quarters * one.splat_like(0.5));
+        // For an angle up to an eighth of a turn, the series have full accuracy by the 29th power.
+        let square = -(rest * rest);
+        let mut sums = [Self::exactly(one.splat_like(0.0)); 2];
+        for (sum, factorials) in sums.iter_mut().zip([ODD_FACTORIALS, EVEN_FACTORIALS]) {
+            for (high, low) in factorials.into_iter().rev() {
+                *sum = (*sum + DoubleDouble { high, low }.constant_like(one)) * square;
+            }
+        }
+        let (sine, cosine) = (rest + rest * sums[0], Self::exactly(one) + sums[1]);
+        // −2 to 2, where both ends are half a turn.
+        let quarter = quarters - one.splat_like(4.0) * whole(quarters * one.splat_like(0.25));
+        let part = quarter * quarter - one;
+        let is_odd = (part * part).is_less(one.splat_like(0.5));
+        (Self::select(is_odd, cosine, sine).turned(quarter), Self::select(is_odd, sine, cosine).turned(-quarter))
+    }
+
+    /// The same with the other sign, half a turn and a negative quarter of one further.
+    #[inline(always)]
+    fn turned(self, quarter: T) -> Self {
+        let one = quarter.splat_like(1.0);
+        let sign = T::select(quarter.is_less(one.splat_like(-0.5)), -one, one);
+        let sign = T::select(one.splat_like(2.25).is_less(quarter * quarter), -one, sign);
+        Self { high: self.high * sign, low: self.low * sign }
+    }
+
     #[inline(always)]
     pub(crate) fn plus(self, other: Self) -> Self {
         let high = Self::sum_of(self.high, other.high);

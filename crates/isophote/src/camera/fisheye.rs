@@ -1,6 +1,7 @@
 //! A cone of directions in a circle.
 
-use crate::double_double::DoubleDouble;
+use super::panorama::radians;
+use crate::double_double::{DoubleDouble, ExactProduct};
 use crate::real::Real;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
@@ -56,7 +57,7 @@ impl Fisheye {
         let one = DoubleDouble::from_f64(1.0);
         let per_distance = if distance.rounded() > 0.0 { one / distance } else { DoubleDouble::zero() };
         let [right, up] = [x, y].map(|coordinate| T::from_precise(coordinate * per_distance));
-        let radians = distance * DoubleDouble::PI / DoubleDouble::from_f64(180.0);
+        let radians = radians(distance);
         let (sine, cosine) = match self.mapping {
             Mapping::Equidistant => T::sine_and_cosine_of(radians),
             Mapping::EqualArea => {
@@ -68,6 +69,30 @@ impl Fisheye {
             }
         };
         Some(Vector::new(right * sine, up * sine, cosine))
+    }
+
+    /// The unit vectors seen at screen points, and how far from the middle these are, in radii of the circle.
+    #[inline(always)]
+    pub(super) fn direction_in_lanes<T: ExactProduct>(
+        &self,
+        x: DoubleDouble<T>,
+        y: DoubleDouble<T>,
+    ) -> (Vector<DoubleDouble<T>>, T) {
+        let (zero, one) = (x.splat_like(0.0), x.splat_like(1.0));
+        let distance = (x * x + y * y).sqrt();
+        let is_beside = zero.is_less(distance);
+        let per_distance = DoubleDouble::select(is_beside, one / DoubleDouble::select(is_beside, distance, one), zero);
+        let angle = radians(distance);
+        let (sine, cosine) = match self.mapping {
+            Mapping::Equidistant => angle.sine_and_cosine(),
+            Mapping::EqualArea => {
+                let sine_of_half = angle * x.splat_like(0.5);
+                let square = sine_of_half * sine_of_half;
+                ((sine_of_half + sine_of_half) * (one - square).max_zero().sqrt(), one - (square + square))
+            }
+        };
+        let eccentricity = distance.nearest() / distance.nearest().splat_like(self.radius());
+        (Vector::new(x * per_distance * sine, y * per_distance * sine, cosine), eccentricity)
     }
 
     /// Where a direction (right, up, forward) appears; `None` outside the circle.

@@ -115,54 +115,73 @@ impl<T: Scalar> CameraFrame<T> {
     }
 }
 
-/// Rays whose directions, or starts if they are parallel, are linear in column and row: in lanes, with 32 digits.
-pub(crate) struct LinearRays<'f> {
+/// A camera's rays, several at a time, with 32 digits.
+pub(crate) struct PreciseCamera<'f> {
     frame: &'f CameraFrame<DoubleDouble>,
-    /// Whether the starts differ, and not the directions.
-    pub is_parallel: bool,
     /// What all rays have in common: the eye, or the direction of parallel rays.
     pub common: Vector<DoubleDouble>,
-    /// What differs, at the centre of the screen.
-    center: Vector<DoubleDouble>,
+}
+
+/// What differs from ray to ray.
+pub(crate) struct Differing<T> {
+    /// The directions, of any length, or the starts of parallel rays.
+    pub vector: Vector<DoubleDouble<T>>,
+    /// Beyond 1, the camera sees nothing.
+    pub eccentricity: T,
 }
 
 impl CameraFrame<DoubleDouble> {
-    /// The rays of a perspective or orthographic camera; `None` for another one.
-    pub(crate) fn linear_rays(&self) -> Option<LinearRays<'_>> {
-        let (is_parallel, common, center) = match &self.projection {
-            Projection::Perspective(screen) => {
-                (false, self.eye, self.forward * DoubleDouble::from_f64(screen.distance))
-            }
-            Projection::Orthographic(_) => (true, self.forward, self.eye),
-            Projection::Fisheye(_) | Projection::Panorama(_) => return None,
-        };
-        Some(LinearRays { frame: self, is_parallel, common, center })
+    /// Its rays.
+    pub(crate) fn in_lanes(&self) -> PreciseCamera<'_> {
+        let is_parallel = matches!(self.projection, Projection::Orthographic(_));
+        PreciseCamera { frame: self, common: if is_parallel { self.forward } else { self.eye } }
     }
 }
 
-impl LinearRays<'_> {
-    /// The directions, of any length, or the starts, at columns and rows counted from the centre of the first pixel, which
-    /// may be fractional.
+impl PreciseCamera<'_> {
+    /// Whether the starts differ, and not the directions.
+    pub fn is_parallel(&self) -> bool {
+        matches!(self.frame.projection, Projection::Orthographic(_))
+    }
+
+    /// The rays at columns and rows counted from the centre of the first pixel, which may be fractional.
     #[inline(always)]
-    pub fn at<T: ExactProduct>(&self, column: T, row: T) -> Vector<DoubleDouble<T>> {
-        let CameraFrame { right, up, extent: Extent { x, y: [bottom, top] }, resolution, .. } = self.frame;
-        let [right, up, center] = [*right, *up, self.center].map(
+    pub fn at<T: ExactProduct>(&self, column: T, row: T) -> Differing<T> {
+        let CameraFrame { right, up, forward, eye, extent: Extent { x, y: [bottom, top] }, resolution, .. } =
+            self.frame;
+        let x = between_exactly(*x, column, resolution.width);
+        let y = between_exactly([*top, *bottom], row, resolution.height);
+        let one = column.splat_like(1.0);
+        let ([right, up, forward], zero) = ([right, up, forward].map(constants(one)), one.splat_like(0.0));
+        match &self.frame.projection {
+            Projection::Perspective(screen) => {
+                let ahead = forward * DoubleDouble::exactly(one.splat_like(screen.distance));
+                Differing { vector: ahead + right * x + up * y, eccentricity: zero }
+            }
+            Projection::Orthographic(_) => {
+                Differing { vector: constants(one)(eye) + right * x + up * y, eccentricity: zero }
+            }
+            Projection::Fisheye(fisheye) => {
+                let (direction, eccentricity) = fisheye.direction_in_lanes(x, y);
+                Differing { vector: forward * direction.z + right * direction.x + up * direction.y, eccentricity }
+            }
+            Projection::Panorama(_) => {
+                let (direction, eccentricity) = panorama::direction_in_lanes(x, y);
+                Differing { vector: forward * direction.z + right * direction.x + up * direction.y, eccentricity }
+            }
+        }
+    }
+}
+
+/// The same vector in every lane.
+#[inline(always)]
+fn constants<T: ExactProduct>(like: T) -> impl Fn(&Vector<DoubleDouble>) -> Vector<DoubleDouble<T>> {
+    #[inline(always)]
+    move |vector| {
+        vector.map(
             #[inline(always)]
-            |vector| {
-                vector.map(
-                    #[inline(always)]
-                    |number| {
-                        number.map(
-                            #[inline(always)]
-                            |half| column.splat_like(half),
-                        )
-                    },
-                )
-            },
-        );
-        let (x, y) =
-            (between_exactly(*x, column, resolution.width), between_exactly([*top, *bottom], row, resolution.height));
-        center + right * x + up * y
+            |number| number.constant_like(like),
+        )
     }
 }
 

@@ -7,7 +7,7 @@ mod projection;
 
 pub use fisheye::{Fisheye, Mapping};
 pub use frame::{CameraFrame, Sight};
-pub(crate) use frame::{LinearRays, between};
+pub(crate) use frame::{Differing, PreciseCamera, between};
 pub use projection::{Extent, Projection, Screen};
 
 use serde::{Deserialize, Serialize};

@@ -21,7 +21,7 @@ use self::blocked::Blocked;
 use self::candidates::Search;
 use self::nearest::{Nearest, Seen};
 use self::points::{FindPoints, Points};
-use self::precise::PreciseRays;
+use self::precise::{PreciseRays, Visible};
 pub use self::rays::RAYS;
 use self::rays::{OCTET, RayPacket};
 pub use self::shading::Output;
@@ -165,8 +165,8 @@ impl InTile<'_, '_> {
 pub struct Tracer<'a> {
     packets: Packets<'a>,
     packet: Box<RayPacket>,
-    /// The same rays with 32 digits, if the camera has them.
-    precise: Option<Box<PreciseRays<'a>>>,
+    /// The same rays with 32 digits.
+    precise: Box<PreciseRays<'a>>,
     /// Where the rays pass the screen.
     places: Box<[Place; RAYS]>,
     nearest: Box<Nearest>,
@@ -182,7 +182,7 @@ impl<'a> Tracer<'a> {
         Self {
             packets,
             packet: RayPacket::new(),
-            precise: packets.scene.precise_frame().linear_rays().map(PreciseRays::new),
+            precise: PreciseRays::new(packets.scene.precise_frame().in_lanes()),
             places: Box::new([Place { pixel: Pixel { column: 0, row: 0 }, within: [0.5; 2] }; RAYS]),
             nearest: Nearest::new(),
             points: Points::new(),
@@ -242,18 +242,10 @@ impl<'a> Tracer<'a> {
         let Self { packets: Packets { scene, instructions, .. }, packet, precise, places, nearest, .. } = self;
         packet.range = [0.0, f64::INFINITY];
         packet.in_use = in_use;
-        if let Some(precise) = precise {
-            precise.aim(places);
-            instructions.run_wide(precise::Aim { rays: precise, packet });
-        } else {
-            packet.origin = scene.frame().eye;
-            for index in set_bits(packet.in_use) {
-                match scene.frame().ray(places[index].position()) {
-                    Some(ray) => packet.set(index, ray.start_from(packet.origin), ray.direction),
-                    None => packet.in_use &= !(1 << index),
-                }
-            }
-        }
+        precise.aim(places);
+        let Visible { surely, maybe } = instructions.run_wide(precise::Aim { rays: precise, packet });
+        let is_seen = |ray: &usize| scene.frame().ray(places[*ray].position()).is_some();
+        packet.in_use &= set_bits(maybe & in_use).filter(is_seen).fold(surely, |bits, ray| bits | 1 << ray);
         nearest.clear();
     }
 
@@ -283,14 +275,20 @@ impl<'a> Tracer<'a> {
             left &= !on_shape;
             let geometry = scene.geometry(shape);
             let is_sharp = |ray: usize| scene.has_sharper_highlight(primitives[ray], SHARPEST);
-            let in_lanes = precise.as_deref().filter(|_| !set_bits(on_shape).any(is_sharp));
-            if let Some(rays) = in_lanes {
-                instructions.run_wide(FindPoints { rays, on_shape, geometry, primitives: &primitives, points });
+            let in_lanes = !set_bits(on_shape).any(is_sharp);
+            if in_lanes {
+                instructions.run_wide(FindPoints {
+                    rays: precise,
+                    on_shape,
+                    geometry,
+                    primitives: &primitives,
+                    points,
+                });
             }
             for index in set_bits(on_shape) {
                 let primitive = primitives[index];
-                hits[index] = if let Some(rays) = in_lanes {
-                    points.hit(index, primitive, rays)
+                hits[index] = if in_lanes {
+                    points.hit(index, primitive, precise)
                 } else {
                     let hit = scene.hit_on(primitive, &packet.ray(index));
                     hit.or_else(|| scene.precise_hit_on(primitive, places[index].position()))

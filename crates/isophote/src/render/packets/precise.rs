@@ -2,7 +2,7 @@
 
 use super::Place;
 use super::rays::{RAYS, RayPacket, Vectors};
-use crate::camera::LinearRays;
+use crate::camera::{Differing, PreciseCamera};
 use crate::double_double::DoubleDouble;
 use crate::lanes::{Lane, LaneJob};
 use crate::render::vectors::{get, load, splat, store};
@@ -10,7 +10,7 @@ use crate::vector::Vector;
 
 /// The rays of a packet with 32 digits.
 pub struct PreciseRays<'a> {
-    rays: LinearRays<'a>,
+    camera: PreciseCamera<'a>,
     /// Their columns and rows, counted from the centre of the first pixel.
     columns: [f64; RAYS],
     rows: [f64; RAYS],
@@ -32,9 +32,9 @@ pub struct Way<V> {
 
 impl<'a> PreciseRays<'a> {
     /// No rays yet of a camera.
-    pub fn new(rays: LinearRays<'a>) -> Box<Self> {
+    pub fn new(camera: PreciseCamera<'a>) -> Box<Self> {
         let (numbers, zeros) = ([0.0; RAYS], [[0.0; RAYS]; 3]);
-        Box::new(Self { rays, columns: numbers, rows: numbers, halves: [zeros; 2], directions: zeros })
+        Box::new(Self { camera, columns: numbers, rows: numbers, halves: [zeros; 2], directions: zeros })
     }
 
     /// The unit vector along a ray.
@@ -54,9 +54,9 @@ impl<'a> PreciseRays<'a> {
     #[inline(always)]
     pub fn way<V: Lane<Element = f64>>(&self, token: V::Token, at: usize) -> Way<V> {
         let differing = pairs::<V>(token, &self.halves, at);
-        let common = exact::<V>(token, self.rays.common);
+        let common = exact::<V>(token, self.camera.common);
         let direction = load::<V, _>(token, at, &self.directions);
-        if self.rays.is_parallel {
+        if self.camera.is_parallel() {
             Way { start: differing, along: common, direction }
         } else {
             Way { start: common, along: differing, direction }
@@ -73,39 +73,58 @@ pub struct Aim<'c, 'a> {
 }
 
 impl LaneJob for Aim<'_, '_> {
-    type Output = ();
+    type Output = Visible;
 
     #[inline(always)]
-    fn run<S, D>(self, token: S::Token)
+    fn run<S, D>(self, token: S::Token) -> Visible
     where
         S: Lane<Element = f32>,
         D: Lane<Element = f64, Token = S::Token>,
     {
-        self.aim::<D::Narrow>(token);
+        self.aim::<D::Narrow>(token)
     }
+}
+
+/// Which rays the camera has, as bits.
+#[derive(Default)]
+pub struct Visible {
+    /// Those that it certainly has.
+    pub surely: u64,
+    /// Those at the edge of what it sees.
+    pub maybe: u64,
 }
 
 impl Aim<'_, '_> {
     #[inline(always)]
-    fn aim<V: Lane<Element = f64>>(self, token: V::Token) {
-        let PreciseRays { rays, columns, rows, halves, directions } = self.rays;
-        let common = rays.common.map(DoubleDouble::rounded);
+    fn aim<V: Lane<Element = f64>>(self, token: V::Token) -> Visible {
+        /// How far the edge of what a camera sees may be off.
+        const MARGIN: f64 = 1e-12;
+        let PreciseRays { camera, columns, rows, halves, directions } = self.rays;
+        let common = camera.common.map(DoubleDouble::rounded);
         let parallel = splat::<V>(token, common);
         let packet = self.packet;
+        let is_parallel = camera.is_parallel();
         packet.origin = common;
-        if rays.is_parallel {
-            // The first start.
-            packet.origin = rays.at(columns[0], rows[0]).map(DoubleDouble::rounded);
-        }
-        let origin = exactly(splat::<V>(token, packet.origin));
         let zero = V::splat(token, 0.0);
+        let mut visible = Visible::default();
         for at in (0..RAYS).step_by(V::COUNT) {
-            let differing = rays.at(V::load(token, &columns[at..]), V::load(token, &rows[at..]));
-            let high = nearest(differing);
+            let Differing { vector, eccentricity } =
+                camera.at(V::load(token, &columns[at..]), V::load(token, &rows[at..]));
+            let bits = |limit: f64| u64::from(V::bits(eccentricity.is_less(V::splat(token, limit)))) << at;
+            let surely = bits(1.0 - MARGIN);
+            visible.surely |= surely;
+            visible.maybe |= bits(1.0 + MARGIN) & !surely;
+            let high = nearest(vector);
+            if is_parallel && at == 0 {
+                // The first start.
+                let mut first = [[0.0; RAYS]; 3];
+                store(high, 0, &mut first);
+                packet.origin = get(&first, 0);
+            }
             store(high, at, &mut halves[0]);
-            store(nearest(differing - exactly(high)), at, &mut halves[1]);
-            let (start, direction) = if rays.is_parallel {
-                (nearest(differing - origin), parallel)
+            store(nearest(vector - exactly(high)), at, &mut halves[1]);
+            let (start, direction) = if is_parallel {
+                (nearest(vector - exactly(splat::<V>(token, packet.origin))), parallel)
             } else {
                 (Vector::new(zero, zero, zero), high.normalized())
             };
@@ -113,6 +132,7 @@ impl Aim<'_, '_> {
             store(start, at, &mut packet.start);
             store(direction, at, &mut packet.direction);
         }
+        visible
     }
 }
 
