@@ -1,4 +1,5 @@
-//! Instructions counted by valgrind, one benchmark per stage: noise-free numbers for comparing two versions.
+//! Instructions counted by valgrind, one benchmark per stage and per way of rendering: noise-free numbers for comparing two
+//! versions.
 //!
 //! Run with `make bench-instructions`. The images are small because valgrind is some fifty times slower than the
 //! machine.
@@ -6,11 +7,13 @@
 #![expect(missing_docs, reason = "the macros of gungraun make public things without documentation")]
 
 use std::hint::black_box;
+use std::num::NonZeroUsize;
 
 use gungraun::{library_benchmark, library_benchmark_group, main};
+use isophote::lanes::Precision;
 use isophote::map::{Map, Quantity, Resolution};
 use isophote::prepare::PreparedScene;
-use isophote::render::{ReferenceRenderer, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::library::Starter;
 use isophote::scene::source::LightSource;
 use isophote::scene::{Scene, Syntax};
@@ -39,9 +42,53 @@ fn many_lights(count: u32) -> PreparedScene {
     PreparedScene::new(&Scene::try_from(source).expect("the lights are outside the sphere"))
 }
 
-fn brightness(scene: &PreparedScene) -> Map {
+/// A box, a cylinder and a sphere over a floor, with shadows, and something more.
+fn solids(more: &str) -> PreparedScene {
+    let text = format!(
+        r#"
+        version = 1
+        length = "m"
+        convention = "radiance"
+        shadows = true
+        camera = {{ eye = [0, 2, 6], target = [0, 0, 0], field_of_view = 40, resolution = [80, 60] }}
+        material.chalk = {{ diffuse = 0.6, specular = 0.3, shininess = 20 }}
+        plane = [{{ point = [0, -1, 0], normal = [0, 1, 0], material = "chalk" }}]
+        box = [{{ center = [-1.2, -0.5, 0], size = [0.8, 1, 0.9], material = "chalk" }}]
+        cylinder = [{{ from = [1.2, -1, 0], to = [1.2, 0.5, 0], radius = 0.4, material = "chalk" }}]
+        sphere = [{{ center = [0, 0, 0], radius = 0.5, material = "chalk" }}]
+        light = [{{ position = [2, 3, 4], intensity = 20 }}, {{ position = [-3, 2, 1], intensity = 10 }}]
+        {more}
+        "#
+    );
+    PreparedScene::new(&Scene::from_text("solids", &text, Syntax::Toml).expect("it is valid"))
+}
+
+/// Spheres in a cube, with shadows.
+fn cloud() -> PreparedScene {
+    let ball = |index: u32| {
+        let [x, y, z] = [index % 6, index / 6 % 6, index / 36].map(|step| 0.4 * f64::from(step) - 1.0);
+        format!("{{ center = [{x}, {y}, {z}], radius = 0.15, material = \"chalk\" }}")
+    };
+    let balls: Vec<String> = (0..216).map(ball).collect();
+    let text = format!(
+        r#"
+        version = 1
+        length = "m"
+        convention = "radiance"
+        shadows = true
+        camera = {{ eye = [1, 2, 6], target = [0, 0, 0], field_of_view = 30, resolution = [80, 60] }}
+        material.chalk = {{ diffuse = 0.6, specular = 0.3, shininess = 20 }}
+        sphere = [{}]
+        light = [{{ position = [2, 3, 4], intensity = 20 }}]
+        "#,
+        balls.join(", ")
+    );
+    PreparedScene::new(&Scene::from_text("cloud", &text, Syntax::Toml).expect("it is valid"))
+}
+
+fn brightness(renderer: &dyn Renderer, scene: &PreparedScene) -> Map {
     let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
-    ReferenceRenderer.render(scene, &settings).expect("the scene renders")
+    renderer.render(scene, &settings).expect("the scene renders")
 }
 
 #[library_benchmark]
@@ -60,8 +107,29 @@ fn prepare(scene: Scene) -> PreparedScene {
 #[bench::lab(prepared_lab())]
 #[bench::lights_64(many_lights(64))]
 fn render_reference(scene: PreparedScene) -> Map {
-    black_box(brightness(black_box(&scene)))
+    black_box(brightness(&ReferenceRenderer, black_box(&scene)))
 }
 
-library_benchmark_group!(name = stages, benchmarks = [read, prepare, render_reference]);
+#[library_benchmark]
+#[bench::rows(prepared_lab())]
+#[bench::rows_64_lights(many_lights(64))]
+#[bench::tiles(cloud())]
+#[bench::packets(solids(""))]
+#[bench::samples(solids("sampling = { tolerance = 0.05 }"))]
+#[bench::ambient(solids("ambient = { radiance = 1, obstructed = true, samples = 16 }"))]
+fn render_lanes(scene: PreparedScene) -> Map {
+    let renderer = SimdRenderer::new(Precision::Double, NonZeroUsize::new(1));
+    black_box(brightness(&renderer, black_box(&scene)))
+}
+
+#[library_benchmark]
+#[bench::among_solids(solids(
+    r#"grid = [{ name = "g", corner = [-2, -0.3, -2], u = [0, 0, 4], v = [4, 0, 0], points = [60, 60] }]"#
+))]
+fn grid(scene: PreparedScene) -> Map {
+    let grid = &scene.scene().grids()[0];
+    black_box(scene.grid(black_box(grid), &[Quantity::Irradiance]).expect("no light is in the way"))
+}
+
+library_benchmark_group!(name = stages, benchmarks = [read, prepare, render_reference, render_lanes, grid]);
 main!(library_benchmark_groups = stages);
