@@ -6,11 +6,13 @@
 #![expect(missing_docs, reason = "the macros of gungraun make public things without documentation")]
 
 use std::hint::black_box;
+use std::num::NonZeroUsize;
 
 use gungraun::{library_benchmark, library_benchmark_group, main};
+use isophote::lanes::Precision;
 use isophote::map::{Map, Quantity, Resolution};
 use isophote::prepare::PreparedScene;
-use isophote::render::{ReferenceRenderer, RenderSettings, Renderer};
+use isophote::render::{ReferenceRenderer, RenderSettings, Renderer, SimdRenderer};
 use isophote::scene::library::Starter;
 use isophote::scene::source::LightSource;
 use isophote::scene::{Scene, Syntax};
@@ -39,9 +41,9 @@ fn many_lights(count: u32) -> PreparedScene {
     PreparedScene::new(&Scene::try_from(source).expect("the lights are outside the sphere"))
 }
 
-fn brightness(scene: &PreparedScene) -> Map {
+fn brightness(renderer: &dyn Renderer, scene: &PreparedScene) -> Map {
     let settings = RenderSettings { quantities: vec![Quantity::Brightness], ..RenderSettings::default() };
-    ReferenceRenderer.render(scene, &settings).expect("the scene renders")
+    renderer.render(scene, &settings).expect("the scene renders")
 }
 
 #[library_benchmark]
@@ -60,8 +62,18 @@ fn prepare(scene: Scene) -> PreparedScene {
 #[bench::lab(prepared_lab())]
 #[bench::lights_64(many_lights(64))]
 fn render_reference(scene: PreparedScene) -> Map {
-    black_box(brightness(black_box(&scene)))
+    black_box(brightness(&ReferenceRenderer, black_box(&scene)))
 }
 
-library_benchmark_group!(name = stages, benchmarks = [read, prepare, render_reference]);
+/// With the instructions that valgrind knows, which are not always the machine's best.
+#[library_benchmark]
+#[bench::lab_in_single(Precision::Single, prepared_lab())]
+#[bench::lab_in_double(Precision::Double, prepared_lab())]
+#[bench::lights_64_in_single(Precision::Single, many_lights(64))]
+#[bench::lights_64_in_double(Precision::Double, many_lights(64))]
+fn render_lanes(precision: Precision, scene: PreparedScene) -> Map {
+    black_box(brightness(&SimdRenderer::new(precision, NonZeroUsize::new(1)), black_box(&scene)))
+}
+
+library_benchmark_group!(name = stages, benchmarks = [read, prepare, render_reference, render_lanes]);
 main!(library_benchmark_groups = stages);

@@ -149,6 +149,14 @@ struct Scratch<E> {
     shaded: Box<ShadedBlock<E>>,
 }
 
+impl<E: Element> Scratch<E> {
+    fn new(band: &Band<'_>, lights: usize) -> Self {
+        let mut shaded = ShadedBlock::new(lights);
+        shaded.is_whole = band.shows_parts();
+        Self { chosen: Chosen::default(), shaded }
+    }
+}
+
 impl<'a> RowShader<'a> {
     fn new(job: &RowsJob<'a, '_>) -> Self {
         let lights = job.asked_for.len();
@@ -160,8 +168,8 @@ impl<'a> RowShader<'a> {
             observer: job.observer,
             kept: job.candidates.iter().map(|_| None).collect(),
             kept_emitters: 0,
-            single: Scratch { chosen: Chosen::default(), shaded: ShadedBlock::new(lights) },
-            double: Scratch { chosen: Chosen::default(), shaded: ShadedBlock::new(lights) },
+            single: Scratch::new(&job.band, lights),
+            double: Scratch::new(&job.band, lights),
             geometry: job.band.has_geometry().then(SurfaceBlock::new),
         }
     }
@@ -239,12 +247,35 @@ impl<'a> LitShape<'a> {
 /// Columns of a row that see the same sphere.
 struct StretchWork {
     row: RowOfEllipse,
+    roots: [Root; 2],
     /// [`Ellipse::column`](crate::outline::Ellipse::column).
     counted_from: f64,
     center: Vector,
     radius: f64,
     stretch: Stretch,
     at_row: u32,
+}
+
+/// A root of a row as a whole number and a rest of at most ½: near the outline, single precision would lose the digits of the
+/// distance from their sum.
+#[derive(Clone, Copy)]
+struct Root {
+    whole: f64,
+    rest: f64,
+}
+
+impl Root {
+    fn new(root: f64) -> Self {
+        let whole = root.round();
+        Self { whole, rest: root - whole }
+    }
+
+    /// How far columns are behind it: the difference of whole numbers is exact.
+    #[inline(always)]
+    fn before<V: Lane>(self, token: V::Token, column: V) -> V {
+        let whole = V::splat(token, V::Element::from_f64(self.whole));
+        (column - whole) - V::splat(token, V::Element::from_f64(self.rest))
+    }
 }
 
 /// Where a stretch is written, and the light that it is shaded in.
@@ -326,8 +357,10 @@ impl<V: Lane> Points<V> for RowPoints<'_, V> {
 
 impl StretchWork {
     fn new(candidate: &Candidate<'_>, stretch: Stretch, at_row: u32) -> Self {
+        let row = candidate.ellipse.in_row(at_row);
         Self {
-            row: candidate.ellipse.in_row(at_row),
+            row,
+            roots: row.roots.map(Root::new),
             counted_from: candidate.ellipse.column,
             center: candidate.sphere.center,
             radius: candidate.sphere.radius,
@@ -351,13 +384,10 @@ impl StretchWork {
     #[inline(always)]
     #[expect(clippy::cast_precision_loss, reason = "a few hundred columns")]
     fn point<V: Lane>(&self, token: V::Token, row: &RowOfEllipse<V>, first: u32, after: usize) -> PointInRow<V> {
-        let first = f64::from(first) + after as f64 - self.counted_from;
-        let [left, right] = self.row.roots;
-        let place = PlaceInRow {
-            column: V::distances(token, first, 0.0),
-            after_first: V::distances(token, first, left),
-            after_last: V::distances(token, first, right),
-        };
+        let column = V::counted(token, f64::from(first) + after as f64 - self.counted_from);
+        let [first, last] = self.roots;
+        let place =
+            PlaceInRow { column, after_first: first.before(token, column), after_last: last.before(token, column) };
         row.point(self.center, &place)
     }
 
