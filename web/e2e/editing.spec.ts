@@ -56,3 +56,23 @@ test('a wrong number is marked, a comma is as good as a point, and the last good
   await field.fill('1e999');
   await expect(field).toHaveAttribute('aria-invalid', 'true');
 });
+
+test('a coordinate of a point is stepped by keys and marked where it is wrong, as a field is', async ({ page }) => {
+  await open(page);
+  const x = page.getByRole('textbox', { name: 'x of P1' });
+  await x.focus();
+  await page.keyboard.press('ArrowUp');
+  await expect(x).toHaveValue('0.01');
+  await page.keyboard.press('ArrowDown');
+  await x.fill('1e999');
+  await expect(x).toHaveAttribute('aria-invalid', 'true');
+  await expect(page.getByText('Allowed: −1e15 to 1e15')).toBeVisible();
+  await page.keyboard.press('Escape');
+  await expect(x).toHaveValue('0');
+  await x.blur();
+  // Every press of a key is a step of its own.
+  for (const before of ['0.01', '0']) {
+    await page.getByRole('button', { name: 'Undo' }).click();
+    await expect(x).toHaveValue(before);
+  }
+});
