@@ -17,7 +17,7 @@ test('a lamp is dragged on a plan, moved by keys, and put back by undo', async (
   await page.getByRole('combobox', { name: 'Examples' }).selectOption('course-sphere');
   await picture(page);
   const before = (await scene(page)).light[1]!.position;
-  const lamp = page.getByRole('slider', { name: 'light aside' }).first();
+  const lamp = page.getByRole('group', { name: 'The scene from above' }).getByRole('slider', { name: 'light aside' });
   const box = (await lamp.locator('circle').first().boundingBox())!;
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   await page.mouse.move(x, y);
@@ -75,4 +75,64 @@ test('a coordinate of a point is stepped by keys and marked where it is wrong, a
     await page.getByRole('button', { name: 'Undo' }).click();
     await expect(x).toHaveValue(before);
   }
+});
+
+test('shapes and lamps are moved on the picture: by drags, which are a step of undo each, and by keys', async ({
+  page,
+}) => {
+  await open(page);
+  const position = (name: string) => page.getByRole('slider', { name: `${name}, on the picture`, exact: true });
+  const sphere = async () => {
+    await picture(page);
+    return ((await scene(page)) as unknown as { sphere: { center: number[]; radius: number }[] }).sphere[0]!;
+  };
+  const pull = async (name: string, right: number, down: number) => {
+    const box = (await position(name).boundingBox())!;
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + right, y + down, { steps: 5 });
+    await page.mouse.up();
+  };
+  // A unit of length in pixels, in the plane through the centre: that of the screen, as both are 5 m away.
+  const plot = (await page.getByRole('application', { name: /Map of values/ }).boundingBox())!;
+  const metre = plot.width / 8;
+
+  await pull('ball', 0.5 * metre, -0.25 * metre);
+  const moved = await sphere();
+  expect(moved.center[0]).toBeCloseTo(0.5, 1);
+  expect(moved.center[1]).toBeCloseTo(0.25, 1);
+  expect(moved.center[2]).toBe(5);
+  // The numbers follow.
+  await page.getByRole('region', { name: 'Fields' }).getByRole('button', { name: 'ball', exact: false }).first().waitFor();
+  await expect(page.getByRole('group', { name: 'Centre, m' }).getByRole('textbox').first()).toHaveValue(
+    `${moved.center[0]}`,
+  );
+
+  await pull('radius of ball', 0.5 * metre, 0);
+  expect((await sphere()).radius).toBeCloseTo(1.5, 1);
+
+  await position('ball').focus();
+  await page.keyboard.press('ArrowLeft');
+  const stepped = await sphere();
+  expect(stepped.center[0]).toBeLessThan(moved.center[0]!);
+  expect(stepped.center[1]).toBe(moved.center[1]);
+
+  const undo = page.getByRole('button', { name: 'Undo' });
+  await undo.click();
+  expect((await sphere()).center).toEqual(moved.center);
+  await undo.click();
+  expect((await sphere()).radius).toBe(1);
+  await undo.click();
+  expect((await sphere()).center).toEqual([0, 0, 5]);
+  await expect(undo).toBeDisabled();
+
+  await page.getByRole('combobox', { name: 'Examples' }).selectOption('course-plane');
+  await picture(page);
+  const lamp = (await scene(page)).light[0]!.position;
+  await pull('light lamp', 30, 0);
+  await picture(page);
+  const dragged = (await scene(page)).light[0]!.position;
+  expect(dragged[0]).toBeGreaterThan(lamp[0]!);
+  expect(dragged.slice(1)).toEqual(lamp.slice(1));
 });

@@ -75,6 +75,7 @@ export const en = {
     horizontal: (y: string) => `Horizontal section line, y = ${y}; arrow keys move it`,
     vertical: (x: string) => `Vertical section line, x = ${x}; arrow keys move it`,
     end: (number: number, place: string) => `End ${number} of the section line, ${place}; arrow keys move it`,
+    onPicture: (name: string) => `${name}, on the picture`,
   },
   describe: {
     channel: (channel: string, unit: string, width: number, height: number) =>
@@ -329,6 +330,7 @@ export const ru: typeof en = {
     horizontal: (y: string) => `Горизонтальная линия сечения, y = ${y}; сдвигается стрелками`,
     vertical: (x: string) => `Вертикальная линия сечения, x = ${x}; сдвигается стрелками`,
     end: (number: number, place: string) => `Конец ${number} линии сечения, ${place}; сдвигается стрелками`,
+    onPicture: (name: string) => `${name}, на изображении`,
   },
   describe: {
     channel: (channel: string, unit: string, width: number, height: number) =>
