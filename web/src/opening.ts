@@ -8,6 +8,8 @@ import { fill, text } from './text/index.svelte';
 
 /** The limit of the core for scene files, in bytes. */
 const LARGEST_FILE = 64 << 20;
+/** Larger ones are not opened at once: the page says that it is at it. */
+const LARGE_FILE = 1 << 20;
 /** Longer links do not pass through mail and messengers. */
 const LONGEST_LINK = 32_000;
 
@@ -67,6 +69,7 @@ export async function openFile(session: Session, file: File): Promise<void> {
     session.say(words.fileTooLarge);
     return;
   }
+  if (file.size > LARGE_FILE) session.say(fill(words.opening, { name: file.name }));
   const content = await file.text();
   const syntax = /^\s*\{/.test(content) ? 'json' : 'toml';
   const { scene, problems } = await session.engine.read(content, syntax);

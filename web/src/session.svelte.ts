@@ -20,7 +20,9 @@ import type {
   Vec3,
 } from './engine/types';
 import type { SceneSource } from './scene/model';
+import { EngineError } from './engine/types';
 import { SceneStore } from './scene/store.svelte';
+import { fill, reasonOf, text } from './text/index.svelte';
 
 /** The part of the page beside the picture. */
 export type Tab = 'values' | 'why' | 'sections' | 'more';
@@ -81,6 +83,14 @@ export class Session {
 
   say(notice: string | null): void {
     this.notice = notice;
+  }
+
+  /** Says why something did not work; nothing where it was merely pointless. */
+  fail(error: unknown): void {
+    const kind = error instanceof EngineError ? error.kind : 'refused';
+    if (kind === 'pointless') return;
+    const { failed, lost } = text.words.app;
+    this.notice = fill(kind === 'lost' ? lost : failed, { why: reasonOf(error) });
   }
 
   /** The problems of an item: of its keys as well, so "sphere[0]" has those of "sphere[0].radius". */

@@ -271,7 +271,12 @@ impl Core {
         let quantity = channel(name, self.scene()?.scene())?;
         let prepared = if step == 2 { self.half()? } else { self.scene()? };
         let region = rows(prepared.scene().camera().resolution, first, count);
-        Band::of(render(prepared, vec![quantity.clone()], Some(region))?, &quantity)
+        let mut quantities = vec![quantity.clone()];
+        // Says which pixels are lit; previews are not counted.
+        if step == 1 && quantity != Quantity::Irradiance {
+            quantities.push(Quantity::Irradiance);
+        }
+        Band::of(render(prepared, quantities, Some(region))?, &quantity)
     }
 
     fn scene(&self) -> Result<&PreparedScene, Refusal> {

@@ -38,6 +38,7 @@ export const en = {
     damaged: 'it was changed on its way',
     large: 'it is too large',
   },
+  opening: 'Opening {name}…',
   fileBroken: 'This file holds no scene that can be read.',
   fileTooLarge: 'This file is larger than 64 MiB, the limit for scene files.',
   fileProblems: 'The file was opened with problems:',
@@ -46,6 +47,7 @@ export const en = {
     forbidden: 'The browser does not allow the scene to be kept for the next visit: save it as a file.',
   },
   failed: 'That did not work: {why}',
+  lost: 'The calculation stopped ({why}) and was started anew. Your scene is as it was; if this comes again, make the picture smaller.',
   close: 'Close',
   download: {
     picture: 'Picture, 0–255 (PNG)',
@@ -147,6 +149,7 @@ export const ru: typeof en = {
     damaged: 'она изменена по дороге',
     large: 'она слишком велика',
   },
+  opening: 'Открываю {name}…',
   fileBroken: 'В этом файле нет сцены, которую можно прочесть.',
   fileTooLarge: 'Файл больше 64 МиБ — предела для файлов сцен.',
   fileProblems: 'Файл открыт, но в нём есть ошибки:',
@@ -155,6 +158,7 @@ export const ru: typeof en = {
     forbidden: 'Браузер не разрешает сохранить сцену до следующего раза: сохраните её в файл.',
   },
   failed: 'Не получилось: {why}',
+  lost: 'Расчёт прервался ({why}) и запущен заново. Сцена осталась прежней; если это повторится, уменьшите изображение.',
   close: 'Закрыть',
   download: {
     picture: 'Картина, 0–255 (PNG)',

@@ -194,6 +194,8 @@ export const en = {
     openAll: 'Open all',
     closeAll: 'Close all',
     noPoint: 'Nothing is seen there.',
+    omitted: (count: number) =>
+      `${count} more steps, of lights that count all the same, are left out here; “isophote probe --explain” prints them.`,
   },
   sections: {
     none: 'No line yet. The first button draws two, through the centre of the shape.',
@@ -441,6 +443,8 @@ export const ru: typeof en = {
     openAll: 'Развернуть всё',
     closeAll: 'Свернуть всё',
     noPoint: 'Там ничего не видно.',
+    omitted: (count: number) =>
+      `Ещё ${count} шагов — для источников, которые тоже учтены, — здесь не показаны; их печатает «isophote probe --explain».`,
   },
   sections: {
     none: 'Линий пока нет. Первая кнопка проводит сразу две — через центр фигуры.',
