@@ -66,3 +66,31 @@ async function levels(page: Page, png: Buffer): Promise<number[]> {
   }, png.toString('base64'));
   return [...Buffer.from(text, 'base64')];
 }
+
+test('each light alone is a small picture, and the examples say what they are', async ({ page }) => {
+  await open(page);
+  await expect(page.getByRole('combobox', { name: 'Examples' }).locator('option[value=sun]')).toHaveText(
+    'A sphere in the sun — Parallel light',
+  );
+  await page.getByRole('combobox', { name: 'Examples' }).selectOption('two-lights');
+  await picture(page);
+  await page.getByRole('tab', { name: 'More' }).click();
+  const lights = page.getByRole('region', { name: 'Each light alone' }).getByRole('button', { name: /, up to/ });
+  await expect(lights).toHaveCount(2);
+  await lights.first().click();
+  await picture(page);
+  await expect(lights.first()).toHaveAttribute('aria-pressed', 'true');
+  const isPainted = await lights
+    .first()
+    .locator('canvas')
+    .evaluate((canvas: HTMLCanvasElement) => {
+      const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
+      return data.some((part, index) => index % 4 < 3 && part > 0);
+    });
+  expect(isPainted).toBe(true);
+});
+
+test('as many pixels are lit as the command says', async ({ page }) => {
+  await open(page);
+  await expect(page.getByRole('tabpanel')).toContainText('Of them lit: 32059.');
+});

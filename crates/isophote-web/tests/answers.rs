@@ -60,6 +60,31 @@ fn a_preview_has_half_the_pixels_of_the_same_window() {
 }
 
 #[test]
+fn a_small_map_shows_the_same_window_in_two_hundred_pixels() {
+    let (mut core, prepared, _) = loaded(Starter::TwoLights);
+    let name = format!("brightness.{}", prepared.scene().lights()[0].name);
+    let mut band = core.thumbnail(&name).unwrap();
+    let head = parsed(&band.head());
+    assert_eq!((&head["channel"], &head["width"], &head["height"]), (&json!(name), &json!(200), &json!(150)));
+    let whole = parsed(&core.render("brightness", 0, 600, 1).unwrap().head());
+    assert_eq!(head["window"], whole["window"]);
+    let (values, shapes) = (band.take_values(), band.take_shapes());
+    assert_eq!((values.len(), shapes.len()), (200 * 150, 200 * 150));
+    // The lights alone add up to the whole: this scene has no ambient light.
+    let others = prepared.scene().lights().iter().skip(1).map(|light| format!("brightness.{}", light.name));
+    let mut sum = values;
+    for name in others {
+        let one = core.thumbnail(&name).unwrap().take_values();
+        sum.iter_mut().zip(one).for_each(|(sum, value)| *sum += value);
+    }
+    let whole = core.thumbnail("brightness").unwrap().take_values();
+    let largest = whole.iter().copied().fold(0.0, f64::max);
+    assert!(largest > 0.0 && sum.iter().zip(&whole).all(|(sum, value)| (sum - value).abs() <= 1e-12 * largest));
+    let preview = core.render(&name, 0, 300, 2).unwrap().take_values();
+    assert_eq!(preview.len(), 400 * 300);
+}
+
+#[test]
 fn statistics_and_isophotes_are_those_of_the_frame() {
     let (mut core, prepared, _) = loaded(Starter::Lab);
     let mut band = core.render("brightness", 0, 600, 1).unwrap();

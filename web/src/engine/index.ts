@@ -134,6 +134,10 @@ class WorkerEngine implements Engine {
     return this.#whole(this.#ofLong(), { kind: 'render', scene: this.#text(scene), channel, first: 0, count, step: 1 });
   }
 
+  thumbnail(scene: SceneSource, channel: string): Promise<Frame> {
+    return this.#whole(this.#ofMaps(), { kind: 'thumbnail', scene: this.#text(scene), channel });
+  }
+
   surface(scene: SceneSource, request: SurfaceRequest, channel: string): Promise<Frame> {
     return this.#whole(this.#ofMaps(), { kind: 'surface', scene: this.#text(scene), request, channel });
   }

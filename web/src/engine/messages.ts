@@ -20,6 +20,7 @@ export type Question =
   | { kind: 'check'; text: string }
   | { kind: 'colormap'; name: Colormap }
   | ({ kind: 'render'; channel: string; first: number; count: number; step: number } & OfScene)
+  | ({ kind: 'thumbnail'; channel: string } & OfScene)
   | ({ kind: 'surface'; request: SurfaceRequest; channel: string } & OfScene)
   | ({ kind: 'grid'; grid: string; channel: string } & OfScene)
   | ({

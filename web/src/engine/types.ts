@@ -323,13 +323,15 @@ export interface Engine {
   explain(scene: SceneSource, request: ProbeRequest): Promise<Explanation>;
   section(scene: SceneSource, lines: SectionRequest[], channels: string[]): Promise<Section[]>;
   areas(scene: SceneSource): Promise<AreaReading[]>;
+  /** A small map: at most 200 pixels wide and high, of the same window. */
+  thumbnail(scene: SceneSource, channel: string): Promise<Frame>;
   surface(scene: SceneSource, request: SurfaceRequest, channel: string): Promise<Frame>;
   grid(scene: SceneSource, name: string, channel: string): Promise<Frame>;
   /** 256 colours, three bytes each. */
   colormap(name: Colormap): Promise<Uint8Array>;
   export(scene: SceneSource, request: ExportRequest): Promise<Uint8Array>;
   /** Nobody waits for the answer any more: what takes long is stopped. */
-  abandon(kind: 'render' | 'section' | 'explain' | 'areas' | 'surface' | 'grid'): void;
+  abandon(kind: 'render' | 'section' | 'explain' | 'areas' | 'surface' | 'grid' | 'thumbnail'): void;
   /** The version of the core. */
   version: string;
 }

@@ -39,6 +39,8 @@ function answer(question: Question): { value: unknown; transfer: Transferable[] 
     }
     case 'render':
       return band(core.render(question.channel, question.first, question.count, question.step));
+    case 'thumbnail':
+      return band(core.thumbnail(question.channel));
     case 'surface':
       return band(core.surface(JSON.stringify(question.request), question.channel));
     case 'grid':
