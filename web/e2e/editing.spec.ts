@@ -103,6 +103,9 @@ test('shapes and lamps are moved on the picture: by drags, which are a step of u
   expect(moved.center[0]).toBeCloseTo(0.5, 1);
   expect(moved.center[1]).toBeCloseTo(0.25, 1);
   expect(moved.center[2]).toBe(5);
+  // The points on it went along, and the picture followed.
+  await expect(page.getByRole('status').locator('.mistakes')).toHaveCount(0);
+  await expect(page.getByRole('textbox', { name: 'x of P1' })).toHaveValue(`${moved.center[0]}`);
   // The numbers follow.
   await page.getByRole('region', { name: 'Fields' }).getByRole('button', { name: 'ball', exact: false }).first().waitFor();
   await expect(page.getByRole('group', { name: 'Centre, m' }).getByRole('textbox').first()).toHaveValue(

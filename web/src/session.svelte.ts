@@ -93,6 +93,11 @@ export class Session {
     this.notice = fill(kind === 'lost' ? lost : failed, { why: reasonOf(error) });
   }
 
+  /** The shapes that the scene's probes are on, by name; of those that are on none, undefined. */
+  get probedShapes(): (string | undefined)[] {
+    return this.probed.map(({ reading }) => reading?.shape);
+  }
+
   /** The problems of an item: of its keys as well, so "sphere[0]" has those of "sphere[0].radius". */
   problemsAt(path: string): Problem[] {
     return this.problems.filter(

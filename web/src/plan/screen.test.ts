@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import type { SceneInfo, Vec2, Vec3 } from '../engine/types';
 import type { SceneSource } from '../scene/model';
 import { add, dot, scale, subtract } from '../scene/vector';
+import { carrying } from './carry';
 import { pictureHandlesOf } from './handles';
 import { ScreenPlane } from './screen';
 
@@ -108,5 +109,34 @@ describe('handles on the picture', () => {
     expect(after('sphere[0].radius', [0, 9, 2.5]).sphere![0]!.radius).toBe(2.5);
     expect(after('cylinder[0]', [1, 1.5, 0]).cylinder![0]).toMatchObject({ from: [1, 0.5, 0], to: [1, 2.5, 0] });
     expect(after('light[0].position', [4, 5, 6]).light![0]!.position).toEqual([4, 5, 6]);
+  });
+});
+
+describe('probes on what is moved', () => {
+  const scene: SceneSource = {
+    version: 1,
+    length: 'm',
+    camera: {},
+    sphere: [{ name: 'ball', center: [0, 0, 5], radius: 2 }],
+    light: [{ name: 'lamp', position: [1, 2, 3], intensity: 1 }],
+    probe: [{ at: [0, 0, 3] }, { at: [9, 9, 9] }],
+  };
+  const carried = (key: string, to: Vec3): Vec3[] => {
+    const handle = pictureHandlesOf(scene, [1, 0, 0]).find((one) => one.key === key)!;
+    const draft = structuredClone(scene);
+    carrying(scene, ['ball', 'floor'], handle)(draft, to);
+    return draft.probe!.map(({ at }) => at);
+  };
+
+  it('go along with it, and with its surface', () => {
+    expect(carried('sphere[0]', [1, 0.5, 5])).toEqual([
+      [1, 0.5, 3],
+      [9, 9, 9],
+    ]);
+    expect(carried('sphere[0].radius', [1, 0, 5])).toEqual([
+      [0, 0, 4],
+      [9, 9, 9],
+    ]);
+    expect(carried('light[0].position', [0, 0, 0])).toEqual(scene.probe!.map(({ at }) => at));
   });
 });
