@@ -3,7 +3,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Page } from '@playwright/test';
-import { command, expect, folder, open, picture, saved, test } from './page';
+import { choose, command, expect, folder, open, picture, saved, test } from './page';
 
 const PRESETS = ['lab', 'course-sphere', 'course-plane', 'two-lights', 'sun', 'room', 'photometric', 'course'];
 
@@ -93,4 +93,42 @@ test('each light alone is a small picture, and the examples say what they are', 
 test('as many pixels are lit as the command says', async ({ page }) => {
   await open(page);
   await expect(page.getByRole('tabpanel')).toContainText('Of them lit: 32059.');
+});
+
+test('a scene with colours is shown in them or by its luminance, and saved as it is shown', async ({ page }) => {
+  await open(page);
+  await choose(
+    page,
+    'color.toml',
+    readFileSync('../scenes/color.toml', 'utf8').replace(/^tolerance = .*$/m, 'samples = 1'),
+  );
+  await picture(page);
+  const colors = () =>
+    page.locator('.plot canvas').evaluate((canvas: HTMLCanvasElement) => {
+      const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true })!;
+      copy.drawImage(canvas, 0, 0);
+      const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let at = 0; at < data.length; at += 4) if (data[at]! > data[at + 1]! + 20) count += 1;
+      return count;
+    });
+  expect(await colors()).toBe(0);
+  await page.getByRole('combobox', { name: 'Colours' }).selectOption('as seen, in colour');
+  await picture(page);
+  await expect.poll(colors).toBeGreaterThan(1000);
+
+  const scene = join(folder(), 'scene.toml');
+  writeFileSync(scene, await saved(page, 'Scene (TOML)'));
+  const out = join(folder(), 'picture.png');
+  command('render', scene, '--channel', 'color', '--json', '--quiet', '-o', out);
+  const [found, expected] = [
+    await levels(page, await saved(page, 'Picture, 0–255 (PNG)')),
+    await levels(page, readFileSync(out)),
+  ];
+  expect(found.length).toBe(expected.length);
+  expect(found.every((level, index) => Math.abs(level - expected[index]!) <= 1)).toBe(true);
+
+  await page.getByRole('combobox', { name: 'Colours' }).selectOption('viridis');
+  await picture(page);
+  expect((await saved(page, 'Figure with axes and isophotes (SVG)')).toString()).toContain('brightness');
 });

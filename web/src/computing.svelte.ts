@@ -2,7 +2,7 @@
  * newest scene only. */
 
 import { untrack } from 'svelte';
-import { EngineError, type Engine, type ProbeRequest, type SectionRequest } from './engine/types';
+import { EngineError, type Engine, type PictureStyle, type ProbeRequest, type SectionRequest } from './engine/types';
 import { Latest } from './latest';
 import type { SceneSource } from './scene/model';
 import type { Session } from './session.svelte';
@@ -62,6 +62,13 @@ export function keepComputing(session: Session): void {
     session.analysis = analysis;
   }, 'render');
 
+  const coloring = latest(async ({ scene, style }: { scene: SceneSource; style: PictureStyle }) => {
+    const png = await engine.export(scene, { kind: 'png', channel: 'color', style });
+    const bitmap = await createImageBitmap(new Blob([png as BlobPart], { type: 'image/png' }));
+    session.colored?.bitmap.close();
+    session.colored = { scene, bitmap };
+  });
+
   const probing = latest(async (scene: SceneSource) => {
     session.probed = await engine.probe(scene, probesOf(scene));
   });
@@ -99,6 +106,11 @@ export function keepComputing(session: Session): void {
     const known = info.channels.includes(session.channel) ? session.channel : 'brightness';
     const coarse = session.dragging && lastFull > SLOW;
     rendering.take({ scene, channel: known, isophotes: session.style.isophotes, coarse });
+  });
+
+  $effect(() => {
+    const { good: scene, isColored, dragging, shown } = session;
+    if (scene && isColored && !dragging) coloring.take({ scene, style: shown.style });
   });
 
   $effect(() => {

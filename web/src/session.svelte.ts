@@ -55,6 +55,10 @@ export class Session {
   /** The channel that the picture shows. */
   channel = $state('brightness');
   style = $state<PictureStyle>({ colormap: 'gray', range: null, normalization: 'max', isophotes: 8 });
+  /** Whether a scene with colours is shown in them, where its brightness is shown; otherwise by its luminance. */
+  inColor = $state(false);
+  /** The picture in colours, and the scene that it is of. */
+  colored = $state.raw<{ scene: SceneSource; bitmap: ImageBitmap } | null>(null);
   /** Lines whose sections are plotted, and the channels plotted. */
   lines = $state.raw<SectionRequest[]>([]);
   sectionChannels = $state.raw<string[]>(['brightness']);
@@ -79,6 +83,19 @@ export class Session {
 
   get scene(): SceneSource {
     return this.store.scene;
+  }
+
+  /** Whether the picture is one in colours. */
+  get isColored(): boolean {
+    return this.inColor && this.channel === 'brightness' && (this.info?.hasColors ?? false);
+  }
+
+  /** What a picture as it is shown is made of. Colours have neither a colour map nor a normalisation of their own. */
+  get shown(): { channel: string; style: PictureStyle } {
+    // A copy without the page's reactivity: it goes to a worker.
+    const style = $state.snapshot(this.style);
+    if (!this.isColored) return { channel: this.channel, style };
+    return { channel: 'color', style: { ...style, colormap: 'gray', normalization: 'max' } };
   }
 
   say(notice: string | null): void {

@@ -34,6 +34,7 @@ export const en = {
       turbo: 'turbo',
       batlow: 'batlow',
     },
+    inColor: 'as seen, in colour',
     normalization: 'Black and white',
     normalizations: {
       max: '0 to maximum',
@@ -295,6 +296,7 @@ export const ru: typeof en = {
       turbo: 'turbo',
       batlow: 'batlow',
     },
+    inColor: 'как видно, в цвете',
     normalization: 'Нормировка',
     normalizations: {
       max: 'от 0 до максимума',
