@@ -132,3 +132,38 @@ test('a scene with colours is shown in them or by its luminance, and saved as it
   await picture(page);
   expect((await saved(page, 'Figure with axes and isophotes (SVG)')).toString()).toContain('brightness');
 });
+
+test('a scene is opened together with the mesh that it names', async ({ page }) => {
+  await open(page);
+  const [chooser] = await Promise.all([
+    page.waitForEvent('filechooser'),
+    page.getByRole('button', { name: 'Open…' }).click(),
+  ]);
+  await chooser.setFiles(['../scenes/meshes/vase.obj', '../scenes/mesh.toml']);
+  await expect(page.getByRole('status').getByText('stay in this page only')).toBeVisible();
+  await picture(page);
+  await expect(page.getByRole('region', { name: 'Fields' }).getByRole('button', { name: 'vase mesh' })).toBeVisible();
+  const out = join(folder(), 'picture.png');
+  command('render', '../scenes/mesh.toml', '--json', '--quiet', '-o', out);
+  const [found, expected] = [
+    await levels(page, await saved(page, 'Picture, 0–255 (PNG)')),
+    await levels(page, readFileSync(out)),
+  ];
+  expect(found.length).toBe(expected.length);
+  expect(found.every((level, index) => Math.abs(level - expected[index]!) <= 1)).toBe(true);
+
+  // The mesh alone is no scene, and nothing is lost.
+  const [again] = await Promise.all([
+    page.waitForEvent('filechooser'),
+    page.getByRole('button', { name: 'Open…' }).click(),
+  ]);
+  await again.setFiles(['../scenes/meshes/vase.obj', '../scenes/points/spiral.csv']);
+  await expect(page.getByRole('status').getByText('There is no scene among these files')).toBeVisible();
+  await page.getByRole('button', { name: 'Link', exact: true }).click();
+  await expect(page.getByRole('status').getByText('stay in this page only')).toBeVisible();
+
+  // The next visit is without the mesh, says so, and keeps the rest.
+  await page.reload();
+  await expect(page.getByRole('status').getByText('open the scene file together with them')).toBeVisible();
+  await expect(page.getByRole('region', { name: 'Fields' }).getByRole('button', { name: 'table disk' })).toBeVisible();
+});

@@ -15,6 +15,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::answers::{AreaAnswer, Explanation, Probed, refusal};
 use crate::export::export;
+use crate::files::PageFiles;
 use crate::frame::{Analysis, Band, render, rows};
 use crate::info::SceneInfo;
 use crate::problem::{ProblemAnswer, Refusal, json, told};
@@ -32,6 +33,8 @@ const THUMBNAIL: u32 = 200;
 #[derive(Default)]
 pub struct Core {
     language: Language,
+    /// The files that scenes name, which the page has handed in.
+    files: PageFiles,
     /// The last valid scene that was loaded.
     scene: Option<PreparedScene>,
     /// The same at half its resolution, for previews.
@@ -73,6 +76,11 @@ impl Core {
         Ok(())
     }
 
+    /// Takes the content of a file that scenes name; it stays as long as this core does.
+    pub fn add_file(&mut self, name: &str, content: Vec<u8>) {
+        self.files.insert(name, content);
+    }
+
     /// Reads a text, which is `toml` or `json`.
     ///
     /// # Errors
@@ -86,7 +94,7 @@ impl Core {
                 return told(Err(refusal), self.language);
             }
         };
-        let (source, problems) = match Scene::from_text("", text, syntax) {
+        let (source, problems) = match Scene::from_text_with(&self.files, None, "", text, syntax) {
             Ok(scene) => (scene.source().clone(), ProblemAnswer::all(scene.warnings(), self.language)),
             Err(error) => {
                 (SceneSource::readable_part(text, syntax), ProblemAnswer::all(&error.problems, self.language))
@@ -125,7 +133,8 @@ impl Core {
         let checked = |info: Option<SceneInfo>, problems: &[Problem]| {
             told(json(&Checked { info, problems: ProblemAnswer::all(problems, language) }), language)
         };
-        match Scene::from_text("", scene, Syntax::Json) {
+        let earlier = self.scene.as_ref().map(PreparedScene::scene);
+        match Scene::from_text_with(&self.files, earlier, "", scene, Syntax::Json) {
             Err(SceneError { problems, .. }) => checked(None, &problems),
             Ok(scene) => {
                 let prepared = match &self.scene {
@@ -330,7 +339,7 @@ impl Core {
         let light = index.filter(|index| *index < source.light.len()).map(|index| source.light.swap_remove(index));
         source.light = light.into_iter().collect();
         source.ambient = None;
-        let alone = Scene::from_text("", &json(&source)?, Syntax::Json)
+        let alone = Scene::from_text_with(&self.files, Some(prepared.scene()), "", &json(&source)?, Syntax::Json)
             .map_err(|error| Refusal(Message::verbatim(error.to_string())))?;
         Ok(PreparedScene::reusing(prepared, &alone))
     }

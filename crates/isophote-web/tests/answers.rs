@@ -295,3 +295,21 @@ fn of_thousands_of_lamps_the_page_is_told_of_the_first_ones_and_of_their_sum() {
     let value = |answer: &Value| answer["reading"]["brightness"].as_f64().unwrap();
     assert!((value(&many) / value(&few) - 1000.0).abs() < 1e-9, "{} {}", value(&many), value(&few));
 }
+
+#[test]
+fn a_scene_finds_the_files_that_were_handed_in() {
+    let text = "version = 1\nlength = \"m\"\nconvention = \"irradiance\"\n[camera]\neye = [0, 0, 5]\n\
+        field_of_view = 40\nresolution = [40, 30]\n[[mesh]]\nname = \"leaf\"\nfile = \"parts/leaf.obj\"\n\
+        [[light]]\nposition = [0, 0, 5]\nintensity = 1\n";
+    let mut core = Core::new();
+    let read = parsed(&core.read(text, "toml").unwrap());
+    assert_eq!(read["problems"][0]["path"], "mesh[0].file");
+    core.add_file("parts/leaf.obj", b"v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n".to_vec());
+    let read = parsed(&core.read(text, "toml").unwrap());
+    assert_eq!(read["problems"], json!([]));
+    let checked = parsed(&core.load(&read["scene"].to_string()).unwrap());
+    assert_eq!(checked["info"]["shapes"][0]["kind"], "mesh");
+    let shapes = core.render("brightness", 0, 30, 1).unwrap().take_shapes();
+    assert!(shapes.contains(&0) && shapes.contains(&-1));
+    assert!(core.thumbnail("brightness").unwrap().take_shapes().contains(&0));
+}

@@ -33,6 +33,7 @@ class WorkerEngine implements Engine {
   readonly #answering: CoreClient;
   readonly #rendering: CoreClient[];
   readonly #module: CoreModule;
+  readonly #files = new Map<string, Uint8Array>();
   /** Started when they are needed. */
   #maps: CoreClient | null = null;
   #long: CoreClient | null = null;
@@ -42,8 +43,8 @@ class WorkerEngine implements Engine {
   constructor(module: CoreModule, workers: number, language: Language) {
     this.#language = language;
     this.#module = module;
-    this.#answering = new CoreClient(module, language);
-    this.#rendering = Array.from({ length: workers }, () => new CoreClient(module, language));
+    this.#answering = new CoreClient(module, language, this.#files);
+    this.#rendering = Array.from({ length: workers }, () => new CoreClient(module, language, this.#files));
   }
 
   /** Waits for the first core. */
@@ -65,11 +66,11 @@ class WorkerEngine implements Engine {
   }
 
   #ofMaps(): CoreClient {
-    return (this.#maps ??= new CoreClient(this.#module, this.#language));
+    return (this.#maps ??= new CoreClient(this.#module, this.#language, this.#files));
   }
 
   #ofLong(): CoreClient {
-    return (this.#long ??= new CoreClient(this.#module, this.#language));
+    return (this.#long ??= new CoreClient(this.#module, this.#language, this.#files));
   }
 
   abandon(kind: Question['kind']): void {
@@ -77,6 +78,11 @@ class WorkerEngine implements Engine {
     for (const client of kind === 'render' ? this.#rendering : [this.#maps, this.#long]) {
       client?.abandon((question) => question.kind === kind);
     }
+  }
+
+  async addFile(name: string, content: Uint8Array): Promise<void> {
+    this.#files.set(name, content);
+    await Promise.all(this.#clients.map((client) => client.ask({ kind: 'file', name, content })));
   }
 
   read(text: string, syntax: 'toml' | 'json'): Promise<ReadScene> {

@@ -14,6 +14,7 @@ interface OfScene {
 export type Question =
   | { kind: 'start'; module: CoreModule }
   | { kind: 'language'; language: Language }
+  | { kind: 'file'; name: string; content: Uint8Array }
   | { kind: 'read'; text: string; syntax: 'toml' | 'json' }
   | { kind: 'starter'; name: string }
   | { kind: 'toml'; text: string }

@@ -19,6 +19,8 @@ export class CoreClient {
   #worker: Worker;
   #module: CoreModule;
   #language: Language;
+  /** The files that a core is given when it starts, by name. */
+  readonly #files: ReadonlyMap<string, Uint8Array>;
   #queue: Waiting[] = [];
   #current: (Waiting & { id: number; since: number }) | null = null;
   #next = 0;
@@ -29,7 +31,8 @@ export class CoreClient {
   #tellStarted!: (version: string) => void;
   #tellFailed!: (error: Error) => void;
 
-  constructor(module: CoreModule, language: Language) {
+  constructor(module: CoreModule, language: Language, files: ReadonlyMap<string, Uint8Array>) {
+    this.#files = files;
     this.#module = module;
     this.#language = language;
     this.started = new Promise((resolve, reject) => {
@@ -92,12 +95,9 @@ export class CoreClient {
       resolve: (version) => this.#tellStarted(version as string),
       reject: this.#tellFailed,
     };
-    this.#queue.unshift(start, {
-      question: { kind: 'language', language: this.#language },
-      transfer: [],
-      resolve: () => {},
-      reject: () => {},
-    });
+    const told = (question: Question): Waiting => ({ question, transfer: [], resolve: () => {}, reject: () => {} });
+    const files = [...this.#files].map(([name, content]) => told({ kind: 'file', name, content }));
+    this.#queue.unshift(start, told({ kind: 'language', language: this.#language }), ...files);
     // The first message is sent once the field #worker is set.
     queueMicrotask(() => this.#send());
     return worker;

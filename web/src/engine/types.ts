@@ -307,6 +307,8 @@ export type ExportRequest =
 export interface Engine {
   /** The language of messages and explanations. */
   language: Language;
+  /** A file that scenes name. It is kept until the page is left. */
+  addFile(name: string, content: Uint8Array): Promise<void>;
   read(text: string, syntax: 'toml' | 'json'): Promise<ReadScene>;
   /** A starter scene, as text with its comments in the engine's language. */
   starter(name: string): Promise<string>;

@@ -26,6 +26,11 @@ function answer(question: Question): { value: unknown; transfer: Transferable[] 
     case 'language':
       core.set_language(question.language);
       return { value: null, transfer: [] };
+    case 'file':
+      core.add_file(question.name, question.content);
+      // What a scene says may be another one with it.
+      loaded = '';
+      return { value: null, transfer: [] };
     case 'read':
       return { value: JSON.parse(core.read(question.text, question.syntax)), transfer: [] };
     case 'starter':

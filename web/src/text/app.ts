@@ -7,7 +7,8 @@ export const en = {
   presets: 'Examples',
   choosePreset: 'Choose an example…',
   open: 'Open…',
-  openHint: 'Open a scene file (TOML or JSON); it can also be dropped anywhere on the page',
+  openHint:
+    'Open a scene file (TOML or JSON), together with the meshes or clouds that it names; they can also be dropped on the page',
   save: 'Save',
   share: 'Link',
   report: 'Report',
@@ -41,6 +42,10 @@ export const en = {
   opening: 'Opening {name}…',
   fileBroken: 'This file holds no scene that can be read.',
   fileTooLarge: 'This file is larger than 64 MiB, the limit for scene files.',
+  noSceneAmong:
+    'There is no scene among these files: choose the scene file (TOML or JSON) together with the files that it names.',
+  openTogether: 'Shapes of this scene come from files: open the scene file together with them.',
+  filesStay: 'The files that the scene names stay in this page only: a link or the next visit does not have them.',
   fileProblems: 'The file was opened with problems:',
   notKept: {
     full: 'The browser has no room to keep the scene for the next visit: save it as a file.',
@@ -118,7 +123,8 @@ export const ru: typeof en = {
   presets: 'Примеры',
   choosePreset: 'Выберите пример…',
   open: 'Открыть…',
-  openHint: 'Открыть файл сцены (TOML или JSON); его можно и перетащить на страницу',
+  openHint:
+    'Открыть файл сцены (TOML или JSON) вместе с файлами сеток и облаков, которые в ней названы; файлы можно и перетащить на страницу',
   save: 'Сохранить',
   share: 'Ссылка',
   report: 'Отчёт',
@@ -152,6 +158,10 @@ export const ru: typeof en = {
   opening: 'Открываю {name}…',
   fileBroken: 'В этом файле нет сцены, которую можно прочесть.',
   fileTooLarge: 'Файл больше 64 МиБ — предела для файлов сцен.',
+  noSceneAmong: 'Среди этих файлов нет сцены: выберите файл сцены (TOML или JSON) вместе с файлами, которые в ней названы.',
+  openTogether: 'Часть фигур этой сцены хранится в файлах: откройте файл сцены вместе с ними.',
+  filesStay:
+    'Файлы, названные в сцене, хранятся только на этой странице: ни в ссылке, ни при следующем посещении их не будет.',
   fileProblems: 'Файл открыт, но в нём есть ошибки:',
   notKept: {
     full: 'В памяти браузера нет места, чтобы сохранить сцену до следующего раза: сохраните её в файл.',
