@@ -11,6 +11,7 @@ use isophote::scene::SceneError;
 use isophote::text::{Language, Message, escaped};
 use isophote_export::ExportError;
 use isophote_export::figure::FigureError;
+use isophote_zarr::StoreError;
 
 /// Invalid arguments, for this scene or in general: exit code 2.
 #[derive(Debug)]
@@ -112,6 +113,7 @@ fn message_of(error: &anyhow::Error) -> Option<Message> {
         .or_else(|| error.downcast_ref().map(FigureError::message))
         .or_else(|| error.downcast_ref().map(IsophoteError::message))
         .or_else(|| error.downcast_ref().map(MapError::message))
+        .or_else(|| error.downcast_ref().map(StoreError::message))
 }
 
 /// Writes a line to standard error, with control characters escaped.
