@@ -195,8 +195,12 @@ fn explained(error: StoreError) -> Error {
             let advice = message!("isophote render with --resume computes what is missing or damaged");
             Failed(message!("{first}; {second}", first = error.message(), second = advice)).into()
         }
-        StoreError::TooManyShards { .. } => Usage(message!("--shard-side: {error}", error = error.message())).into(),
-        StoreError::Memory { .. } => Usage(message!("--memory: {error}", error = error.message())).into(),
+        StoreError::TooManyShards { .. } => {
+            Usage(message!("{option}: {error}", option = "--shard-side", error = error.message())).into()
+        }
+        StoreError::Memory { .. } => {
+            Usage(message!("{option}: {error}", option = "--memory", error = error.message())).into()
+        }
         _ => error.into(),
     }
 }

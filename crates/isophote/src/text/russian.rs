@@ -95,7 +95,6 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
         "--gamma does not go with the channel `color`, which is shown with sRGB's; put -c brightness first",
         "`--gamma` несовместимо с каналом `color`: у него гамма sRGB; поставьте первым `-c brightness`",
     ),
-    ("--memory: {error}", "--memory: {error}"),
     (
         "--normalize does not go with the channel `color`, whose components share one scale from 0 to the largest; put -c brightness first",
         "`--normalize` несовместимо с каналом `color`: у его составляющих общая шкала от 0 до наибольшего значения; поставьте первым `-c brightness`",
@@ -114,7 +113,6 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
         "`--samples` несовместимо с `--row` и `--column`: там по точке на каждый пиксель",
     ),
     ("--samples or --tolerance", "`--samples` или `--tolerance`"),
-    ("--shard-side: {error}", "--shard-side: {error}"),
     (
         "--side goes with a grid of the command line: --center, --u, --v, --points",
         "`--side` относится к сетке точек, заданной в команде: `--center`, `--u`, `--v`, `--points`",
@@ -662,7 +660,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
     ),
     (
         "isophote render with --resume computes what is missing or damaged",
-        "`isophote render` с --resume досчитает то, чего нет или что повреждено",
+        "`isophote render` с `--resume` досчитает то, чего нет или что повреждено",
     ),
     ("isotropic", "изотропный"),
     ("it describes the scene", "в нём описана сцена"),
@@ -1420,6 +1418,7 @@ pub(super) const TEMPLATES: &[(&str, &str)] = &[
         "{option} ни на что не влияет: файл не записывается ({file})",
     ),
     ("{option} needs -o NAME.zarr", "для {option} нужно `-o NAME.zarr`"),
+    ("{option}: {error}", "{option}: {error}"),
     ("{other} has {count}", "в {other} — {count}"),
     ("{path} exists; --force overwrites it", "{path} уже есть; перезаписать: `--force`"),
     ("{path} would be written twice", "{path} был бы записан дважды"),
