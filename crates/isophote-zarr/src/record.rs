@@ -117,10 +117,7 @@ impl Record {
             let found = crc32c::crc32c(&bytes);
             let expected = stored.crc32c;
             let reason = if found == expected {
-                array
-                    .check(&bytes)
-                    .err()
-                    .map(|reason| message!("cannot be decoded: {reason}", reason = reason.to_string()))
+                array.check(&bytes).err().map(|reason| message!("cannot be decoded: {reason}", reason))
             } else {
                 Some(message!(
                     "has the checksum {found} in place of {expected}",

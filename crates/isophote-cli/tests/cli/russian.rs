@@ -45,7 +45,7 @@ fn wrong_arguments_in_russian() {
 fn errors_of_files_and_stores_in_russian() {
     let folder = Folder::with("lab.toml", LAB);
     let refused = |arguments: &str, expected: &str| {
-        let told = folder.run(&format!("{arguments} --lang ru --quiet")).stderr;
+        let told = folder.run(&format!("{arguments} --lang ru")).stderr;
         assert!(told.contains(expected), "{arguments}: {told}");
     };
     refused("render lab.toml -o none/map.csv", "не записать «none/map.csv»: папки «none» нет");
