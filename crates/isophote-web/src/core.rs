@@ -7,7 +7,7 @@ use isophote::prepare::PreparedScene;
 use isophote::scene::library::Starter;
 use isophote::scene::{Problem, Scene, SceneError, SceneSource, Syntax};
 use isophote::shape::{Primitive, Side};
-use isophote::text::{Language, Message};
+use isophote::text::Language;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use wasm_bindgen::JsValue;
@@ -293,15 +293,6 @@ impl Core {
 
     fn rendered(&mut self, name: &str, [first, count, step]: [u32; 3]) -> Result<Band, Refusal> {
         let quantity = channel(name, self.scene()?.scene())?;
-        if let (2, Quantity::LightBrightness(light)) = (step, &quantity) {
-            let alone = self.alone(light)?.at_resolution(half_of(self.scene()?.scene().camera().resolution));
-            let region = rows(alone.scene().camera().resolution, first, count);
-            return Band::called(
-                &quantity,
-                render(&alone, vec![Quantity::Brightness], Some(region))?,
-                &Quantity::Brightness,
-            );
-        }
         let prepared = if step == 2 { self.half()? } else { self.scene()? };
         let region = rows(prepared.scene().camera().resolution, first, count);
         let mut quantities = vec![quantity.clone()];
@@ -319,29 +310,11 @@ impl Core {
     fn small_map(&mut self, name: &str) -> Result<Band, Refusal> {
         let quantity = channel(name, self.scene()?.scene())?;
         let size = small(self.scene()?.scene().camera().resolution);
-        if let Quantity::LightBrightness(light) = &quantity {
-            let map = render(&self.alone(light)?.at_resolution(size), vec![Quantity::Brightness], None)?;
-            return Band::called(&quantity, map, &Quantity::Brightness);
-        }
         if self.small.is_none() {
             self.small = Some(self.scene()?.at_resolution(size));
         }
         let prepared = self.small.as_ref().ok_or_else(|| Refusal(message!("no scene was loaded")))?;
         Band::of(render(prepared, vec![quantity.clone()], None)?, &quantity)
-    }
-
-    /// The scene with one of its lights alone, and without ambient light. The renderer makes such a scene from the text of the scene,
-    /// so that its resolution is not that of a preview.
-    fn alone(&self, name: &str) -> Result<PreparedScene, Refusal> {
-        let prepared = self.scene()?;
-        let mut source = prepared.scene().source().clone();
-        let index = prepared.scene().light_named(name);
-        let light = index.filter(|index| *index < source.light.len()).map(|index| source.light.swap_remove(index));
-        source.light = light.into_iter().collect();
-        source.ambient = None;
-        let alone = Scene::from_text_with(&self.files, Some(prepared.scene()), "", &json(&source)?, Syntax::Json)
-            .map_err(|error| Refusal(Message::verbatim(error.to_string())))?;
-        Ok(PreparedScene::reusing(prepared, &alone))
     }
 
     fn half(&mut self) -> Result<&PreparedScene, Refusal> {

@@ -67,18 +67,13 @@ struct AxisAnswer {
 
 impl Band {
     /// A channel of a map.
-    pub(crate) fn of(map: Map, quantity: &Quantity) -> Result<Self, Refusal> {
-        Self::called(quantity, map, quantity)
-    }
-
-    /// A channel of a map under another name.
-    pub(crate) fn called(name: &Quantity, mut map: Map, quantity: &Quantity) -> Result<Self, Refusal> {
+    pub(crate) fn of(mut map: Map, quantity: &Quantity) -> Result<Self, Refusal> {
         let (shapes, lit) = (map.mask().shapes(), counts(&map).lit);
         let Map { full, region, window, .. } = map;
         let axes = window.coordinates.axes(window.length);
         let unit = map.channel(quantity).map_or_else(String::new, |channel| channel.unit.clone());
         let head = json(&BandHead {
-            channel: name.name(),
+            channel: quantity.name(),
             unit,
             width: region.size.width,
             height: region.size.height,

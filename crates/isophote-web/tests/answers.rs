@@ -298,8 +298,9 @@ fn of_thousands_of_lamps_the_page_is_told_of_the_first_ones_and_of_their_sum() {
 
 #[test]
 fn a_scene_finds_the_files_that_were_handed_in() {
-    let text = "version = 1\nlength = \"m\"\nconvention = \"irradiance\"\n[camera]\neye = [0, 0, 5]\n\
-        field_of_view = 40\nresolution = [40, 30]\n[[mesh]]\nname = \"leaf\"\nfile = \"parts/leaf.obj\"\n\
+    let text = "version = 1\nlength = \"m\"\nconvention = \"irradiance\"\n[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\n\
+        field_of_view = 40\nresolution = [40, 30]\n[material.paper]\ndiffuse = 0.7\n\
+        [[mesh]]\nname = \"leaf\"\nmaterial = \"paper\"\nfile = \"parts/leaf.obj\"\n\
         [[light]]\nposition = [0, 0, 5]\nintensity = 1\n";
     let mut core = Core::new();
     let read = parsed(&core.read(text, "toml").unwrap());

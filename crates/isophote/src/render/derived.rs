@@ -35,7 +35,8 @@ pub fn render(
     let observer = settings.observer.map(Uncounted);
     for (name, light) in lights {
         let alone = scene.scene().with_one_light(light).expect("a part of a valid scene is valid");
-        let alone = PreparedScene::reusing(scene, &alone);
+        // The source does not know of another resolution.
+        let alone = PreparedScene::reusing(scene, &alone).at_resolution(scene.scene().camera().resolution);
         let observer = observer.as_ref().map(|observer| -> &dyn Observer { observer });
         let of_light = RenderSettings { region: settings.region, quantities: vec![Quantity::Brightness], observer };
         let values = render(&alone, &of_light)?.channels.swap_remove(0).values;
@@ -135,5 +136,33 @@ fn vectors<'m>(map: &'m Map, quantity: &Quantity) -> &'m [[f64; 3]] {
     match map.channel(quantity).map(|channel| &channel.values) {
         Some(Values::Vector(values)) => values,
         _ => unreachable!("it was asked for, and is a vector"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::map::{Quantity, Resolution};
+    use crate::prepare::PreparedScene;
+    use crate::render::{ReferenceRenderer, RenderSettings, Renderer};
+    use crate::scene::{Scene, Syntax};
+
+    /// The brightness by single lights adds up to the whole, also with another resolution than the scene says.
+    #[test]
+    fn single_lights_have_the_resolution_of_the_scene_that_is_rendered() {
+        let text = include_str!("../../../../scenes/two-lights.toml");
+        let scene = Scene::from_text("two-lights", text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}"));
+        let small = PreparedScene::new(&scene).at_resolution(Resolution { width: 24, height: 18 });
+        let of_lights: Vec<Quantity> =
+            scene.lights().iter().map(|light| Quantity::LightBrightness(light.name.clone())).collect();
+        let quantities = of_lights.iter().cloned().chain([Quantity::Brightness]).collect();
+        let settings = RenderSettings { quantities, ..RenderSettings::default() };
+        let map = ReferenceRenderer.render(&small, &settings).unwrap_or_else(|error| panic!("{error}"));
+        let whole = map.scalar(&Quantity::Brightness).expect("it was asked for");
+        let lights: Vec<_> = of_lights.iter().map(|light| map.scalar(light).expect("it was asked for")).collect();
+        for index in map.mask().indices() {
+            let sum: f64 = lights.iter().map(|light| light.at(index)).sum();
+            assert!((sum - whole.at(index)).abs() <= 1e-12 * whole.at(index), "{index}: {sum}");
+        }
+        assert!(map.mask().visible() > 50);
     }
 }

@@ -9,14 +9,17 @@ use crate::lanes::Lane;
 use crate::prepare::{Blocks, ERROR_OF_DISTANCE, PreparedScene};
 use crate::ray::Ray;
 
+/// A ray, and its length if it ends.
+pub type ShadowRay = (Ray, Option<f64>);
+
 /// The rays that are blocked, as bits.
 pub struct Blocked<'a> {
     /// The scene.
     pub scene: &'a PreparedScene,
     /// The number of the primitive that each ray belongs to, which does not block it.
     pub own: &'a [u32; RAYS],
-    /// A ray, and its length if it ends.
-    pub ray: &'a dyn Fn(&RayPacket, usize) -> Option<(Ray, Option<f64>)>,
+    /// Each of the packet's rays.
+    pub ray: &'a dyn Fn(&RayPacket, usize) -> Option<ShadowRay>,
     /// Those that are certainly blocked.
     pub surely: u64,
     /// Those that may be.

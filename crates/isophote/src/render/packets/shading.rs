@@ -1,6 +1,7 @@
 //! The light that reaches the points of a packet, and their brightness.
 
 use super::ambient::AmbientLight;
+use super::blocked::ShadowRay;
 use super::rays::{RAYS, RayPacket, Vectors};
 use super::{Blocked, Find, Hits, Packets, Place, bits, set_bits};
 use crate::accelerate::Walk;
@@ -274,7 +275,7 @@ impl<'a> Shader<'a> {
             let mut maybe = in_use & special;
             let in_use = in_use & !special;
             if in_use != 0 {
-                let ray = |_: &RayPacket, ray: usize| -> Option<(Ray, Option<f64>)> {
+                let ray = |_: &RayPacket, ray: usize| -> Option<ShadowRay> {
                     let hit = hits[ray].as_ref()?;
                     scene.shadow_ray(&hit.point, hit.shadow_ray_offset, index)
                 };
