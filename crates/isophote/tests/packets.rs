@@ -188,16 +188,27 @@ proptest! {
         }
     }
 
-    /// A tile may be cut anywhere, by the edge of the image, of a region or of a thread's band.
+    /// A tile may be cut anywhere, by the edge of the image, of a region or of a thread's band; samples of other pixels may share
+    /// a packet.
     #[test]
     fn threads_and_regions_change_nothing(
         mut source in random::solids(),
         projection in 0_usize..8,
+        has_ambient in any::<bool>(),
+        is_sampled in any::<bool>(),
         threads in 1_usize..5,
         corner in (0_u32..20, 0_u32..15),
         size in (1_u32..20, 1_u32..15),
     ) {
         seen_by(&mut source, projection);
+        if has_ambient {
+            let (radiance, samples) = (Some(0.5.into()), Some(8));
+            source.ambient = Some(AmbientSource { radiance, obstructed: Some(true), samples });
+        }
+        if is_sampled {
+            let (samples, tolerance) = (Some(100), Some(0.05));
+            source.sampling = Some(SamplingSource { samples, tolerance, filter: None });
+        }
         let Ok(scene) = Scene::try_from(source) else { return Ok(()) };
         let scene = PreparedScene::new(&scene);
         let renderer = |threads: usize| SimdRenderer::new(Precision::Double, threads.try_into().ok());

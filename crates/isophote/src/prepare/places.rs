@@ -2,7 +2,7 @@
 
 use super::PreparedScene;
 use crate::ray::Ray;
-use crate::shape::{Geometry, Located, Miss, NearestPoint, Primitive};
+use crate::shape::{Located, Miss, NearestPoint, Primitive};
 use crate::vector::Vector;
 
 /// A surface near a point.
@@ -35,13 +35,7 @@ impl PreparedScene {
 
     /// The primitives that a point lies on, to the tolerance of their surfaces, one of each shape at most, in their order.
     pub(super) fn touched_at(&self, point: Vector) -> Vec<(Primitive, NearestPoint)> {
-        // The boxes of the tree are larger than what is in them, by more than the tolerance.
-        let nowhere = Ray { anchor: point, offset: Vector::default(), direction: Vector::new(1.0, 0.0, 0.0) };
-        let mut primitives = Vec::new();
-        self.along_ray(&nowhere, 0.0, |primitive| {
-            primitives.push(primitive);
-            0.0
-        });
+        let mut primitives = self.primitives_at(point);
         let surfaces = self.surfaces_of(&mut primitives, point).filter(|surface| self.is_on(surface, point));
         let touched = |surface: SurfaceAt| {
             let SurfaceAt { shape, part, .. } = surface;
@@ -75,18 +69,32 @@ impl PreparedScene {
         self.shapes[surface.shape].geometry.part_nearest(surface.part, point)
     }
 
+    /// The primitives that a point may lie on or in: the boxes of the tree are larger than what is in them, by more than the
+    /// tolerance of surfaces.
+    fn primitives_at(&self, point: Vector) -> Vec<Primitive> {
+        let nowhere = Ray { anchor: point, offset: Vector::default(), direction: Vector::new(1.0, 0.0, 0.0) };
+        let mut primitives = Vec::new();
+        self.along_ray(&nowhere, 0.0, |primitive| {
+            primitives.push(primitive);
+            0.0
+        });
+        primitives
+    }
+
     /// The primitives that may be the nearest to a point.
     fn primitives_nearest_to(&self, point: Vector) -> Vec<Primitive> {
-        let mut primitives = Vec::new();
-        let mut limit = f64::INFINITY;
+        let mut primitives = self.primitives_at(point);
+        // Inside a cloud, its surface is as far away as the deepest of its spheres says, however close the others are.
+        let inside: Vec<SurfaceAt> =
+            self.surfaces_of(&mut primitives, point).filter(|surface| surface.distance < 0.0).collect();
+        let mut limit = inside.iter().map(|surface| -surface.distance).fold(f64::INFINITY, f64::min);
+        let is_inside = |shape: usize| inside.iter().any(|surface| surface.shape == shape);
+        let mut nearest = Vec::new();
         let mut test = |primitive: Primitive| {
-            primitives.push(primitive);
-            let geometry = &self.shapes[primitive.shape].geometry;
-            let distance = geometry.part_signed_distance(primitive.part, point);
-            // Inside a sphere of a cloud, other spheres of it may still hide how close its surface is.
-            let is_hidden = distance < 0.0 && matches!(geometry, Geometry::Spheres(_));
-            if !is_hidden {
-                limit = limit.min(distance.abs());
+            nearest.push(primitive);
+            if !is_inside(primitive.shape) {
+                let geometry = &self.shapes[primitive.shape].geometry;
+                limit = limit.min(geometry.part_signed_distance(primitive.part, point).abs());
             }
             limit
         };
@@ -97,7 +105,7 @@ impl PreparedScene {
         } else {
             self.accelerator().around(point, |number| test(self.primitive(number)));
         }
-        primitives
+        nearest
     }
 }
 
@@ -127,7 +135,7 @@ mod tests {
         light = [{ position = [30, 40, 20], intensity = 30 }]
     "#;
     const MESH: &str = "v 0 0 0\nv 1 0.2 0\nv 0.3 1 0.1\nv 0.5 0.4 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3";
-    const CLOUD: &str = "x,y,z,radius\n-2,0,0,0.5\n-2.4,0,0,0.3\n-1.9,0.1,0,0.2\n-3,0.5,0.5,0.1\n-3,0.5,0.7,0.1";
+    const CLOUD: &str = "x,y,z,radius\n-1,-0.2,0.9,0.05\n-1,-0.5,0.3,0.9\n-2,0,0,0.5\n-2.4,0,0,0.3\n-1.9,0.1,0,0.2\n-3,0.5,0.5,0.1\n-3,0.5,0.7,0.1";
 
     fn prepared() -> PreparedScene {
         let files = MemoryFiles::from_iter([("mesh.obj", MESH), ("cloud.csv", CLOUD)]);

@@ -8,8 +8,7 @@ use crate::camera::ScreenPosition;
 use crate::prepare::{AmbientIrradiance, AmbientShare, Hit, PreparedScene};
 use crate::reflectance::BrightnessFormula;
 use crate::shade::{ByLight, LightTerm, shade};
-use crate::shape::{Primitive, SurfacePoint};
-use crate::vector::Vector;
+use crate::shape::SurfacePoint;
 
 /// Hits that wait to be written.
 pub struct HitBlock<'s> {
@@ -76,16 +75,9 @@ impl<'s> HitBlock<'s> {
         let scene = self.scene;
         let light = scene.light_at(point);
         let visibility = |emitter| scene.visibility_at(&light, point, emitter);
-        let primitive = Primitive { shape: 0, part: 0 };
-        let hit =
-            Hit { primitive, distance: 0.0, point: *point, from_inside: false, shadow_ray_offset: Vector::zero() };
-        self.push_lit(
-            index,
-            &hit,
-            scene.ambient_share_at(&light, point),
-            visibility,
-            PreparedScene::formula_without_material,
-        );
+        let hit = Hit::on_no_shape(*point);
+        let ambient = scene.ambient_share_at(&light, point);
+        self.push_lit(index, &hit, ambient, visibility, PreparedScene::formula_without_material);
     }
 
     /// Shades a point in every layer; the light that reaches it is computed once.

@@ -18,7 +18,7 @@ pub struct AmbientLight {
     across: [Vectors; 2],
 }
 
-/// Fewer points than this look around one by one.
+/// The rays of fewer points than this are traced one by one.
 const WORTH_A_PACKET: u32 = 4;
 
 /// The cosine of the angle between axes that are nearly the same.
@@ -51,13 +51,7 @@ impl Shader<'_> {
         while left != 0 {
             let alike = self.facing_alike(subject, left);
             left &= !alike;
-            if alike.count_ones() < WORTH_A_PACKET {
-                for ray in set_bits(alike) {
-                    self.ambient.shares[ray] = subject.ambient_share(scene, ray);
-                }
-            } else {
-                self.sample(subject, hemisphere, alike, packet, walk);
-            }
+            self.sample(subject, hemisphere, alike, packet, walk);
         }
     }
 
@@ -96,7 +90,11 @@ impl Shader<'_> {
             instructions.run_wide(Look { shader: self, direction, packet });
             let ray = |packet: &RayPacket, ray: usize| Some((to_environment(self, packet, ray), None));
             let mut blocked = Blocked { scene, own: &self.own, ray: &ray, surely: 0, maybe: 0 };
-            instructions.run_wide(Find { scene, packet, walk, search: &mut blocked });
+            if points.count_ones() < WORTH_A_PACKET {
+                blocked.maybe = points;
+            } else {
+                instructions.run_wide(Find { scene, packet, walk, search: &mut blocked });
+            }
             let Blocked { surely, maybe, .. } = blocked;
             for ray in set_bits(points & !surely) {
                 let is_clear = |ray| subject.sees_environment(scene, ray, &to_environment(self, packet, ray));

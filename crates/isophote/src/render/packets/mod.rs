@@ -60,7 +60,7 @@ pub struct Packets<'a> {
 pub const ARE_COMPILED: bool = !cfg!(target_arch = "wasm32");
 
 /// Whether a scene is rendered by packets: the visibility of each light at each point of a tile is stored, so there must not
-/// be too many lights. Machines whose vectors have two numbers have no packets.
+/// be too many lights. Processors with SSE2 alone have no packets.
 pub fn supports(scene: &PreparedScene, instructions: Instructions) -> bool {
     instructions.are_wide() && scene.emitters().all().len() <= MOST_LIGHTS
 }
@@ -120,6 +120,7 @@ impl Packets<'_> {
         let mut lights = Box::new([const { None }; RAYS]);
         let mut seen = vec![band::NOTHING; band.size.pixels()];
         for tile in band.tiles(SIDE, SIDE) {
+            let mut count = 0;
             tracer.hits.fill(None);
             for ray in (0..RAYS).filter(|ray| is_in(tile, *ray)) {
                 let pixel = pixel_of(tile, ray);
@@ -132,6 +133,7 @@ impl Packets<'_> {
                 };
                 if tracer.hits[ray].is_some() {
                     seen[band.index(pixel)] = shape;
+                    count += 1;
                 }
             }
             let origin = match cells {
@@ -141,7 +143,7 @@ impl Packets<'_> {
             let Tracer { hits, packet, walk, shader, .. } = &mut tracer;
             let mut output = InTile { tile, band: &mut band, indices: Vec::with_capacity(RAYS) };
             shader.shade(&Subject { hits, origin }, packet, walk, &mut output)?;
-            band::advance(observer, u64::from(tile.width) * u64::from(tile.height))?;
+            band::advance(observer, count)?;
         }
         Ok(band.runs(&seen))
     }
@@ -224,11 +226,8 @@ impl<'a> Tracer<'a> {
         }
         let Self { packets: Packets { scene, instructions, .. }, packet, nearest, walk, .. } = self;
         instructions.run_wide(Find { scene, packet, walk, search: &mut **nearest });
-        let mut doubtful = self.find_points();
-        doubtful |= self.clear_offsets();
-        for ray in set_bits(doubtful) {
-            self.hits[ray] = self.packets.scene.trace(self.places[ray].position());
-        }
+        self.find_points();
+        self.clear_offsets();
     }
 
     /// Shades what the rays have hit.
@@ -249,34 +248,34 @@ impl<'a> Tracer<'a> {
         nearest.clear();
     }
 
-    /// The points that the rays hit; returns the rays for which a double is not enough, as bits.
-    fn find_points(&mut self) -> u64 {
+    /// The points that the rays hit. What is too close to call is traced by itself, but only to learn which primitive it hits: each
+    /// ray's point is computed in the same way, whatever other rays are in the packet.
+    fn find_points(&mut self) {
         let Self {
             packets: Packets { scene, instructions, .. }, packet, precise, nearest, points, hits, places, ..
         } = self;
-        let mut doubtful = 0;
         let mut left = 0_u64;
         let mut primitives = [Primitive { shape: 0, part: 0 }; RAYS];
         for index in set_bits(packet.in_use) {
-            match nearest.seen(index) {
-                Seen::Nothing => {}
-                Seen::Doubtful => doubtful |= 1 << index,
-                Seen::Primitive(number) => {
-                    primitives[index] = scene.primitive(number);
-                    left |= 1 << index;
-                }
+            let seen = match nearest.seen(index) {
+                Seen::Nothing => None,
+                Seen::Doubtful => scene.trace(places[index].position()).map(|hit| hit.primitive),
+                Seen::Primitive(number) => Some(scene.primitive(number)),
+            };
+            if let Some(primitive) = seen {
+                primitives[index] = primitive;
+                left |= 1 << index;
             }
         }
         points.clear();
+        let kind = |ray: usize| (primitives[ray].shape, scene.has_sharper_highlight(primitives[ray], SHARPEST));
         while left != 0 {
-            let Primitive { shape, .. } = primitives[left.trailing_zeros() as usize];
-            let on_shape = set_bits(left).filter(|ray| primitives[*ray].shape == shape);
-            let on_shape = on_shape.fold(0, |bits, ray| bits | 1 << ray);
+            let (shape, is_sharp) = kind(left.trailing_zeros() as usize);
+            let alike = set_bits(left).filter(|ray| kind(*ray) == (shape, is_sharp));
+            let on_shape = alike.fold(0, |bits, ray| bits | 1 << ray);
             left &= !on_shape;
-            let geometry = scene.geometry(shape);
-            let is_sharp = |ray: usize| scene.has_sharper_highlight(primitives[ray], SHARPEST);
-            let in_lanes = !set_bits(on_shape).any(is_sharp);
-            if in_lanes {
+            if !is_sharp {
+                let geometry = scene.geometry(shape);
                 instructions.run_wide(FindPoints {
                     rays: precise,
                     on_shape,
@@ -286,27 +285,25 @@ impl<'a> Tracer<'a> {
                 });
             }
             for index in set_bits(on_shape) {
-                let primitive = primitives[index];
-                hits[index] = if in_lanes {
-                    points.hit(index, primitive, precise)
+                let (primitive, position) = (primitives[index], places[index].position());
+                let hit = if is_sharp {
+                    let hit = scene.frame().ray(position).and_then(|ray| scene.hit_on(primitive, &ray));
+                    hit.or_else(|| scene.precise_hit_on(primitive, position))
                 } else {
-                    let hit = scene.hit_on(primitive, &packet.ray(index));
-                    hit.or_else(|| scene.precise_hit_on(primitive, places[index].position()))
+                    points.hit(index, primitive, precise)
                 };
-                doubtful |= u64::from(hits[index].is_none()) << index;
+                hits[index] = hit.or_else(|| scene.trace(position));
             }
         }
-        doubtful
     }
 
-    /// Shortens the offsets of shadow rays that have something in their way; returns the rays for which a double is not enough
-    /// to tell, as bits.
-    fn clear_offsets(&mut self) -> u64 {
-        let Self { packets: Packets { scene, instructions, .. }, packet, walk, hits, .. } = self;
+    /// Shortens the offsets of shadow rays that have something in their way.
+    fn clear_offsets(&mut self) {
+        let Self { packets: Packets { scene, instructions, .. }, packet, walk, hits, places, .. } = self;
         let has_offset = |hit: &Hit| hit.shadow_ray_offset.dot(hit.shadow_ray_offset) > 0.0;
         let in_use = bits(hits.iter().map(|hit| hit.as_ref().is_some_and(has_offset)));
         if in_use == 0 || !scene.casts_shadows_between_shapes() {
-            return 0;
+            return;
         }
         let mut own = [0; RAYS];
         (packet.in_use, packet.range) = (in_use, [0.0, 1.0]);
@@ -324,15 +321,13 @@ impl<'a> Tracer<'a> {
         };
         let mut blocked = Blocked { scene, own: &own, ray: &ray, surely: 0, maybe: 0 };
         instructions.run_wide(Find { scene, packet, walk, search: &mut blocked });
-        let mut doubtful = 0;
         for index in set_bits(blocked.surely | blocked.maybe) {
             if let Some(hit) = &mut hits[index] {
                 let (clear, is_doubtful) = scene.clear_shadow_ray_offset(hit);
-                hit.shadow_ray_offset = clear;
-                doubtful |= u64::from(is_doubtful) << index;
+                let again = if is_doubtful { scene.trace(places[index].position()) } else { None };
+                hit.shadow_ray_offset = again.map_or(clear, |hit| hit.shadow_ray_offset);
             }
         }
-        doubtful
     }
 }
 

@@ -143,8 +143,7 @@ impl Refiner<'_> {
             for group in open.chunk_by(|one, other| class(one) == class(other)) {
                 let together = (SAMPLES / group[0].samples as usize).max(1);
                 for some in group.chunks(together) {
-                    advance()?;
-                    self.add(some, &mut refined, &mut next)?;
+                    self.add(some, &mut refined, &mut next, &mut advance)?;
                 }
             }
             open = next;
@@ -153,7 +152,13 @@ impl Refiner<'_> {
     }
 
     /// Traces the samples of pixels that need equally many of them, and finds out which of them need more.
-    fn add(&mut self, pixels: &[Open], refined: &mut Vec<Refinement>, next: &mut Vec<Open>) -> Result<(), RenderError> {
+    fn add(
+        &mut self,
+        pixels: &[Open],
+        refined: &mut Vec<Refinement>,
+        next: &mut Vec<Open>,
+        advance: &mut impl FnMut() -> Result<(), RenderError>,
+    ) -> Result<(), RenderError> {
         let wanted = self.wanted;
         let samples = pixels[0].samples;
         let mut means: Vec<PixelMeans> = pixels.iter().map(|_| PixelMeans::new(wanted)).collect();
@@ -162,6 +167,7 @@ impl Refiner<'_> {
                 let pixel = open.pixel;
                 places.iter().map(move |within| Place { pixel, within: *within })
             };
+            advance()?;
             self.tracer.trace(pixels.iter().flat_map(in_pixel))?;
             for (number, means) in means.iter_mut().enumerate() {
                 means.add(&self.tracer, number * places.len(), places, wanted);
@@ -229,7 +235,7 @@ impl<'w> PixelMeans<'w> {
             coverage: f64::from(self.covered) * share,
             error_bounds,
             seen: self.first_hit.map(|hit| hit.primitive.shape),
-            hit: self.first_hit.map(Box::new),
+            hit: self.first_hit.filter(|_| !sees).map(Box::new),
             sums: self.layers.into_iter().map(|means| means.finish(share)).collect(),
         }
     }

@@ -43,7 +43,7 @@ pub struct Terms<E>(Vec<E>);
 /// Where the next terms go.
 pub struct Room<'t, E>(&'t mut [E]);
 
-/// Leaves a lobe to [`Power::sum`]: its value is sin²θ_h.
+/// Leaves a lobe to [`Power::sum`]: its value says what sin²θ_h is.
 pub trait LobeOfKernel<V: Lane>: Lobe<V> {
     /// Whether there is one.
     const IS_THERE: bool;
@@ -84,9 +84,11 @@ impl<V: Lane> LobeOfKernel<V> for WithCosine {
 }
 
 impl<V: Lane> Lobe<V> for WithoutCosine {
+    /// sin²θ_h; or −cos²θ_h where that is smaller, since here its digits count even where it is tiny.
     #[inline(always)]
-    fn value(&self, _: V, sin_squared: V, inverse: V) -> V {
-        sin_squared * inverse
+    fn value(&self, cos_squared: V, sin_squared: V, inverse: V) -> V {
+        let is_steep = sin_squared.is_less(cos_squared);
+        V::select(is_steep, sin_squared, -cos_squared) * inverse
     }
 
     #[inline(always)]
@@ -134,12 +136,23 @@ impl Power {
             || match self {
                 Self::None => {}
                 Self::Whole(power) => power.sum::<V>(token, terms, count, sums),
-                Self::Any(power) | Self::WithoutCosine(power) => terms.sum(
+                Self::Any(power) => terms.sum(
                     token,
                     count,
                     sums,
                     #[inline(always)]
-                    |sine: V| power.value(sine),
+                    |sine: V| power.value(cos_squared(sine), sine),
+                ),
+                Self::WithoutCosine(power) => terms.sum(
+                    token,
+                    count,
+                    sums,
+                    #[inline(always)]
+                    |share: V| {
+                        let is_cosine = share.is_less(share.splat_like(0.0));
+                        let other = share.splat_like(1.0) - share.max(-share);
+                        power.value(V::select(is_cosine, -share, other), V::select(is_cosine, other, share))
+                    },
                 ),
             },
         );
@@ -296,9 +309,9 @@ fn whole_power<const EXPONENT: u32, V: Lane>(base: V) -> V {
 
 impl AnyPower {
     #[inline(always)]
-    fn value<V: Lane>(self, sin_squared: V) -> V {
-        // Zero has no logarithm, and for anything smaller than this there are no digits.
-        let cos_squared = cos_squared(sin_squared).max(sin_squared.splat_like(1e-30));
+    fn value<V: Lane>(self, cos_squared: V, sin_squared: V) -> V {
+        // Zero has no logarithm.
+        let cos_squared = cos_squared.max(sin_squared.splat_like(1e-30));
         exp2(log2_of_cosine(cos_squared, sin_squared) * sin_squared.splat_like(self.half))
     }
 }
@@ -351,6 +364,7 @@ fn exp2<V: Lane>(x: V) -> V {
         Precision::Double => -1020.0,
         Precision::Single => -124.0,
     };
+    let is_gone = x.is_less(x.splat_like(least));
     let x = x.max(x.splat_like(least));
     let shifted = x + x.splat_like(V::WHOLE);
     let fraction = x - (shifted - x.splat_like(V::WHOLE));
@@ -378,7 +392,7 @@ fn exp2<V: Lane>(x: V) -> V {
             polynomial(fraction, &terms)
         }
     };
-    power.scale(shifted)
+    V::select(is_gone, x.splat_like(0.0), power.scale(shifted))
 }
 
 /// The polynomial with these coefficients, from that of 1 up.
