@@ -48,3 +48,19 @@ test('figures have Russian labels, and tables the same columns in every language
   expect(await saved(page, 'Values at the probes (CSV)')).toEqual(russian);
   expect((await saved(page, 'Figure with axes and isophotes (SVG)')).toString()).toContain('brightness, lab (3.3), W/m²');
 });
+
+test('what a file is refused for is Russian', async ({ page }) => {
+  await page.getByRole('combobox', { name: 'Нормировка' }).selectOption('own');
+  const black = page.getByRole('textbox', { name: 'Значение чёрного' });
+  await black.fill('5');
+  await black.press('Enter');
+  const refused = async (entry: string) => {
+    await page.getByRole('button', { name: 'Сохранить', exact: true }).click();
+    await page.getByRole('button', { name: entry }).click();
+    return page.getByRole('status').locator('.notice');
+  };
+  await expect(await refused('Рисунок с осями и изофотами (SVG)')).toContainText(
+    'концы должны быть конечны, меньший — первым',
+  );
+  await expect(await refused('Картина, 0–255 (PNG)')).toContainText('чёрное должно быть меньше белого, оба конечны');
+});

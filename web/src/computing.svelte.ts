@@ -2,7 +2,7 @@
  * newest scene only. */
 
 import { untrack } from 'svelte';
-import { EngineError, type ProbeRequest, type SectionRequest } from './engine/types';
+import { EngineError, type Engine, type PictureStyle, type ProbeRequest, type SectionRequest } from './engine/types';
 import { Latest } from './latest';
 import type { SceneSource } from './scene/model';
 import type { Session } from './session.svelte';
@@ -18,7 +18,7 @@ interface Picture {
 }
 
 /** Starts the effects; call it while a component is set up. */
-export function keepComputing(session: Session, onFailure: (error: unknown) => void): void {
+export function keepComputing(session: Session): void {
   const { engine } = session;
   let lastFull = 0;
   let changedAt = 0;
@@ -26,17 +26,21 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
   let working = $state(0);
 
   /** Work on the newest input, which the page's state tells of. */
-  const latest = <T>(work: (input: T, isNewest: () => boolean) => Promise<void>) =>
-    new Latest(guarded(work), (isWorking) => untrack(() => (working += isWorking ? 1 : -1)));
+  const latest = <T>(work: (input: T, isNewest: () => boolean) => Promise<void>, stop?: Parameters<Engine['abandon']>[0]) =>
+    new Latest(
+      guarded(work),
+      (isWorking) => untrack(() => (working += isWorking ? 1 : -1)),
+      () => stop && engine.abandon(stop),
+    );
 
-  /** An invalid scene is no failure: its problems are shown already. */
+  /** An invalid scene is no failure: its problems are shown already. Nor is what became pointless. */
   const guarded =
     <T>(work: (input: T, isNewest: () => boolean) => Promise<void>) =>
     async (input: T, isNewest: () => boolean): Promise<void> => {
       try {
         await work(input, isNewest);
       } catch (error) {
-        if (!(error instanceof EngineError && error.problems.length > 0)) onFailure(error);
+        if (!(error instanceof EngineError && error.problems.length > 0)) session.fail(error);
       }
     };
 
@@ -48,7 +52,6 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
   const rendering = latest(async ({ scene, channel, isophotes, coarse }: Picture, isNewest) => {
     const started = performance.now();
     const frame = await engine.render(scene, channel, coarse ? 2 : 1);
-    if (!frame) return;
     if (!coarse) lastFull = performance.now() - started;
     session.frame = frame;
     // For `make bench-app`, and for whoever looks into the browser's own tools.
@@ -57,6 +60,13 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
     // Shown before it is analysed.
     const analysis = await engine.analyse(scene, frame, isophotes);
     session.analysis = analysis;
+  }, 'render');
+
+  const coloring = latest(async ({ scene, style }: { scene: SceneSource; style: PictureStyle }) => {
+    const png = await engine.export(scene, { kind: 'png', channel: 'color', style });
+    const bitmap = await createImageBitmap(new Blob([png as BlobPart], { type: 'image/png' }));
+    session.colored?.bitmap.close();
+    session.colored = { scene, bitmap };
   });
 
   const probing = latest(async (scene: SceneSource) => {
@@ -65,19 +75,20 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
 
   const measuring = latest(async (scene: SceneSource) => {
     session.areas = scene.area?.length ? await engine.areas(scene) : [];
-  });
+  }, 'areas');
 
   const sectioning = latest(
     async ({ scene, lines, channels }: { scene: SceneSource; lines: SectionRequest[]; channels: string[] }) => {
       const { answer, refusal } = await orRefusal(lines.length > 0 ? engine.section(scene, lines, channels) : []);
       [session.sections, session.sectionError] = [answer ?? [], refusal];
     },
+    'section',
   );
 
   const explaining = latest(async ({ scene, request }: { scene: SceneSource; request: ProbeRequest }) => {
     const { answer, refusal } = await orRefusal(engine.explain(scene, request));
     [session.explanation, session.explanationError] = [answer, refusal];
-  });
+  }, 'explain');
 
   $effect(() => {
     void session.language;
@@ -95,6 +106,11 @@ export function keepComputing(session: Session, onFailure: (error: unknown) => v
     const known = info.channels.includes(session.channel) ? session.channel : 'brightness';
     const coarse = session.dragging && lastFull > SLOW;
     rendering.take({ scene, channel: known, isophotes: session.style.isophotes, coarse });
+  });
+
+  $effect(() => {
+    const { good: scene, isColored, dragging, shown } = session;
+    if (scene && isColored && !dragging) coloring.take({ scene, style: shown.style });
   });
 
   $effect(() => {
@@ -127,7 +143,7 @@ async function orRefusal<T>(asked: Promise<T> | T): Promise<{ answer: T | null; 
   try {
     return { answer: await asked, refusal: null };
   } catch (error) {
-    if (!(error instanceof EngineError)) throw error;
+    if (!(error instanceof EngineError) || error.kind !== 'refused') throw error;
     return { answer: null, refusal: error.message };
   }
 }

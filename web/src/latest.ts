@@ -4,20 +4,24 @@ export class Latest<T> {
   #next: { input: T } | null = null;
   #isWorking = false;
   #onWorking: (isWorking: boolean) => void;
+  #onStale: () => void;
 
-  /** `onWorking` is told when there begins to be work, and when all is done. */
+  /** `onWorking` is told when there begins to be work, and when all is done; `onStale` when what is worked on is the newest no more. */
   constructor(
     work: (input: T, isNewest: () => boolean) => Promise<void>,
     onWorking: (isWorking: boolean) => void = () => {},
+    onStale: () => void = () => {},
   ) {
     this.#work = work;
     this.#onWorking = onWorking;
+    this.#onStale = onStale;
   }
 
   /** Takes an input; what waited is dropped. */
   take(input: T): void {
     this.#next = { input };
-    if (!this.#isWorking) void this.#run();
+    if (this.#isWorking) this.#onStale();
+    else void this.#run();
   }
 
   async #run(): Promise<void> {

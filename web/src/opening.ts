@@ -8,6 +8,8 @@ import { fill, text } from './text/index.svelte';
 
 /** The limit of the core for scene files, in bytes. */
 const LARGEST_FILE = 64 << 20;
+/** Larger ones are not opened at once: the page says that it is at it. */
+const LARGE_FILE = 1 << 20;
 /** Longer links do not pass through mail and messengers. */
 const LONGEST_LINK = 32_000;
 
@@ -24,7 +26,7 @@ export async function firstScene(engine: Engine, fragment: string, last: string 
   if (isLink(fragment)) {
     try {
       const read = await engine.read(jsonOfLink(fragment), 'json');
-      if (isComplete(read.scene)) return { scene: read.scene, notice: null };
+      if (isComplete(read.scene)) return { scene: read.scene, notice: needsFiles(read.scene) ? words.openTogether : null };
       notice = fill(words.linkBroken, { why: words.linkFaults.damaged });
     } catch (error) {
       const fault = error instanceof LinkError ? error.fault : 'damaged';
@@ -33,7 +35,7 @@ export async function firstScene(engine: Engine, fragment: string, last: string 
   }
   if (last !== null) {
     const { scene } = await engine.read(last, 'json');
-    if (isComplete(scene)) return { scene, notice };
+    if (isComplete(scene)) return { scene, notice: notice ?? (needsFiles(scene) ? words.openTogether : null) };
   }
   const { scene } = await engine.read(await engine.starter('lab'), 'toml');
   if (!isComplete(scene)) throw new Error('the first example is no scene');
@@ -60,23 +62,51 @@ export function openScene(session: Session, scene: SceneSource): void {
   session.lines = [];
 }
 
-/** Opens a file that was chosen or dropped. What is on the page stays where it holds no scene. */
-export async function openFile(session: Session, file: File): Promise<void> {
+/** Opens files that were chosen or dropped: a scene, with the files that it names perhaps, or only those. What is on the page stays where
+ * there is no scene in them. */
+export async function openFiles(session: Session, chosen: Iterable<File>): Promise<void> {
   const words = text.words.app;
-  if (file.size > LARGEST_FILE) {
+  const files = [...chosen];
+  if (files.some((file) => file.size > LARGEST_FILE)) {
     session.say(words.fileTooLarge);
     return;
   }
+  const file = files.find(({ name }) => /\.(toml|json)$/i.test(name)) ?? (files.length === 1 ? files[0] : undefined);
+  if (!file) {
+    session.say(words.noSceneAmong);
+    return;
+  }
+  if (file.size > LARGE_FILE) session.say(fill(words.opening, { name: file.name }));
   const content = await file.text();
   const syntax = /^\s*\{/.test(content) ? 'json' : 'toml';
-  const { scene, problems } = await session.engine.read(content, syntax);
+  let read = await session.engine.read(content, syntax);
+  const named = namedFiles(read.scene).flatMap((name) => {
+    const found = files.find((one) => one.name === name.replace(/^.*[/\\]/, ''));
+    return found ? [{ name, file: found }] : [];
+  });
+  for (const one of named) await session.engine.addFile(one.name, new Uint8Array(await one.file.arrayBuffer()));
+  if (named.length > 0) read = await session.engine.read(content, syntax);
+  const { scene, problems } = read;
   const mistakes = problems.filter((problem) => problem.kind !== 'warning');
   if (!isComplete(scene)) {
     session.say(`${words.fileBroken} ${told(mistakes)}`);
     return;
   }
   openScene(session, scene);
-  session.say(mistakes.length > 0 ? `${words.fileProblems} ${told(mistakes)}` : null);
+  const missing = namedFiles(scene).length > named.length ? ` ${words.openTogether}` : '';
+  if (mistakes.length > 0) session.say(`${words.fileProblems} ${told(mistakes)}${missing}`);
+  else session.say(named.length > 0 ? words.filesStay : null);
+}
+
+/** The files that the shapes of a scene come from, by the names that the scene has for them. */
+function namedFiles(scene: SceneSource | null): string[] {
+  const shapes = [...(scene?.mesh ?? []), ...(scene?.spheres ?? [])];
+  return [...new Set(shapes.flatMap(({ file }) => (typeof file === 'string' ? [file] : [])))];
+}
+
+/** Whether a link and the next visit would be without a part of the scene. */
+export function needsFiles(scene: SceneSource): boolean {
+  return namedFiles(scene).length > 0;
 }
 
 /** The first few problems, in a line. */

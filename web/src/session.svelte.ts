@@ -20,7 +20,9 @@ import type {
   Vec3,
 } from './engine/types';
 import type { SceneSource } from './scene/model';
+import { EngineError } from './engine/types';
 import { SceneStore } from './scene/store.svelte';
+import { fill, reasonOf, text } from './text/index.svelte';
 
 /** The part of the page beside the picture. */
 export type Tab = 'values' | 'why' | 'sections' | 'more';
@@ -53,6 +55,10 @@ export class Session {
   /** The channel that the picture shows. */
   channel = $state('brightness');
   style = $state<PictureStyle>({ colormap: 'gray', range: null, normalization: 'max', isophotes: 8 });
+  /** Whether a scene with colours is shown in them, where its brightness is shown; otherwise by its luminance. */
+  inColor = $state(false);
+  /** The picture in colours, and the scene that it is of. */
+  colored = $state.raw<{ scene: SceneSource; bitmap: ImageBitmap } | null>(null);
   /** Lines whose sections are plotted, and the channels plotted. */
   lines = $state.raw<SectionRequest[]>([]);
   sectionChannels = $state.raw<string[]>(['brightness']);
@@ -79,8 +85,34 @@ export class Session {
     return this.store.scene;
   }
 
+  /** Whether the picture is one in colours. */
+  get isColored(): boolean {
+    return this.inColor && this.channel === 'brightness' && (this.info?.hasColors ?? false);
+  }
+
+  /** What a picture as it is shown is made of. Colours have neither a colour map nor a normalisation of their own. */
+  get shown(): { channel: string; style: PictureStyle } {
+    // A copy without the page's reactivity: it goes to a worker.
+    const style = $state.snapshot(this.style);
+    if (!this.isColored) return { channel: this.channel, style };
+    return { channel: 'color', style: { ...style, colormap: 'gray', normalization: 'max' } };
+  }
+
   say(notice: string | null): void {
     this.notice = notice;
+  }
+
+  /** Says why something did not work; nothing where it was merely pointless. */
+  fail(error: unknown): void {
+    const kind = error instanceof EngineError ? error.kind : 'refused';
+    if (kind === 'pointless') return;
+    const { failed, lost } = text.words.app;
+    this.notice = fill(kind === 'lost' ? lost : failed, { why: reasonOf(error) });
+  }
+
+  /** The shapes that the scene's probes are on, by name; of those that are on none, undefined. */
+  get probedShapes(): (string | undefined)[] {
+    return this.probed.map(({ reading }) => reading?.shape);
   }
 
   /** The problems of an item: of its keys as well, so "sphere[0]" has those of "sphere[0].radius". */

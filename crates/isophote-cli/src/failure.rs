@@ -3,10 +3,15 @@
 use std::fmt;
 use std::io::{IsTerminal, Write};
 
+use isophote::analysis::isophotes::IsophoteError;
+use isophote::map::MapError;
 use isophote::message;
 use isophote::render::RenderError;
 use isophote::scene::SceneError;
 use isophote::text::{Language, Message, escaped};
+use isophote_export::ExportError;
+use isophote_export::figure::FigureError;
+use isophote_zarr::StoreError;
 
 /// Invalid arguments, for this scene or in general: exit code 2.
 #[derive(Debug)]
@@ -101,7 +106,14 @@ fn message_of(error: &anyhow::Error) -> Option<Message> {
     if let Some(Failed(message)) = find(error) {
         return Some(message.clone());
     }
-    find::<RenderError>(error).map(RenderError::message)
+    // Only as they are: an error around one of these says more.
+    find::<RenderError>(error)
+        .map(RenderError::message)
+        .or_else(|| error.downcast_ref().map(ExportError::message))
+        .or_else(|| error.downcast_ref().map(FigureError::message))
+        .or_else(|| error.downcast_ref().map(IsophoteError::message))
+        .or_else(|| error.downcast_ref().map(MapError::message))
+        .or_else(|| error.downcast_ref().map(StoreError::message))
 }
 
 /// Writes a line to standard error, with control characters escaped.

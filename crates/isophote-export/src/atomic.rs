@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
+use isophote::message;
 use tempfile::NamedTempFile;
 
 use crate::error::ExportError;
@@ -135,12 +136,12 @@ pub fn check_target(path: &Path) -> Result<(), ExportError> {
 fn replaceable(path: &Path) -> Result<PathBuf, ExportError> {
     let taken = |what| Err(ExportError::Taken { path: path.into(), what });
     match fs::metadata(path) {
-        Ok(found) if found.is_dir() => taken("a folder"),
+        Ok(found) if found.is_dir() => taken(message!("a folder")),
         // Renaming over /dev/null or a pipe would replace it with an ordinary file.
-        Ok(found) if !found.is_file() => taken("a device or a pipe"),
-        Ok(found) if found.permissions().readonly() => taken("a read-only file"),
+        Ok(found) if !found.is_file() => taken(message!("a device or a pipe")),
+        Ok(found) if found.permissions().readonly() => taken(message!("a read-only file")),
         Ok(_) => fs::canonicalize(path).map_err(|reason| ExportError::File { path: path.into(), reason }),
-        Err(_) if path.file_name().is_none() => taken("no name of a file"),
+        Err(_) if path.file_name().is_none() => taken(message!("no name of a file")),
         Err(_) if !folder_of(path).is_dir() => {
             Err(ExportError::NoFolder { path: path.into(), folder: folder_of(path).into() })
         }
@@ -256,7 +257,8 @@ mod tests {
         let mut permissions = fs::metadata(&path).unwrap().permissions();
         permissions.set_readonly(true);
         fs::set_permissions(&path, permissions).unwrap();
-        assert!(matches!(write_text(&path, "x"), Err(ExportError::Taken { what: "a read-only file", .. })));
+        let refused = write_text(&path, "x").unwrap_err().to_string();
+        assert!(refused.ends_with("it is a read-only file"), "{refused}");
         assert_eq!(fs::read_to_string(&path).unwrap(), "kept");
     }
 

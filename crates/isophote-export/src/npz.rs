@@ -3,6 +3,7 @@
 use std::io::{self, BufRead, Read, Seek, SeekFrom, Write};
 
 use isophote::map::{Map, Values};
+use isophote::text::Message;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter, result::ZipError, write::SimpleFileOptions};
 
 use crate::error::ExportError;
@@ -130,7 +131,7 @@ fn write_text(out: &mut impl Write, text: &str) -> io::Result<()> {
 fn from_zip(error: ZipError) -> ExportError {
     match error {
         ZipError::Io(reason) => ExportError::Write(reason),
-        other => ExportError::Unsuitable { format: Format::Npz, reason: other.to_string() },
+        other => ExportError::Unsuitable { format: Format::Npz, reason: Message::verbatim(other.to_string()) },
     }
 }
 

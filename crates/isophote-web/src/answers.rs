@@ -8,7 +8,7 @@ use isophote::scene::{Area, AreaPlace, Scene};
 use isophote::text::{Language, Message};
 use serde::Serialize;
 
-use crate::info::on_screen;
+use crate::info::{MOST_LIGHTS, on_screen};
 use crate::request::{ProbeRequest, in_unit};
 
 /// A reading, or why there is none.
@@ -78,7 +78,7 @@ impl Reading {
     fn new(name: &str, reading: &ProbeReading, prepared: &PreparedScene, language: Language) -> Self {
         let scene = prepared.scene();
         let length = scene.length();
-        let lights = scene.lights().iter().enumerate().map(|(index, light)| {
+        let lights = scene.lights().iter().enumerate().take(MOST_LIGHTS).map(|(index, light)| {
             let (term, [diffuse, specular]) = (&reading.terms[index], reading.light_shares(prepared, index));
             LightReading {
                 name: light.name.clone(),
@@ -163,11 +163,18 @@ impl AreaAnswer {
     }
 }
 
+/// Blocks, most of them lights, that the page shows of a calculation.
+const MOST_BLOCKS: usize = 100;
+/// Blocks that stand behind those of the lights: ambient light, and the sum.
+const LAST_BLOCKS: usize = 2;
+
 /// The calculation of a value, in blocks.
 #[derive(Serialize)]
 pub struct Explanation {
     title: String,
     blocks: Vec<Block>,
+    /// Blocks that are left out before the last ones.
+    omitted: usize,
 }
 
 #[derive(Serialize)]
@@ -177,14 +184,44 @@ struct Block {
 }
 
 impl Explanation {
-    /// From the explanation as a text: blocks are set apart by empty lines, and the first one is the title.
+    /// From the explanation as a text: blocks are set apart by empty lines, and the first one is the title. Of many blocks, the
+    /// first [`MOST_BLOCKS`] stay, and the last ones.
     pub fn new(text: &str) -> Self {
-        let mut blocks = text.split("\n\n").map(|block| block.lines().map(str::to_owned).collect::<Vec<_>>());
-        let title = blocks.next().unwrap_or_default().join(" — ");
-        let block = |lines: Vec<String>| {
-            let mut lines = lines.into_iter();
+        let mut blocks = text.split("\n\n");
+        let title = blocks.next().unwrap_or_default().lines().collect::<Vec<_>>().join(" — ");
+        let blocks: Vec<&str> = blocks.collect();
+        let (first, rest) = blocks.split_at(blocks.len().min(MOST_BLOCKS));
+        let last = &rest[rest.len().saturating_sub(LAST_BLOCKS)..];
+        let block = |text: &&str| {
+            let mut lines = text.lines().map(str::to_owned);
             Block { title: lines.next().unwrap_or_default(), lines: lines.collect() }
         };
-        Self { title, blocks: blocks.map(block).collect() }
+        Self { title, blocks: first.iter().chain(last).map(block).collect(), omitted: rest.len() - last.len() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_a_long_calculation_the_first_blocks_and_the_sum_stay() {
+        let text = |lights: usize| {
+            let light = |index: usize| format!("Light {index}\n  E = {index}");
+            let blocks: Vec<String> = (1..=lights).map(light).collect();
+            format!("P: lab\nConvention\n\nGeometry\n  P = 0\n\n{}\n\nAmbient\n\nSum\n  B = 1\n", blocks.join("\n\n"))
+        };
+        let titles = |explanation: &Explanation| -> Vec<String> {
+            explanation.blocks.iter().map(|block| block.title.clone()).collect()
+        };
+        let short = Explanation::new(&text(3));
+        assert_eq!(short.title, "P: lab — Convention");
+        assert_eq!(titles(&short), ["Geometry", "Light 1", "Light 2", "Light 3", "Ambient", "Sum"]);
+        assert_eq!((short.omitted, &short.blocks[5].lines), (0, &vec!["  B = 1".to_owned()]));
+        let whole = Explanation::new(&text(MOST_BLOCKS - 1));
+        assert_eq!((whole.blocks.len(), whole.omitted), (MOST_BLOCKS + 2, 0));
+        let long = Explanation::new(&text(1000));
+        assert_eq!((long.blocks.len(), long.omitted), (MOST_BLOCKS + 2, 1001 - MOST_BLOCKS));
+        assert_eq!(titles(&long)[MOST_BLOCKS - 1..], ["Light 99", "Ambient", "Sum"]);
     }
 }

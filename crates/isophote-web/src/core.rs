@@ -7,7 +7,7 @@ use isophote::prepare::PreparedScene;
 use isophote::scene::library::Starter;
 use isophote::scene::{Problem, Scene, SceneError, SceneSource, Syntax};
 use isophote::shape::{Primitive, Side};
-use isophote::text::Language;
+use isophote::text::{Language, Message};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use wasm_bindgen::JsValue;
@@ -15,6 +15,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::answers::{AreaAnswer, Explanation, Probed, refusal};
 use crate::export::export;
+use crate::files::PageFiles;
 use crate::frame::{Analysis, Band, render, rows};
 use crate::info::SceneInfo;
 use crate::problem::{ProblemAnswer, Refusal, json, told};
@@ -24,15 +25,22 @@ use crate::request::{
 };
 use crate::section::Section;
 
+/// Pixels of the longer side of a small map.
+const THUMBNAIL: u32 = 200;
+
 /// What a worker holds.
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct Core {
     language: Language,
+    /// The files that scenes name, which the page has handed in.
+    files: PageFiles,
     /// The last valid scene that was loaded.
     scene: Option<PreparedScene>,
     /// The same at half its resolution, for previews.
     half: Option<PreparedScene>,
+    /// The same in at most [`THUMBNAIL`] pixels a side.
+    small: Option<PreparedScene>,
 }
 
 #[derive(Serialize)]
@@ -68,6 +76,11 @@ impl Core {
         Ok(())
     }
 
+    /// Takes the content of a file that scenes name; it stays as long as this core does.
+    pub fn add_file(&mut self, name: &str, content: Vec<u8>) {
+        self.files.insert(name, content);
+    }
+
     /// Reads a text, which is `toml` or `json`.
     ///
     /// # Errors
@@ -81,7 +94,7 @@ impl Core {
                 return told(Err(refusal), self.language);
             }
         };
-        let (source, problems) = match Scene::from_text("", text, syntax) {
+        let (source, problems) = match Scene::from_text_with(&self.files, None, "", text, syntax) {
             Ok(scene) => (scene.source().clone(), ProblemAnswer::all(scene.warnings(), self.language)),
             Err(error) => {
                 (SceneSource::readable_part(text, syntax), ProblemAnswer::all(&error.problems, self.language))
@@ -120,7 +133,8 @@ impl Core {
         let checked = |info: Option<SceneInfo>, problems: &[Problem]| {
             told(json(&Checked { info, problems: ProblemAnswer::all(problems, language) }), language)
         };
-        match Scene::from_text("", scene, Syntax::Json) {
+        let earlier = self.scene.as_ref().map(PreparedScene::scene);
+        match Scene::from_text_with(&self.files, earlier, "", scene, Syntax::Json) {
             Err(SceneError { problems, .. }) => checked(None, &problems),
             Ok(scene) => {
                 let prepared = match &self.scene {
@@ -129,6 +143,7 @@ impl Core {
                 };
                 let info = SceneInfo::new(&prepared);
                 self.half = None;
+                self.small = None;
                 self.scene = Some(prepared);
                 checked(Some(info), scene.warnings())
             }
@@ -141,6 +156,15 @@ impl Core {
     /// No scene, no such channel, no such rows.
     pub fn render(&mut self, name: &str, first: u32, count: u32, step: u32) -> Result<Band, JsValue> {
         let band = self.rendered(name, [first, count, step]);
+        told(band, self.language)
+    }
+
+    /// A small map of a channel.
+    ///
+    /// # Errors
+    /// No scene, no such channel.
+    pub fn thumbnail(&mut self, name: &str) -> Result<Band, JsValue> {
+        let band = self.small_map(name);
         told(band, self.language)
     }
 
@@ -269,24 +293,78 @@ impl Core {
 
     fn rendered(&mut self, name: &str, [first, count, step]: [u32; 3]) -> Result<Band, Refusal> {
         let quantity = channel(name, self.scene()?.scene())?;
+        if let (2, Quantity::LightBrightness(light)) = (step, &quantity) {
+            let alone = self.alone(light)?.at_resolution(half_of(self.scene()?.scene().camera().resolution));
+            let region = rows(alone.scene().camera().resolution, first, count);
+            return Band::called(
+                &quantity,
+                render(&alone, vec![Quantity::Brightness], Some(region))?,
+                &Quantity::Brightness,
+            );
+        }
         let prepared = if step == 2 { self.half()? } else { self.scene()? };
         let region = rows(prepared.scene().camera().resolution, first, count);
-        Band::of(render(prepared, vec![quantity.clone()], Some(region))?, &quantity)
+        let mut quantities = vec![quantity.clone()];
+        // Says which pixels are lit; previews are not counted.
+        if step == 1 && quantity != Quantity::Irradiance {
+            quantities.push(Quantity::Irradiance);
+        }
+        Band::of(render(prepared, quantities, Some(region))?, &quantity)
     }
 
     fn scene(&self) -> Result<&PreparedScene, Refusal> {
         self.scene.as_ref().ok_or_else(|| Refusal(message!("no scene was loaded")))
     }
 
+    fn small_map(&mut self, name: &str) -> Result<Band, Refusal> {
+        let quantity = channel(name, self.scene()?.scene())?;
+        let size = small(self.scene()?.scene().camera().resolution);
+        if let Quantity::LightBrightness(light) = &quantity {
+            let map = render(&self.alone(light)?.at_resolution(size), vec![Quantity::Brightness], None)?;
+            return Band::called(&quantity, map, &Quantity::Brightness);
+        }
+        if self.small.is_none() {
+            self.small = Some(self.scene()?.at_resolution(size));
+        }
+        let prepared = self.small.as_ref().ok_or_else(|| Refusal(message!("no scene was loaded")))?;
+        Band::of(render(prepared, vec![quantity.clone()], None)?, &quantity)
+    }
+
+    /// The scene with one of its lights alone, and without ambient light. The renderer makes such a scene from the text of the scene,
+    /// so that its resolution is not that of a preview.
+    fn alone(&self, name: &str) -> Result<PreparedScene, Refusal> {
+        let prepared = self.scene()?;
+        let mut source = prepared.scene().source().clone();
+        let index = prepared.scene().light_named(name);
+        let light = index.filter(|index| *index < source.light.len()).map(|index| source.light.swap_remove(index));
+        source.light = light.into_iter().collect();
+        source.ambient = None;
+        let alone = Scene::from_text_with(&self.files, Some(prepared.scene()), "", &json(&source)?, Syntax::Json)
+            .map_err(|error| Refusal(Message::verbatim(error.to_string())))?;
+        Ok(PreparedScene::reusing(prepared, &alone))
+    }
+
     fn half(&mut self) -> Result<&PreparedScene, Refusal> {
         if self.half.is_none() {
             let scene = self.scene()?;
-            let Resolution { width, height } = scene.scene().camera().resolution;
-            let half = Resolution { width: width.div_ceil(2), height: height.div_ceil(2) };
-            self.half = Some(scene.at_resolution(half));
+            self.half = Some(scene.at_resolution(half_of(scene.scene().camera().resolution)));
         }
         self.half.as_ref().ok_or_else(|| Refusal(message!("no scene was loaded")))
     }
+}
+
+fn half_of(Resolution { width, height }: Resolution) -> Resolution {
+    Resolution { width: width.div_ceil(2), height: height.div_ceil(2) }
+}
+
+/// A size with the same proportions, of at most [`THUMBNAIL`] pixels a side.
+fn small(size: Resolution) -> Resolution {
+    let longest = u64::from(size.width.max(size.height).max(1));
+    let side = |pixels: u32| {
+        let scaled = (u64::from(pixels) * u64::from(THUMBNAIL)).div_ceil(longest);
+        pixels.min(u32::try_from(scaled).unwrap_or(THUMBNAIL))
+    };
+    Resolution { width: side(size.width), height: side(size.height) }
 }
 
 /// A question as JSON.

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use isophote::map::{Map, Quantity};
 use isophote::message;
 use isophote::prepare::PreparedScene;
+use isophote::scene::Scene;
 use isophote::text::{Language, significant};
 use isophote::units::Keyword;
 use isophote_export::csv::{self, Rows};
@@ -44,8 +45,13 @@ pub fn export(prepared: &PreparedScene, request: &ExportRequest, language: Langu
     }
 }
 
+/// The channel of a picture: one number a pixel, or the colours of a scene that has them.
+fn picture_channel(name: &str, scene: &Scene) -> Result<Quantity, Refusal> {
+    if name == Quantity::Color.name() && scene.color().is_some() { Ok(Quantity::Color) } else { channel(name, scene) }
+}
+
 fn picture(prepared: &PreparedScene, name: &str, style: &PictureStyle) -> Result<Vec<u8>, Refusal> {
-    let quantity = channel(name, prepared.scene())?;
+    let quantity = picture_channel(name, prepared.scene())?;
     let map = render(prepared, vec![quantity.clone()], None)?;
     let colormap = style.colormap()?;
     let color = |fraction: f64| colormap.color(fraction);
@@ -69,7 +75,7 @@ fn figure(
     language: Language,
 ) -> Result<Figure, Refusal> {
     let scene = prepared.scene();
-    let quantity = channel(name, scene)?;
+    let quantity = picture_channel(name, scene)?;
     let map = render(prepared, vec![quantity.clone()], None)?;
     let name = quantity.label_in(scene.unit_system(), language);
     let label = match quantity {

@@ -54,6 +54,8 @@ struct BandHead {
     window: Edges,
     coordinates: isophote::map::Coordinates,
     axes: [AxisAnswer; 2],
+    /// Pixels that receive any light, if the map says so.
+    lit: Option<usize>,
 }
 
 #[derive(Serialize)]
@@ -65,13 +67,18 @@ struct AxisAnswer {
 
 impl Band {
     /// A channel of a map.
-    pub(crate) fn of(mut map: Map, quantity: &Quantity) -> Result<Self, Refusal> {
-        let shapes = map.mask().shapes();
+    pub(crate) fn of(map: Map, quantity: &Quantity) -> Result<Self, Refusal> {
+        Self::called(quantity, map, quantity)
+    }
+
+    /// A channel of a map under another name.
+    pub(crate) fn called(name: &Quantity, mut map: Map, quantity: &Quantity) -> Result<Self, Refusal> {
+        let (shapes, lit) = (map.mask().shapes(), counts(&map).lit);
         let Map { full, region, window, .. } = map;
         let axes = window.coordinates.axes(window.length);
         let unit = map.channel(quantity).map_or_else(String::new, |channel| channel.unit.clone());
         let head = json(&BandHead {
-            channel: quantity.name(),
+            channel: name.name(),
             unit,
             width: region.size.width,
             height: region.size.height,
@@ -79,6 +86,7 @@ impl Band {
             window: Edges { x: window.x, y: window.y },
             coordinates: window.coordinates,
             axes: axes.map(|axis| AxisAnswer { name: axis.name, title: axis.title, unit: axis.unit }),
+            lit,
         })?;
         let values = match map.take(quantity) {
             Some(Values::Scalar(values)) => values,
@@ -189,7 +197,7 @@ impl Analysis {
             statistics: StatisticsAnswer {
                 pixels: counted.pixels,
                 visible: counted.visible,
-                lit: counted.lit,
+                lit: head.lit,
                 max: statistics.map(|statistics| extreme(statistics.max)),
                 min: statistics.map(|statistics| extreme(statistics.min)),
                 mean: statistics.map(|statistics| statistics.mean),

@@ -11,6 +11,9 @@ use serde::Serialize;
 
 use crate::request::{Edges, in_unit};
 
+/// Lights that the page is told of one by one; a list of more would be no help, and would take it long.
+pub const MOST_LIGHTS: usize = 60;
+
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct SceneInfo {
@@ -23,6 +26,7 @@ pub struct SceneInfo {
     window: Edges,
     camera: CameraInfo,
     shapes: Vec<ShapeInfo>,
+    /// The first [`MOST_LIGHTS`].
     lights: Vec<LightInfo>,
     materials: Vec<String>,
     probes: Vec<String>,
@@ -220,10 +224,10 @@ fn lights(prepared: &PreparedScene) -> Vec<LightInfo> {
             on_screen: light.position().and_then(|position| on_screen(prepared, position)),
         }
     };
-    scene.lights().iter().map(of_light).collect()
+    scene.lights().iter().take(MOST_LIGHTS).map(of_light).collect()
 }
 
-/// The channels that are one number per pixel.
+/// The channels that are one number per pixel; of single lights, those of the first [`MOST_LIGHTS`].
 fn channels(scene: &Scene) -> Vec<String> {
     let mut channels = vec![Quantity::Brightness, Quantity::Irradiance];
     if scene.convention().uses_material() {
@@ -237,8 +241,9 @@ fn channels(scene: &Scene) -> Vec<String> {
         channels.extend([Quantity::Samples, Quantity::Coverage]);
     }
     if scene.lights().len() > 1 {
-        channels.extend(scene.lights().iter().map(|light| Quantity::LightBrightness(light.name.clone())));
-        channels.extend(scene.lights().iter().map(|light| Quantity::Light(light.name.clone())));
+        let names = || scene.lights().iter().take(MOST_LIGHTS).map(|light| light.name.clone());
+        channels.extend(names().map(Quantity::LightBrightness));
+        channels.extend(names().map(Quantity::Light));
     }
     channels.iter().map(Quantity::name).collect()
 }

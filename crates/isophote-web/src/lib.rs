@@ -1,11 +1,12 @@
 //! The core in the browser: WebAssembly for the workers of the app. A worker holds one [`Core`] with a scene, and asks it questions;
 //! scenes and answers are JSON, maps are arrays. `web/src/engine/types.ts` says what the answers hold.
 //!
-//! There are no files here: scenes whose shapes are in files get those that were handed in before.
+//! There are no files here but those that the page hands in, by the names that scenes have for them.
 
 mod answers;
 mod core;
 mod export;
+mod files;
 mod frame;
 mod info;
 mod problem;

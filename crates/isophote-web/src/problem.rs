@@ -54,26 +54,23 @@ macro_rules! told {
     };
 }
 
-told!(GridError, RenderError, SectionError, SurfaceError);
-
-/// Errors that are told in English only.
-macro_rules! told_in_english {
-    ($($error:ty),*) => {
-        $(impl From<$error> for Refusal {
-            fn from(error: $error) -> Self {
-                Self(Message::verbatim(error.to_string()))
-            }
-        })*
-    };
-}
-
-told_in_english!(
+told!(
+    GridError,
+    RenderError,
+    SectionError,
+    SurfaceError,
     IsophoteError,
     isophote::map::MapError,
     isophote_export::ExportError,
-    isophote_export::figure::FigureError,
-    serde_json::Error
+    isophote_export::figure::FigureError
 );
+
+impl From<serde_json::Error> for Refusal {
+    /// A fault of the page, not of who uses it.
+    fn from(error: serde_json::Error) -> Self {
+        Self(Message::verbatim(error.to_string()))
+    }
+}
 
 /// An answer, or why there is none in the language of the page.
 pub fn told<T>(answer: Result<T, Refusal>, language: Language) -> Result<T, JsValue> {

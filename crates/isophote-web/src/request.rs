@@ -114,6 +114,8 @@ pub struct FrameHead {
     pub width: u32,
     pub height: u32,
     pub window: Edges,
+    /// Pixels that receive any light, if its map said so.
+    pub lit: Option<usize>,
     /// What the coordinates are, as `Frame` has it.
     pub coordinates: isophote::map::Coordinates,
 }

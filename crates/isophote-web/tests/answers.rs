@@ -2,6 +2,7 @@
 
 use isophote::analysis::probe::ProbePosition;
 use isophote::analysis::section::SectionLine;
+use isophote::analysis::statistics::counts;
 use isophote::lanes::Precision;
 use isophote::map::{Pixel, Quantity};
 use isophote::prepare::PreparedScene;
@@ -29,21 +30,24 @@ fn parsed(json: &str) -> Value {
 fn bands_of_a_map_are_the_map() {
     for starter in Starter::ALL {
         let (mut core, prepared, checked) = loaded(*starter);
-        let quantities = vec![Quantity::Brightness];
+        let quantities = vec![Quantity::Brightness, Quantity::Irradiance];
         let map = SimdRenderer::new(Precision::Double, None)
             .render(&prepared, &RenderSettings { quantities, ..RenderSettings::default() })
             .unwrap();
         let expected: Vec<f64> = map.scalar(&Quantity::Brightness).unwrap().iter().collect();
         let height = u32::try_from(checked["info"]["resolution"][1].as_u64().unwrap()).unwrap();
-        let (mut values, mut shapes) = (Vec::new(), Vec::new());
+        let (mut values, mut shapes, mut lit) = (Vec::new(), Vec::new(), 0);
         for (first, count) in [(0, 7), (7, height - 7)] {
             let mut band = core.render("brightness", first, count, 1).unwrap();
-            assert_eq!(parsed(&band.head())["height"], count);
+            let head = parsed(&band.head());
+            assert_eq!(head["height"], count);
+            lit += head["lit"].as_u64().unwrap();
             values.extend(band.take_values());
             shapes.extend(band.take_shapes());
         }
         assert_eq!(values, expected, "{}", starter.name());
         assert_eq!(shapes, map.mask().shapes());
+        assert_eq!(Some(usize::try_from(lit).unwrap()), counts(&map).lit);
     }
 }
 
@@ -56,13 +60,38 @@ fn a_preview_has_half_the_pixels_of_the_same_window() {
 }
 
 #[test]
+fn a_small_map_shows_the_same_window_in_two_hundred_pixels() {
+    let (mut core, prepared, _) = loaded(Starter::TwoLights);
+    let name = format!("brightness.{}", prepared.scene().lights()[0].name);
+    let mut band = core.thumbnail(&name).unwrap();
+    let head = parsed(&band.head());
+    assert_eq!((&head["channel"], &head["width"], &head["height"]), (&json!(name), &json!(200), &json!(150)));
+    let whole = parsed(&core.render("brightness", 0, 600, 1).unwrap().head());
+    assert_eq!(head["window"], whole["window"]);
+    let (values, shapes) = (band.take_values(), band.take_shapes());
+    assert_eq!((values.len(), shapes.len()), (200 * 150, 200 * 150));
+    // The lights alone add up to the whole: this scene has no ambient light.
+    let others = prepared.scene().lights().iter().skip(1).map(|light| format!("brightness.{}", light.name));
+    let mut sum = values;
+    for name in others {
+        let one = core.thumbnail(&name).unwrap().take_values();
+        sum.iter_mut().zip(one).for_each(|(sum, value)| *sum += value);
+    }
+    let whole = core.thumbnail("brightness").unwrap().take_values();
+    let largest = whole.iter().copied().fold(0.0, f64::max);
+    assert!(largest > 0.0 && sum.iter().zip(&whole).all(|(sum, value)| (sum - value).abs() <= 1e-12 * largest));
+    let preview = core.render(&name, 0, 300, 2).unwrap().take_values();
+    assert_eq!(preview.len(), 400 * 300);
+}
+
+#[test]
 fn statistics_and_isophotes_are_those_of_the_frame() {
     let (mut core, prepared, _) = loaded(Starter::Lab);
     let mut band = core.render("brightness", 0, 600, 1).unwrap();
     let (values, shapes) = (band.take_values(), band.take_shapes());
     let analysis = parsed(&core.analyse(&band.head(), values.clone(), shapes.clone(), "[0.1, 0.3]").unwrap());
     let statistics = &analysis["statistics"];
-    assert_eq!(statistics["visible"], 32_744);
+    assert_eq!((&statistics["visible"], &statistics["lit"]), (&json!(32_744), &json!(32_059)));
     assert_eq!(statistics["max"]["pixel"], json!([418, 281]));
     let reading = prepared.probe(&ProbePosition::Pixel(Pixel { column: 418, row: 281 })).unwrap();
     assert_eq!(statistics["max"]["point"], json!(reading.position(prepared.scene().length())));
@@ -235,4 +264,52 @@ fn what_the_core_says_is_in_the_language_of_the_page() {
     core.set_language("en").unwrap();
     let checked = parsed(&core.load(&wrong.to_string()).unwrap());
     assert_eq!(checked["problems"][0]["message"], "`sphere[0].radius` is -1");
+}
+
+/// A lab with so many lamps.
+fn with_lamps(count: usize) -> Value {
+    let mut core = Core::new();
+    let read = parsed(&core.read(Starter::Lab.text(), "toml").unwrap());
+    let mut scene = read["scene"].clone();
+    let lamp = |index: usize| json!({"name": format!("lamp {index}"), "position": [5, 5, -10], "intensity": 1});
+    scene["light"] = (0..count).map(lamp).collect();
+    let checked = parsed(&core.load(&scene.to_string()).unwrap());
+    let reading = parsed(&core.probe(r#"[{"name": "P", "at": [0, 0, 4]}]"#).unwrap());
+    let explanation = parsed(&core.explain(r#"{"name": "P", "at": [0, 0, 4]}"#).unwrap());
+    json!({"info": checked["info"], "reading": reading[0]["reading"], "explanation": explanation})
+}
+
+#[test]
+fn of_thousands_of_lamps_the_page_is_told_of_the_first_ones_and_of_their_sum() {
+    let (few, many) = (with_lamps(3), with_lamps(3000));
+    let length = |value: &Value| value.as_array().unwrap().len();
+    assert_eq!(length(&few["info"]["lights"]), 3);
+    assert_eq!(few["explanation"]["omitted"], 0);
+    for lights in [&many["info"]["lights"], &many["reading"]["lights"]] {
+        assert_eq!(length(lights), 60);
+    }
+    assert!(length(&many["info"]["channels"]) < 200);
+    assert!(length(&many["explanation"]["blocks"]) < 200);
+    assert!(many["explanation"]["omitted"].as_u64().unwrap() > 2000);
+    // The values are those of all of them.
+    let value = |answer: &Value| answer["reading"]["brightness"].as_f64().unwrap();
+    assert!((value(&many) / value(&few) - 1000.0).abs() < 1e-9, "{} {}", value(&many), value(&few));
+}
+
+#[test]
+fn a_scene_finds_the_files_that_were_handed_in() {
+    let text = "version = 1\nlength = \"m\"\nconvention = \"irradiance\"\n[camera]\neye = [0, 0, 5]\n\
+        field_of_view = 40\nresolution = [40, 30]\n[[mesh]]\nname = \"leaf\"\nfile = \"parts/leaf.obj\"\n\
+        [[light]]\nposition = [0, 0, 5]\nintensity = 1\n";
+    let mut core = Core::new();
+    let read = parsed(&core.read(text, "toml").unwrap());
+    assert_eq!(read["problems"][0]["path"], "mesh[0].file");
+    core.add_file("parts/leaf.obj", b"v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n".to_vec());
+    let read = parsed(&core.read(text, "toml").unwrap());
+    assert_eq!(read["problems"], json!([]));
+    let checked = parsed(&core.load(&read["scene"].to_string()).unwrap());
+    assert_eq!(checked["info"]["shapes"][0]["kind"], "mesh");
+    let shapes = core.render("brightness", 0, 30, 1).unwrap().take_shapes();
+    assert!(shapes.contains(&0) && shapes.contains(&-1));
+    assert!(core.thumbnail("brightness").unwrap().take_shapes().contains(&0));
 }

@@ -4,6 +4,7 @@ use std::io;
 use std::path::Path;
 
 use isophote::map::SourceFile;
+use isophote::message;
 use isophote_export::FileMetadata;
 use serde::Deserialize;
 use serde_json::{Map as JsonMap, Value, json};
@@ -35,7 +36,7 @@ pub fn read_metadata(path: &Path) -> Result<FileMetadata, StoreError> {
     let file = path.join(ZARR_JSON);
     let text = match std::fs::read(&file) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            return Err(StoreError::Foreign { path: path.into(), what: "no Zarr store of Isophote".into() });
+            return Err(StoreError::Foreign { path: path.into(), what: message!("no Zarr store of Isophote") });
         }
         text => text.map_err(|reason| StoreError::Read { path: file, reason })?,
     };
@@ -85,7 +86,7 @@ impl Identity {
         let arrays = object(take("/consolidated_metadata/metadata"));
         match Version::deserialize(&metadata) {
             Err(_) => {
-                return Err(StoreError::Foreign { path: path.into(), what: "no Zarr store of Isophote".into() });
+                return Err(StoreError::Foreign { path: path.into(), what: message!("no Zarr store of Isophote") });
             }
             Ok(Version { isophote: version }) if version > FileMetadata::VERSION => {
                 return Err(StoreError::Newer { path: path.into(), version });
@@ -118,11 +119,11 @@ impl Identity {
                 changes.push(Change { what, stored, asked });
             }
         };
-        compare("the program", there.program.clone(), here.program.clone());
-        compare("the renderer", there.renderer.clone(), here.renderer.clone());
-        compare("the size", size(there), size(here));
-        compare("the list of channels", channels(there), channels(here));
-        compare("the side of a shard", self.plan.shard_side.to_string(), asked.plan.shard_side.to_string());
+        compare(message!("the program"), there.program.clone(), here.program.clone());
+        compare(message!("the renderer"), there.renderer.clone(), here.renderer.clone());
+        compare(message!("the size"), size(there), size(here));
+        compare(message!("the list of channels"), channels(there), channels(here));
+        compare(message!("the side of a shard"), self.plan.shard_side.to_string(), asked.plan.shard_side.to_string());
         if changes.is_empty() {
             changes.extend(changed_line(&there.scene, &here.scene));
         }
@@ -133,7 +134,7 @@ impl Identity {
         if changes.is_empty() && stored != asked {
             let [stored, asked] =
                 [stored, asked].map(|identity| format!("{:08x}", crc32c::crc32c(&identity.to_json(None))));
-            changes.push(Change { what: "the checksum of the description", stored, asked });
+            changes.push(Change { what: message!("the checksum of the description"), stored, asked });
         }
         changes
     }
@@ -149,7 +150,7 @@ fn changed_file(stored: &[SourceFile], asked: &[SourceFile]) -> Option<Change> {
     let changed =
         asked.iter().find(|file| differs(file, stored)).or(stored.iter().find(|file| differs(file, asked)))?;
     let [stored, asked] = [stored, asked].map(|files| named(files, &changed.name));
-    Some(Change { what: "a file of the scene", stored, asked })
+    Some(Change { what: message!("a file of the scene"), stored, asked })
 }
 
 fn size(metadata: &FileMetadata) -> String {
@@ -169,7 +170,11 @@ fn changed_line(stored: &str, asked: &str) -> Option<Change> {
             (None, None) => return None,
             (there, here) if there == here => {}
             (there, here) => {
-                return Some(Change { what: "a line of the scene", stored: quoted(there), asked: quoted(here) });
+                return Some(Change {
+                    what: message!("a line of the scene"),
+                    stored: quoted(there),
+                    asked: quoted(here),
+                });
             }
         }
     }

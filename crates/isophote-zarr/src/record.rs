@@ -1,6 +1,7 @@
 //! What is known about a finished shard: its files, and its part of the results.
 
 use isophote::map::Map;
+use isophote::message;
 use serde::{Deserialize, Serialize};
 
 use crate::array::ChannelArray;
@@ -85,22 +86,22 @@ impl Record {
 
     /// The record of a shard whose files all exist and have the recorded lengths.
     pub fn read(files: &Files, arrays: &[ChannelArray], shard: Shard) -> Result<Result<Self, Damage>, StoreError> {
-        let damage = |place, reason: &str| Ok(Err(Damage { place, reason: reason.into() }));
+        let damage = |place, reason| Ok(Err(Damage { place, reason }));
         let key = Self::key(shard);
-        let Some(json) = files.get(&key)? else { return damage(format!("shard {shard}"), "is not computed") };
-        let Some(json) = opened(&json) else { return damage(key, "is damaged: its checksum is wrong") };
-        let Ok(record) = serde_json::from_slice::<Self>(json) else { return damage(key, "is damaged") };
+        let Some(json) = files.get(&key)? else { return damage(format!("shard {shard}"), message!("is not computed")) };
+        let Some(json) = opened(&json) else { return damage(key, message!("is damaged: its checksum is wrong")) };
+        let Ok(record) = serde_json::from_slice::<Self>(json) else { return damage(key, message!("is damaged")) };
         if record.files.len() != arrays.len() {
-            return damage(key, "is of another map");
+            return damage(key, message!("is of another map"));
         }
         for (array, stored) in arrays.iter().zip(&record.files) {
             let key = array.key(shard);
             match (files.length(&key), stored.map(|stored| stored.bytes)) {
                 (found, expected) if found == expected => {}
-                (None, _) => return damage(key, "is missing"),
-                (Some(_), None) => return damage(key, "should not be there: nothing is seen in it"),
+                (None, _) => return damage(key, message!("is missing")),
+                (Some(_), None) => return damage(key, message!("should not be there: nothing is seen in it")),
                 (Some(found), Some(expected)) => {
-                    return damage(key, &format!("has {found} bytes in place of {expected}"));
+                    return damage(key, message!("has {found} bytes in place of {expected}", found, expected));
                 }
             }
         }
@@ -116,9 +117,13 @@ impl Record {
             let found = crc32c::crc32c(&bytes);
             let expected = stored.crc32c;
             let reason = if found == expected {
-                array.check(&bytes).err().map(|reason| format!("cannot be decoded: {reason}"))
+                array.check(&bytes).err().map(|reason| message!("cannot be decoded: {reason}", reason))
             } else {
-                Some(format!("has the checksum {found:08x} in place of {expected:08x}"))
+                Some(message!(
+                    "has the checksum {found} in place of {expected}",
+                    found = format!("{found:08x}"),
+                    expected = format!("{expected:08x}")
+                ))
             };
             if let Some(reason) = reason {
                 return Ok(Some(Damage { place: file, reason }));

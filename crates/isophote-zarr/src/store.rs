@@ -7,9 +7,11 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use isophote::map::Quantity;
+use isophote::message;
 use isophote::prepare::PreparedScene;
 use isophote::render::{Observer, RenderError, Renderer};
 use isophote::scene::{CarriedFiles, Scene, Syntax};
+use isophote::text::Message;
 use isophote_export::FileMetadata;
 
 use crate::array::ChannelArray;
@@ -127,7 +129,7 @@ impl Store {
     /// It is not a store of Isophote, is damaged, or is being written.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
         let files = Files::new(path);
-        let identity = stored_identity(&files)?.ok_or_else(|| foreign(path, "no Zarr store of Isophote"))?;
+        let identity = stored_identity(&files)?.ok_or_else(|| foreign(path, message!("no Zarr store of Isophote")))?;
         let arrays = describe::stored_arrays(&identity, path)?;
         let lock = files.lock(Sharing::Alone)?;
         Self::new(files, identity, arrays, lock)
@@ -210,7 +212,7 @@ impl Store {
                     };
                     let of_preview = |reason| Damage {
                         place: Record::key(shard),
-                        reason: format!("has a preview that does not fit: {reason}"),
+                        reason: message!("has a preview that does not fit: {reason}", reason),
                     };
                     let added = preview.add(plan.region(shard), &record.preview).map_err(of_preview);
                     let damage = damage.or(added.err());
@@ -239,13 +241,13 @@ impl Store {
         for (name, _, bytes) in describe::coordinates(&PreparedScene::new(&scene), &metadata.window)? {
             let file = format!("{name}/c/0");
             if self.files.get(&file)?.as_ref() != Some(&bytes) {
-                damages.push(Damage { place: file, reason: "is missing or changed".into() });
+                damages.push(Damage { place: file, reason: message!("is missing or changed") });
             }
         }
         for (name, metadata) in &self.identity.arrays {
             let file = format!("{name}/{ZARR_JSON}");
             if self.files.get(&file)?.as_deref() != Some(&pretty(metadata)) {
-                let reason = "is missing or changed".into();
+                let reason = message!("is missing or changed");
                 damages.push(Damage { place: file, reason });
             }
         }
@@ -270,19 +272,26 @@ impl Store {
 fn check_place(files: &Files, opening: Opening) -> Result<Option<Identity>, StoreError> {
     let path = files.root();
     match fs::metadata(path) {
-        Ok(found) if !found.is_dir() => return Err(foreign(path, "a file")),
+        Ok(found) if !found.is_dir() => return Err(foreign(path, message!("a file"))),
         Ok(_) => {}
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
             return match parent.filter(|parent| !parent.is_dir()) {
-                Some(parent) => Err(foreign(path, &format!("in a folder ‘{}’ that does not exist", parent.display()))),
+                Some(parent) => Err(foreign(
+                    path,
+                    message!("in a folder ‘{folder}’ that does not exist", folder = parent.display()),
+                )),
                 None => Ok(None),
             };
         }
         Err(reason) => return Err(StoreError::Read { path: path.into(), reason }),
     }
     let Some(stored) = stored_identity(files)? else {
-        return if files.is_unused()? { Ok(None) } else { Err(foreign(path, "a folder with other things in it")) };
+        return if files.is_unused()? {
+            Ok(None)
+        } else {
+            Err(foreign(path, message!("a folder with other things in it")))
+        };
     };
     if opening == Opening::Continue {
         return Ok(Some(stored));
@@ -299,8 +308,8 @@ fn stored_identity(files: &Files) -> Result<Option<Identity>, StoreError> {
     files.get(ZARR_JSON)?.map(|text| Identity::from_json(&text, files.root())).transpose()
 }
 
-fn foreign(path: &Path, what: &str) -> StoreError {
-    StoreError::Foreign { path: path.into(), what: what.into() }
+fn foreign(path: &Path, what: Message) -> StoreError {
+    StoreError::Foreign { path: path.into(), what }
 }
 
 fn refuse_changes(stored: &Identity, asked: &Identity, path: &Path) -> Result<(), StoreError> {

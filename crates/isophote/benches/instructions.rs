@@ -110,16 +110,18 @@ fn render_reference(scene: PreparedScene) -> Map {
     black_box(brightness(&ReferenceRenderer, black_box(&scene)))
 }
 
+/// With the instructions that valgrind knows, which are not always the machine's best.
 #[library_benchmark]
-#[bench::rows(prepared_lab())]
-#[bench::rows_64_lights(many_lights(64))]
-#[bench::tiles(cloud())]
-#[bench::packets(solids(""))]
-#[bench::samples(solids("sampling = { tolerance = 0.05 }"))]
-#[bench::ambient(solids("ambient = { radiance = 1, obstructed = true, samples = 16 }"))]
-fn render_lanes(scene: PreparedScene) -> Map {
-    let renderer = SimdRenderer::new(Precision::Double, NonZeroUsize::new(1));
-    black_box(brightness(&renderer, black_box(&scene)))
+#[bench::rows_in_single(Precision::Single, prepared_lab())]
+#[bench::rows_in_double(Precision::Double, prepared_lab())]
+#[bench::rows_64_lights_in_single(Precision::Single, many_lights(64))]
+#[bench::rows_64_lights_in_double(Precision::Double, many_lights(64))]
+#[bench::tiles(Precision::Double, cloud())]
+#[bench::packets(Precision::Double, solids(""))]
+#[bench::samples(Precision::Double, solids("sampling = { tolerance = 0.05 }"))]
+#[bench::ambient(Precision::Double, solids("ambient = { radiance = 1, obstructed = true, samples = 16 }"))]
+fn render_lanes(precision: Precision, scene: PreparedScene) -> Map {
+    black_box(brightness(&SimdRenderer::new(precision, NonZeroUsize::new(1)), black_box(&scene)))
 }
 
 #[library_benchmark]

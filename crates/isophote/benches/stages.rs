@@ -1,7 +1,9 @@
 //! One benchmark per stage from a scene file to a map.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::hint::black_box;
+use std::num::NonZeroUsize;
 use std::path::Path;
 
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -91,6 +93,35 @@ fn many_lights(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// The lab's sphere seen so closely that it covers every pixel, by whole and other n: what the kernel alone takes.
+fn fill(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("sphere fills 800×600");
+    group.sample_size(20);
+    for (count, shininess) in [(1, 20.0), (1, 20.5), (256, 20.0), (256, 20.5)] {
+        let mut text = format!(
+            "version = 1\nlength = \"m\"\nhandedness = \"left\"\nconvention = \"lab\"\n\
+             [camera]\neye = [0, 0, 0]\nforward = [0, 0, 1]\nresolution = [800, 600]\n\
+             screen = {{ distance = 5, x = [-0.6, 0.6], y = [-0.45, 0.45] }}\n\
+             [material.clay]\ndiffuse = 0.7\nspecular = 0.3\nshininess = {shininess}\n\
+             [[sphere]]\ncenter = [0, 0, 5]\nradius = 1\nmaterial = \"clay\"\n"
+        );
+        for index in 0..count {
+            let angle = f64::from(index) * 2.399_963;
+            let radius = 0.5 + 3.0 * f64::from(index) / f64::from(count);
+            let [x, y, z] = [radius * angle.cos(), radius * angle.sin(), -1.0 - 0.3 * f64::from(index % 16)];
+            let _ = write!(text, "[[light]]\nposition = [{x}, {y}, {z}]\nintensity = 100\n");
+        }
+        let scene = PreparedScene::new(&Scene::from_text("fill", &text, Syntax::Toml).expect("it is valid"));
+        for precision in [Precision::Double, Precision::Single] {
+            let lanes = SimdRenderer::new(precision, NonZeroUsize::new(1));
+            group.bench_function(format!("{count} lights, n = {shininess}, lanes, {}", precision.name()), |bencher| {
+                bencher.iter(|| black_box(render(&lanes, &scene, &[Quantity::Brightness])));
+            });
+        }
+    }
+    group.finish();
+}
+
 /// An image whose buffers no longer fit into a cache: here the cost per background pixel shows.
 fn large(criterion: &mut Criterion) {
     let scene = lab().with_resolution(Resolution { width: 3840, height: 2160 }).expect("an allowed size");
@@ -157,5 +188,5 @@ fn gallery(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(stages, read, prepare, kernel, samples, many_lights, large, shapes, gallery);
+criterion_group!(stages, read, prepare, kernel, samples, many_lights, fill, large, shapes, gallery);
 criterion_main!(stages);

@@ -68,9 +68,8 @@ pub trait Lane: Real {
     #[must_use]
     fn min(self, other: Self) -> Self;
 
-    /// For lane i, the distance (first + i) − origin, computed in double precision and then rounded. `first` must be an
-    /// integer.
-    fn distances(token: Self::Token, first: f64, origin: f64) -> Self;
+    /// first + i in lane i. `first` is a whole number; in single precision, of less than 24 bits.
+    fn counted(token: Self::Token, first: f64) -> Self;
 
     /// Writes the numbers; the slice has room for [`COUNT`](Self::COUNT).
     fn store(self, out: &mut [Self::Element]);
@@ -79,17 +78,16 @@ pub trait Lane: Real {
     #[must_use]
     fn product_rest(self, factor: Self, product: Self) -> Self;
 
-    /// The k of x = m·2ᵏ with 1 ≤ m < 2, for a positive normal x.
+    /// m and k of x = m·2ᵏ with √½ ≤ m < √2, for a positive normal x.
     #[must_use]
-    fn exponent(self) -> Self;
+    fn split(self) -> [Self; 2];
 
-    /// The m of x = m·2ᵏ with 1 ≤ m < 2, for a positive normal x.
+    /// self · 2ᵏ, where `shifted` is k + [`WHOLE`](Self::WHOLE) and nothing leaves the range of normal numbers.
     #[must_use]
-    fn mantissa(self) -> Self;
+    fn scale(self, shifted: Self) -> Self;
 
-    /// 2ᵏ for an integer k within the exponent range of normal numbers.
-    #[must_use]
-    fn power_of_two(self) -> Self;
+    /// 1.5·2ᵖ, where p is the number of a mantissa's stored digits: a sum with it has no fraction.
+    const WHOLE: f64;
 }
 
 impl<V: Lane<Element = f64>> ExactProduct for V {
@@ -385,9 +383,32 @@ fn run_with<S: Simd, J: LaneJob>(simd: S, job: J) -> J::Output {
     )
 }
 
+/// 1/√x from a first guess, x shifted by one bit, which halves its exponent: then e = 1 − x y² is within ±0.07, and 1/√(1 − e)
+/// is a polynomial. (The divider would take longer than everything else that is computed about a point.)
+#[inline(always)]
+fn inverse_sqrt<V: Lane>(x: V, first: V) -> V {
+    let rest = (-(first * first)).mul_add(x, x.splat_like(1.0));
+    // Fit for the least relative error: 2.4e-8.
+    let factor = x.splat_like(0.273_173_524_014_358_46);
+    let factor = factor.mul_add(rest, x.splat_like(0.313_958_399_627_240_87));
+    let factor = factor.mul_add(rest, x.splat_like(0.375_003_823_363_462_2));
+    let factor = factor.mul_add(rest, x.splat_like(0.499_998_273_090_416_7));
+    let factor = factor.mul_add(rest, x.splat_like(1.0));
+    let second = first * factor;
+    match V::Element::PRECISION {
+        Precision::Single => second,
+        Precision::Double => {
+            let rest = (-(second * second)).mul_add(x, x.splat_like(1.0));
+            let factor = rest.mul_add(x.splat_like(0.375), x.splat_like(0.5));
+            (second * rest).mul_add(factor, second)
+        }
+    }
+}
+
 macro_rules! lane {
     ($vector:ident, $mask:ident, $bits:ident, $element:ty, $max:ident, $min:ident, half: $half:expr, negligible: $negligible:expr,
-     mantissa bits: $width:expr, whole: $whole:expr, bias: $bias:expr) => {
+     mantissa bits: $width:expr, first whole: $first_whole:expr, bias: $bias:expr, one: $one:expr, root half: $root_half:expr,
+     half of bits: $half_of_bits:expr) => {
         impl<S: Simd> Real for $vector<S> {
             type Mask = $mask<S>;
             const NEGLIGIBLE_SQUARE: f64 = $negligible;
@@ -400,6 +421,12 @@ macro_rules! lane {
             #[inline(always)]
             fn sqrt(self) -> Self {
                 <Self as fearless_simd::SimdFloat<S>>::sqrt(self)
+            }
+
+            #[inline(always)]
+            fn inverse_sqrt(self) -> Self {
+                let bits: $bits<S> = self.bitcast();
+                inverse_sqrt(self, ($bits::splat(self.simd, $half_of_bits) - (bits >> 1)).bitcast())
             }
 
             #[inline(always)]
@@ -456,8 +483,9 @@ macro_rules! lane {
             }
 
             #[inline(always)]
-            fn distances(token: S, first: f64, origin: f64) -> Self {
-                distances::$vector(token, first, origin)
+            fn counted(token: S, first: f64) -> Self {
+                const LANES: [$element; 16] = [0., 1., 2., 3., 4., 5., 6., 7., 8., 9., 10., 11., 12., 13., 14., 15.];
+                <Self as Lane>::load(token, &LANES) + <Self as Lane>::splat(token, <$element>::from_f64(first))
             }
 
             #[inline(always)]
@@ -481,26 +509,25 @@ macro_rules! lane {
             }
 
             #[inline(always)]
-            fn exponent(self) -> Self {
+            fn split(self) -> [Self; 2] {
+                let bits: $bits<S> = self.bitcast();
+                let one = $bits::splat(self.simd, $one);
+                // With this much more, numbers from √½ up have the exponent bits of numbers from 1 up.
+                let raised = bits + $bits::splat(self.simd, $one - $root_half);
                 // Puts the exponent bits below the binary point of a number whose last digit counts ones.
-                let bits: $bits<S> = self.bitcast();
-                let whole = <Self as Lane>::splat(self.simd, $whole);
-                let biased = (bits >> $width) | whole.bitcast::<$bits<S>>();
-                biased.bitcast::<Self>() - ($whole + $bias)
+                let first_whole = <Self as Lane>::splat(self.simd, $first_whole).bitcast::<$bits<S>>();
+                let exponent = ((raised >> $width) | first_whole).bitcast::<Self>();
+                let mantissa = (bits - (raised & $bits::splat(self.simd, !((1 << $width) - 1)))) + one;
+                [mantissa.bitcast(), exponent - ($first_whole + $bias)]
             }
 
             #[inline(always)]
-            fn mantissa(self) -> Self {
-                let bits: $bits<S> = self.bitcast();
-                let one = <Self as Lane>::splat(self.simd, 1.0).bitcast::<$bits<S>>();
-                ((bits & ((1 << $width) - 1)) | one).bitcast()
+            fn scale(self, shifted: Self) -> Self {
+                let (bits, shifted): ($bits<S>, $bits<S>) = (self.bitcast(), shifted.bitcast());
+                (bits + (shifted << $width)).bitcast()
             }
 
-            #[inline(always)]
-            fn power_of_two(self) -> Self {
-                let bits: $bits<S> = (self + ($whole + $bias)).bitcast();
-                (bits << $width).bitcast()
-            }
+            const WHOLE: f64 = 1.5 * $first_whole;
         }
     };
 }
@@ -508,14 +535,16 @@ macro_rules! lane {
 macro_rules! single_lane {
     ($($vector:ident $mask:ident $bits:ident $max:ident $min:ident),*) => {$(
         lane!($vector, $mask, $bits, f32, $max, $min, half: 4097.0, negligible: 1e-14,
-            mantissa bits: 23, whole: 8_388_608.0, bias: 127.0);
+            mantissa bits: 23, first whole: 8_388_608.0, bias: 127.0, one: 0x3f80_0000, root half: 0x3f35_04f3,
+            half of bits: 0x5f37_59df);
     )*};
 }
 
 macro_rules! double_lane {
     ($($vector:ident $mask:ident $bits:ident $max:ident $min:ident),*) => {$(
         lane!($vector, $mask, $bits, f64, $max, $min, half: 134_217_729.0, negligible: 1e-32,
-            mantissa bits: 52, whole: 4_503_599_627_370_496.0, bias: 1023.0);
+            mantissa bits: 52, first whole: 4_503_599_627_370_496.0, bias: 1023.0, one: 0x3ff0_0000_0000_0000,
+            root half: 0x3fe6_a09e_667f_3bcd, half of bits: 0x5fe6_eb50_c7b5_37a9);
     )*};
 }
 
@@ -541,30 +570,6 @@ mod doubles {
     }
 
     doubles!(f64x2 f32x4 2, f64x8 f32x16 8);
-}
-
-mod distances {
-    use super::{Simd, SimdBase, SimdNarrow, f32x4, f32x16, f64x2, f64x8};
-
-    const LANES: [f64; 16] = [0., 1., 2., 3., 4., 5., 6., 7., 8., 9., 10., 11., 12., 13., 14., 15.];
-
-    macro_rules! distances {
-        ($($double:ident $single:ident $count:literal),*) => {$(
-            #[inline(always)]
-            pub fn $double<S: Simd>(token: S, first: f64, origin: f64) -> $double<S> {
-                ($double::from_slice(token, &LANES[..$count]) + first) - origin
-            }
-
-            #[inline(always)]
-            pub fn $single<S: Simd>(token: S, first: f64, origin: f64) -> $single<S> {
-                let lower = $double(token, first, origin);
-                let upper = ($double::from_slice(token, &LANES[$count..2 * $count]) + first) - origin;
-                lower.narrow(upper)
-            }
-        )*};
-    }
-
-    distances!(f64x2 f32x4 2, f64x8 f32x16 8);
 }
 
 /// Two vectors that are computed side by side.
@@ -608,6 +613,11 @@ impl<V: Real> Real for Pair<V> {
     #[inline(always)]
     fn sqrt(self) -> Self {
         Self(self.0.sqrt(), self.1.sqrt())
+    }
+
+    #[inline(always)]
+    fn inverse_sqrt(self) -> Self {
+        Self(self.0.inverse_sqrt(), self.1.inverse_sqrt())
     }
 
     #[inline(always)]
@@ -665,8 +675,8 @@ impl<V: Lane> Lane for Pair<V> {
 
     #[inline(always)]
     #[expect(clippy::cast_precision_loss, reason = "a vector is short")]
-    fn distances(token: V::Token, first: f64, origin: f64) -> Self {
-        Self(V::distances(token, first, origin), V::distances(token, first + V::COUNT as f64, origin))
+    fn counted(token: V::Token, first: f64) -> Self {
+        Self(V::counted(token, first), V::counted(token, first + V::COUNT as f64))
     }
 
     #[inline(always)]
@@ -681,17 +691,15 @@ impl<V: Lane> Lane for Pair<V> {
     }
 
     #[inline(always)]
-    fn exponent(self) -> Self {
-        Self(self.0.exponent(), self.1.exponent())
+    fn split(self) -> [Self; 2] {
+        let ([low, low_exponent], [high, high_exponent]) = (self.0.split(), self.1.split());
+        [Self(low, high), Self(low_exponent, high_exponent)]
     }
 
     #[inline(always)]
-    fn mantissa(self) -> Self {
-        Self(self.0.mantissa(), self.1.mantissa())
+    fn scale(self, shifted: Self) -> Self {
+        Self(self.0.scale(shifted.0), self.1.scale(shifted.1))
     }
 
-    #[inline(always)]
-    fn power_of_two(self) -> Self {
-        Self(self.0.power_of_two(), self.1.power_of_two())
-    }
+    const WHOLE: f64 = V::WHOLE;
 }

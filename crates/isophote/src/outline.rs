@@ -144,7 +144,7 @@ impl<T: Real> RowOfEllipse<T> {
         let u = place.column;
         let direction = self.direction_step.mul_add(u, self.direction);
         let moment = self.moment_step.mul_add(u, self.moment);
-        let inverse_length = u.splat_like(1.0) / direction.dot(direction).sqrt();
+        let inverse_length = direction.dot(direction).inverse_sqrt();
         let clearance = self.clearance * place.after_first * place.after_last;
         let cos_theta_o = clearance.max_zero().sqrt() * inverse_length;
         let unit = direction * inverse_length;
@@ -182,9 +182,16 @@ impl Ellipse {
         self.row_at(f64::from(row) - self.row)
     }
 
-    /// Whether the numbers of its rows, and their squares and products, are within the range of single precision.
+    /// Whether the numbers of its rows, and their squares and products, are within the range of single precision, and its
+    /// columns are whole numbers there.
     #[must_use]
     pub fn fits_single(&self) -> bool {
+        const FARTHEST_COLUMN: f64 = 4e6;
+        let half_height = 0.5 * (self.rows[1] - self.rows[0]);
+        let columns = [self.column, half_height * self.middle[1], half_height * self.width_squared.sqrt()];
+        if !columns.iter().all(|column| column.abs() < FARTHEST_COLUMN) {
+            return false;
+        }
         let fits = |number: f64| number == 0.0 || (1e-15..1e15).contains(&number.abs());
         let steps = [self.direction[1], self.direction[2]].into_iter().map(Vector::length);
         let outline = [self.clearance * self.width_squared, self.rows[1] - self.rows[0], self.center.length()];

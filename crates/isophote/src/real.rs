@@ -25,6 +25,13 @@ pub trait Real:
     #[must_use]
     fn sqrt(self) -> Self;
 
+    /// 1/√x of a positive normal number, with an error of two roundings.
+    #[must_use]
+    #[inline(always)]
+    fn inverse_sqrt(self) -> Self {
+        self.splat_like(1.0) / self.sqrt()
+    }
+
     /// self · factor + addend, with a single rounding if the machine has an instruction for it, otherwise with two.
     #[must_use]
     #[inline(always)]

@@ -187,13 +187,7 @@ pub struct Reflectance {
 
 /// How (N·H)ⁿ is computed from numbers proportional to cos²θ_h and sin²θ_h.
 pub trait Lobe<T: Real> {
-    /// The divisor that [`value`](Self::value) needs; positive. The sum of the two turns them into fractions.
-    #[inline(always)]
-    fn denominator(&self, cos_squared: T, sin_squared: T) -> T {
-        cos_squared + sin_squared
-    }
-
-    /// (N·H)ⁿ, given 1/[`denominator`](Self::denominator).
+    /// (N·H)ⁿ; `inverse` is 1/(cos² + sin²) wherever the light is above the horizon.
     fn value(&self, cos_squared: T, sin_squared: T, inverse: T) -> T;
 
     /// What the lobe is multiplied by besides v I/r², times r: cosθ_i r, given that (at least 0) and r.

@@ -181,14 +181,13 @@ pub fn light_term<T: Real>(
 
     let view_across = point.normal.mul_add(-point.cos_theta_o, point.view);
     let half_across = point.normal.mul_add(-along, view_across.mul_add(distance, to_light));
-    let half_along = distance.mul_add(point.cos_theta_o, along).max_zero();
-    let cos_squared = half_along * half_along;
     let sin_squared = half_across.dot(half_across);
 
-    // H has zero length only when the light is straight behind the surface, where nothing is visible or nothing is lit; the
-    // guard avoids 0/0 there.
-    let negligible = distance_squared * distance.splat_like(T::NEGLIGIBLE_SQUARE);
-    let squares = lobe.denominator(cos_squared, sin_squared).max(negligible);
+    // H has zero length only when the light is straight behind the surface, where nothing is visible or nothing is lit. To
+    // avoid 0/0 there, the sum of the squares is that of the nearest lit and visible place.
+    let least = distance.splat_like(T::NEGLIGIBLE_SQUARE.sqrt());
+    let lit_along = distance.mul_add(point.cos_theta_o.max(least), along_lit);
+    let squares = lit_along.mul_add(lit_along, sin_squared);
     let cubed = distance_squared * distance;
     let inverse = distance.splat_like(1.0) / (cubed * squares);
     let inverse_squares = cubed * inverse;
@@ -196,6 +195,9 @@ pub fn light_term<T: Real>(
     let intensity = emitter.intensity_towards(to_light, distance_squared * inverse_cubed);
     let inverse_distance = distance.splat_like(1.0) / distance;
     let direction = to_light * inverse_distance;
+    let half_along = distance.mul_add(point.cos_theta_o, along).max_zero();
+    let cos_squared = half_along * half_along;
+    let negligible = distance_squared * distance.splat_like(T::NEGLIGIBLE_SQUARE);
     LightTerm {
         visibility,
         direction,

@@ -52,8 +52,8 @@ pub const DOUBLE: Tolerance = Tolerance {
 /// [`DOUBLE`].
 ///
 /// A number of 32 bits has a relative error of 6e-8. Some ten roundings go into the directions N, L and V; even if those
-/// were rounded only once from exact ones, the lobe would amplify that by n tanθ_h. Highlights with n above 24 are computed
-/// in double precision.
+/// were rounded only once from exact ones, the lobe would amplify that by n tanθ_h. Highlights with n above 24, or below
+/// 1, are computed in double precision.
 pub const SINGLE: Tolerance = Tolerance {
     of_peak: 3e-6,
     peak_cosine: 1e-2,

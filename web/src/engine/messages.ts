@@ -14,12 +14,14 @@ interface OfScene {
 export type Question =
   | { kind: 'start'; module: CoreModule }
   | { kind: 'language'; language: Language }
+  | { kind: 'file'; name: string; content: Uint8Array }
   | { kind: 'read'; text: string; syntax: 'toml' | 'json' }
   | { kind: 'starter'; name: string }
   | { kind: 'toml'; text: string }
   | { kind: 'check'; text: string }
   | { kind: 'colormap'; name: Colormap }
   | ({ kind: 'render'; channel: string; first: number; count: number; step: number } & OfScene)
+  | ({ kind: 'thumbnail'; channel: string } & OfScene)
   | ({ kind: 'surface'; request: SurfaceRequest; channel: string } & OfScene)
   | ({ kind: 'grid'; grid: string; channel: string } & OfScene)
   | ({

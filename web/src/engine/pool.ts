@@ -4,6 +4,9 @@ import type { Answer, CoreModule, Question } from './messages';
 import { EngineError, type Language, type Problem } from './types';
 import CoreWorker from './worker?worker&inline';
 
+/** A pointless answer that has not come after this time, in ms, is not waited for. */
+const PATIENCE = 1500;
+
 interface Waiting {
   question: Question;
   transfer: Transferable[];
@@ -16,8 +19,10 @@ export class CoreClient {
   #worker: Worker;
   #module: CoreModule;
   #language: Language;
+  /** The files that a core is given when it starts, by name. */
+  readonly #files: ReadonlyMap<string, Uint8Array>;
   #queue: Waiting[] = [];
-  #current: (Waiting & { id: number }) | null = null;
+  #current: (Waiting & { id: number; since: number }) | null = null;
   #next = 0;
   /** Why there is no core any more: it did not start. */
   #failure: string | null = null;
@@ -26,7 +31,8 @@ export class CoreClient {
   #tellStarted!: (version: string) => void;
   #tellFailed!: (error: Error) => void;
 
-  constructor(module: CoreModule, language: Language) {
+  constructor(module: CoreModule, language: Language, files: ReadonlyMap<string, Uint8Array>) {
+    this.#files = files;
     this.#module = module;
     this.#language = language;
     this.started = new Promise((resolve, reject) => {
@@ -50,7 +56,7 @@ export class CoreClient {
   ask<T>(question: Question, transfer: Transferable[] = []): Promise<T> {
     return new Promise<T>((resolve, reject) => {
       if (this.#failure !== null) {
-        reject(new EngineError(this.#failure));
+        reject(new EngineError(this.#failure, [], 'lost'));
         return;
       }
       this.#queue.push({ question, transfer, resolve: resolve as (value: unknown) => void, reject });
@@ -58,11 +64,20 @@ export class CoreClient {
     });
   }
 
-  /** Forgets questions that were not sent yet; they are answered with `null`. */
-  forget(isPointless: (question: Question) => boolean): void {
+  /** Nobody waits for the answers to such questions: they are not asked, and a worker that goes on with one is replaced. */
+  abandon(isPointless: (question: Question) => boolean): void {
+    const error = new EngineError('a newer question came', [], 'pointless');
     const pointless = this.#queue.filter((waiting) => isPointless(waiting.question));
     this.#queue = this.#queue.filter((waiting) => !isPointless(waiting.question));
-    for (const waiting of pointless) waiting.resolve(null);
+    for (const waiting of pointless) waiting.reject(error);
+    const current = this.#current;
+    if (!current || !isPointless(current.question)) return;
+    setTimeout(
+      () => {
+        if (this.#current === current) this.#replace(error);
+      },
+      Math.max(0, current.since + PATIENCE - performance.now()),
+    );
   }
 
   #start(): Worker {
@@ -80,12 +95,9 @@ export class CoreClient {
       resolve: (version) => this.#tellStarted(version as string),
       reject: this.#tellFailed,
     };
-    this.#queue.unshift(start, {
-      question: { kind: 'language', language: this.#language },
-      transfer: [],
-      resolve: () => {},
-      reject: () => {},
-    });
+    const told = (question: Question): Waiting => ({ question, transfer: [], resolve: () => {}, reject: () => {} });
+    const files = [...this.#files].map(([name, content]) => told({ kind: 'file', name, content }));
+    this.#queue.unshift(start, told({ kind: 'language', language: this.#language }), ...files);
     // The first message is sent once the field #worker is set.
     queueMicrotask(() => this.#send());
     return worker;
@@ -96,7 +108,7 @@ export class CoreClient {
     const next = this.#queue.shift();
     if (!next) return;
     const id = this.#next++;
-    this.#current = { ...next, id };
+    this.#current = { ...next, id, since: performance.now() };
     this.#worker.postMessage({ id, question: next.question }, next.transfer);
   }
 
@@ -120,18 +132,25 @@ export class CoreClient {
 
   /** A worker that stopped is replaced; its question is not asked again, because it may be the cause. */
   #fail(reason: string): void {
-    const current = this.#current;
-    this.#current = null;
-    this.#worker.terminate();
-    current?.reject(new EngineError(reason));
-    if (current?.question.kind !== 'start') {
-      this.#worker = this.#start();
+    const error = new EngineError(reason, [], 'lost');
+    if (this.#current?.question.kind !== 'start') {
+      this.#replace(error);
       return;
     }
     // Another one would not start either.
+    this.#worker.terminate();
+    this.#current.reject(error);
+    this.#current = null;
     this.#failure = reason;
-    for (const waiting of this.#queue) waiting.reject(new EngineError(reason));
+    for (const waiting of this.#queue) waiting.reject(error);
     this.#queue = [];
+  }
+
+  #replace(error: EngineError): void {
+    this.#worker.terminate();
+    this.#current?.reject(error);
+    this.#current = null;
+    this.#worker = this.#start();
   }
 }
 

@@ -68,6 +68,7 @@ export interface SceneInfo {
     corners: [Vec3, Vec3, Vec3, Vec3] | null;
   };
   shapes: ShapeInfo[];
+  /** The first lights, as many as a page can show. */
   lights: LightInfo[];
   materials: string[];
   probes: string[];
@@ -76,7 +77,7 @@ export interface SceneInfo {
   shadows: boolean;
   hasAmbient: boolean;
   hasColors: boolean;
-  /** Channels that a picture can show, in order: "brightness", "irradiance", "diffuse", … */
+  /** Channels that a picture can show, in order: "brightness", "irradiance", "diffuse", …; of single lights, those of the first. */
   channels: string[];
 }
 
@@ -119,6 +120,8 @@ export interface Frame {
   axes: [Axis, Axis];
   /** What the coordinates are: "screen", "longitude-latitude", … */
   coordinates: string;
+  /** Pixels that get any light; null where that was not asked. */
+  lit: number | null;
   /** 2 for a preview of half the resolution. */
   step: 1 | 2;
 }
@@ -132,7 +135,7 @@ export interface Axis {
 export interface FrameStatistics {
   pixels: number;
   visible: number;
-  /** Visible pixels that get any light. */
+  /** Visible pixels that get any light; null where the frame does not say. */
   lit: number | null;
   /** null where no surface is seen. */
   max: Extreme | null;
@@ -205,6 +208,8 @@ export type Probed = { reading: ProbeReading; error: null } | { reading: null; e
 export interface Explanation {
   title: string;
   blocks: { title: string; lines: string[] }[];
+  /** Blocks, most of them lights, that are left out before the last two. */
+  omitted: number;
 }
 
 /** A line on the screen. */
@@ -261,11 +266,15 @@ export interface SurfaceRequest {
   equalArea?: boolean;
 }
 
+/** Why a question has no answer: it is refused, its worker stopped, or a newer one made it pointless. */
+export type NoAnswer = 'refused' | 'lost' | 'pointless';
+
 /** The error of a question that has no answer; the message is in the engine's language. */
 export class EngineError extends Error {
   constructor(
     message: string,
     readonly problems: Problem[] = [],
+    readonly kind: NoAnswer = 'refused',
   ) {
     super(message);
     this.name = 'EngineError';
@@ -294,19 +303,21 @@ export type ExportRequest =
   | { kind: 'probes-csv'; probes: ProbeRequest[] };
 
 /** The core, in workers. Every question concerns a scene as it is written; an invalid one is answered by an `EngineError` with
- * its problems. Questions asked later than `render` do not wait for a map. */
+ * its problems. Questions that may take long do not delay others of another kind. */
 export interface Engine {
   /** The language of messages and explanations. */
   language: Language;
+  /** A file that scenes name. It is kept until the page is left. */
+  addFile(name: string, content: Uint8Array): Promise<void>;
   read(text: string, syntax: 'toml' | 'json'): Promise<ReadScene>;
   /** A starter scene, as text with its comments in the engine's language. */
   starter(name: string): Promise<string>;
   /** The scene as a TOML file. */
   toToml(scene: SceneSource): Promise<string>;
   check(scene: SceneSource): Promise<Checked>;
-  /** A map; null where a later call of `render` made it pointless. `step` 2 renders every second pixel. */
-  render(scene: SceneSource, channel: string, step?: 1 | 2): Promise<Frame | null>;
-  /** A whole map that nothing makes pointless, and that makes no other one so: it takes longer. */
+  /** A map. `step` 2 renders every second pixel. */
+  render(scene: SceneSource, channel: string, step?: 1 | 2): Promise<Frame>;
+  /** A whole map that no picture waits for and that is not abandoned with them: it takes longer. */
   map(scene: SceneSource, channel: string): Promise<Frame>;
   /** Statistics and isophotes of a frame that `render`, `map`, `surface` or `grid` gave; about so many levels, or given ones. */
   analyse(scene: SceneSource, frame: Frame, isophotes: number | number[]): Promise<Analysis>;
@@ -314,11 +325,15 @@ export interface Engine {
   explain(scene: SceneSource, request: ProbeRequest): Promise<Explanation>;
   section(scene: SceneSource, lines: SectionRequest[], channels: string[]): Promise<Section[]>;
   areas(scene: SceneSource): Promise<AreaReading[]>;
+  /** A small map: at most 200 pixels wide and high, of the same window. */
+  thumbnail(scene: SceneSource, channel: string): Promise<Frame>;
   surface(scene: SceneSource, request: SurfaceRequest, channel: string): Promise<Frame>;
   grid(scene: SceneSource, name: string, channel: string): Promise<Frame>;
   /** 256 colours, three bytes each. */
   colormap(name: Colormap): Promise<Uint8Array>;
   export(scene: SceneSource, request: ExportRequest): Promise<Uint8Array>;
+  /** Nobody waits for the answer any more: what takes long is stopped. */
+  abandon(kind: 'render' | 'section' | 'explain' | 'areas' | 'surface' | 'grid' | 'thumbnail'): void;
   /** The version of the core. */
   version: string;
 }

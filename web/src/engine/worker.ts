@@ -26,6 +26,11 @@ function answer(question: Question): { value: unknown; transfer: Transferable[] 
     case 'language':
       core.set_language(question.language);
       return { value: null, transfer: [] };
+    case 'file':
+      core.add_file(question.name, question.content);
+      // What a scene says may be another one with it.
+      loaded = '';
+      return { value: null, transfer: [] };
     case 'read':
       return { value: JSON.parse(core.read(question.text, question.syntax)), transfer: [] };
     case 'starter':
@@ -39,6 +44,8 @@ function answer(question: Question): { value: unknown; transfer: Transferable[] 
     }
     case 'render':
       return band(core.render(question.channel, question.first, question.count, question.step));
+    case 'thumbnail':
+      return band(core.thumbnail(question.channel));
     case 'surface':
       return band(core.surface(JSON.stringify(question.request), question.channel));
     case 'grid':

@@ -1,13 +1,14 @@
 /** What can be moved in a view, and how the scene changes with it. */
 
 import type { SceneInfo, Vec3 } from '../engine/types';
-import { itemsOf, PLACES, SHAPES } from '../scene/edit';
+import { itemsOf, PLACES, SHAPES, type Item, type ShapeList } from '../scene/edit';
 import { extentOf } from '../scene/extent';
 import { aimModeOf, directionOfLight, emissionOf } from '../scene/light';
 import type { SceneSource } from '../scene/model';
 import { setAt, valueAt } from '../scene/path';
-import { add, anglesOf, length, rounded, scale, subtract, unit } from '../scene/vector';
-import type { View } from './view';
+import { add, anglesOf, dot, length, rounded, scale, subtract, unit } from '../scene/vector';
+import { text } from '../text/index.svelte';
+import { directionOf, type View } from './view';
 
 export type HandleKind = 'eye' | 'lamp' | 'aim' | 'shape' | 'end' | 'radius' | 'probe';
 
@@ -26,12 +27,57 @@ export interface Handle {
   move: (draft: SceneSource, to: Vec3) => void;
 }
 
+/** What a handle is called. */
+export function nameOfHandle({ kind, part, name }: Pick<Handle, 'kind' | 'part' | 'name'>): string {
+  const words = text.words.fields.plan;
+  if (kind === 'eye') return words.eye;
+  if (kind === 'lamp') return words.light(name);
+  if (kind === 'probe') return words.probe(name);
+  if (kind === 'radius') return words.radiusOf(name);
+  if (kind === 'aim') return name === '' ? words.target : part === 'axis' ? words.axisOf(name) : words.targetOf(name);
+  if (kind === 'end') return (part === 'from' || part === 'base' ? words.startOf : words.endOf)(name);
+  return name;
+}
+
 /** More of a kind would be no picture. */
 export const MOST = 60;
 
 export function handlesOf(scene: SceneSource, info: SceneInfo, view: View): Handle[] {
   const { radius } = extentOf(scene, info);
   return [...shapeHandles(scene, view), ...probeHandles(scene), ...eyeHandles(scene), ...lampHandles(scene, radius)];
+}
+
+/** What can be moved on the picture, in planes parallel to it: `right` is what runs to the right there. */
+export function pictureHandlesOf(scene: SceneSource, right: Vec3): Handle[] {
+  const solids = SHAPES.filter((list) => list !== 'plane').flatMap((list) =>
+    itemsOf(scene, list)
+      .slice(0, MOST)
+      .flatMap((shape, index) => solidHandles(scene, list, `${list}[${index}]`, shape, right)),
+  );
+  const lamps = (scene.light ?? []).slice(0, MOST).flatMap(({ name, on }, index) => {
+    const item = `light[${index}]`;
+    return place(scene, item, name ?? item, 'lamp', 'position').map((handle) => ({ ...handle, on: on !== false }));
+  });
+  return [...solids, ...lamps];
+}
+
+/** The middle of a solid, and the rim of a sphere. */
+function solidHandles(scene: SceneSource, list: ShapeList, item: string, shape: Item, right: Vec3): Handle[] {
+  const places = PLACES.flatMap((key) => {
+    const at = shape[key];
+    return Array.isArray(at) && at.length === 3 ? [{ path: `${item}.${key}`, at: at as Vec3 }] : [];
+  });
+  if (places.length === 0) return [];
+  const at = scale(places.map((one) => one.at).reduce(add), 1 / places.length);
+  const move = (draft: SceneSource, to: Vec3): void => {
+    const shift = subtract(to, at);
+    for (const one of places) {
+      setAt(draft, one.path, places.length === 1 ? to : add(one.at, shift).map((part) => rounded(part, 12) + 0));
+    }
+  };
+  const name = shape.name ?? item;
+  const middle: Handle = { key: item, kind: 'shape', item, name, part: 'center', at, from: null, on: true, move };
+  return list === 'sphere' ? [middle, ...radiusHandle(scene, item, name, right)] : [middle];
 }
 
 /** How many items have no handles. */
@@ -57,21 +103,19 @@ function shapeHandles(scene: SceneSource, view: View): Handle[] {
         const name = shape.name ?? item;
         const isEnd = list === 'cylinder' || list === 'cone';
         const places = PLACES.flatMap((part) => place(scene, item, name, isEnd ? 'end' : 'shape', part));
-        return list === 'sphere' ? [...places, ...radiusHandle(scene, item, name, view)] : places;
+        return list === 'sphere' ? [...places, ...radiusHandle(scene, item, name, directionOf(view.right))] : places;
       }),
   );
 }
 
 /** The rim of a sphere, at its right. */
-function radiusHandle(scene: SceneSource, item: string, name: string, { right }: View): Handle[] {
-  const center = valueAt(scene, `${item}.center`);
+function radiusHandle(scene: SceneSource, item: string, name: string, right: Vec3): Handle[] {
+  const center = valueAt(scene, `${item}.center`) as Vec3 | undefined;
   const radius = valueAt(scene, `${item}.radius`);
   if (!Array.isArray(center) || typeof radius !== 'number') return [];
-  const aside: Vec3 = [0, 0, 0];
-  aside[right.axis] = right.sign * radius;
-  const at = add(center as Vec3, aside);
+  const at = add(center, scale(right, radius));
   const move = (draft: SceneSource, to: Vec3): void => {
-    const size = rounded(Math.abs((to[right.axis] ?? 0) - (center[right.axis] ?? 0)), 12);
+    const size = rounded(Math.abs(dot(subtract(to, center), right)), 12);
     if (size > 0) setAt(draft, `${item}.radius`, size);
   };
   return [{ key: `${item}.radius`, kind: 'radius', item, name, part: 'radius', at, from: null, on: true, move }];

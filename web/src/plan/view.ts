@@ -56,6 +56,13 @@ function nearest(direction: Vec3, taken: readonly number[]): Along {
   return { axis, sign: (direction[axis] ?? 0) < 0 ? -1 : 1 };
 }
 
+/** The unit vector along an axis. */
+export function directionOf({ axis, sign }: Along): Vec3 {
+  const direction: Vec3 = [0, 0, 0];
+  direction[axis] = sign;
+  return direction;
+}
+
 /** A point in the view: to the right, and up. */
 export function flat({ right, up }: View, point: Vec3): Vec2 {
   return [right.sign * (point[right.axis] ?? 0), up.sign * (point[up.axis] ?? 0)];

@@ -57,8 +57,11 @@ export function addLight(draft: SceneSource, info: SceneInfo | null, name: strin
 }
 
 function intensityLike({ light }: SceneSource): number {
-  const intensities = (light ?? []).flatMap(({ intensity }) => (typeof intensity === 'number' ? [intensity] : []));
-  return Math.max(...intensities, 0) || 100;
+  const strongest = (light ?? []).reduce(
+    (most, { intensity }) => (typeof intensity === 'number' ? Math.max(most, intensity) : most),
+    0,
+  );
+  return strongest || 100;
 }
 
 /** Adds a probe; without a point, at the middle of the scene, whence the table of values leads it to a surface. */

@@ -47,11 +47,12 @@ export function namesBeside(scene: SceneSource, list: List): string[] {
 }
 
 /** A name that is not taken: "lamp", or "lamp 2". */
-export function uniqueName(taken: readonly string[], wish: string): string {
-  if (!taken.includes(wish)) return wish;
+export function uniqueName(names: readonly string[], wish: string): string {
+  const taken = new Set(names);
+  if (!taken.has(wish)) return wish;
   const [, stem = wish, number] = /^(.*?)\s*(\d+)$/.exec(wish) ?? [];
   let next = number === undefined ? 2 : Number(number) + 1;
-  while (taken.includes(`${stem} ${next}`)) next += 1;
+  while (taken.has(`${stem} ${next}`)) next += 1;
   return `${stem} ${next}`;
 }
 

@@ -23,9 +23,17 @@ export function extentOf(scene: SceneSource, info: SceneInfo | null): Extent {
 }
 
 function around(points: readonly Vec3[]): Extent {
-  const low = [0, 1, 2].map((axis) => Math.min(...points.map((point) => point[axis] as number))) as Vec3;
-  const high = [0, 1, 2].map((axis) => Math.max(...points.map((point) => point[axis] as number))) as Vec3;
-  const center = low.map((edge, axis) => (edge + (high[axis] as number)) / 2) as Vec3;
+  const [low, high]: [Vec3, Vec3] = [
+    [Infinity, Infinity, Infinity],
+    [-Infinity, -Infinity, -Infinity],
+  ];
+  for (const point of points) {
+    for (const axis of [0, 1, 2] as const) {
+      low[axis] = Math.min(low[axis], point[axis]);
+      high[axis] = Math.max(high[axis], point[axis]);
+    }
+  }
+  const center = low.map((edge, axis) => (edge + high[axis]!) / 2) as Vec3;
   return { center, radius: length(subtract(high, low)) / 2 || 1 };
 }
 

@@ -47,7 +47,8 @@ export class SceneStore {
   edit(change: (draft: SceneSource) => void, name: string | null = null): void {
     const draft = structuredClone(this.#scene);
     change(draft);
-    this.set(draft, name);
+    // Another scene even where nothing changed: every edit can be undone.
+    this.set({ ...sharing(draft, this.#scene) }, name);
   }
 
   /** The next edit is a step of its own, whatever it is called: at the end of a drag, say. */
@@ -73,4 +74,18 @@ export class SceneStore {
     this.#undone = this.#undone.slice(0, -1);
     this.#scene = next;
   }
+}
+
+/** A value with the parts of an earlier one that are equal to its own: a history of large scenes then holds what changed only. */
+export function sharing<T>(now: T, before: unknown): T {
+  if (typeof now !== 'object' || now === null || typeof before !== 'object' || before === null) return now;
+  if (Array.isArray(now) !== Array.isArray(before)) return now;
+  const [own, earlier] = [now as Record<string, unknown>, before as Record<string, unknown>];
+  const keys = Object.keys(own);
+  let isSame = keys.length === Object.keys(earlier).length;
+  for (const key of keys) {
+    own[key] = sharing(own[key], earlier[key]);
+    if (own[key] !== earlier[key]) isSame = false;
+  }
+  return isSame ? (before as T) : now;
 }

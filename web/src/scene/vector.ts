@@ -14,6 +14,10 @@ export function scale([x, y, z]: Vec3, factor: number): Vec3 {
   return [x * factor, y * factor, z * factor];
 }
 
+export function dot([ax, ay, az]: Vec3, [bx, by, bz]: Vec3): number {
+  return ax * bx + ay * by + az * bz;
+}
+
 export function length([x, y, z]: Vec3): number {
   return Math.hypot(x, y, z);
 }

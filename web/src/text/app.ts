@@ -7,7 +7,8 @@ export const en = {
   presets: 'Examples',
   choosePreset: 'Choose an example…',
   open: 'Open…',
-  openHint: 'Open a scene file (TOML or JSON); it can also be dropped anywhere on the page',
+  openHint:
+    'Open a scene file (TOML or JSON), together with the meshes or clouds that it names; they can also be dropped on the page',
   save: 'Save',
   share: 'Link',
   report: 'Report',
@@ -38,14 +39,20 @@ export const en = {
     damaged: 'it was changed on its way',
     large: 'it is too large',
   },
+  opening: 'Opening {name}…',
   fileBroken: 'This file holds no scene that can be read.',
   fileTooLarge: 'This file is larger than 64 MiB, the limit for scene files.',
+  noSceneAmong:
+    'There is no scene among these files: choose the scene file (TOML or JSON) together with the files that it names.',
+  openTogether: 'Shapes of this scene come from files: open the scene file together with them.',
+  filesStay: 'The files that the scene names stay in this page only: a link or the next visit does not have them.',
   fileProblems: 'The file was opened with problems:',
   notKept: {
     full: 'The browser has no room to keep the scene for the next visit: save it as a file.',
     forbidden: 'The browser does not allow the scene to be kept for the next visit: save it as a file.',
   },
   failed: 'That did not work: {why}',
+  lost: 'The calculation stopped ({why}) and was started anew. Your scene is as it was; if this comes again, make the picture smaller.',
   close: 'Close',
   download: {
     picture: 'Picture, 0–255 (PNG)',
@@ -116,7 +123,8 @@ export const ru: typeof en = {
   presets: 'Примеры',
   choosePreset: 'Выберите пример…',
   open: 'Открыть…',
-  openHint: 'Открыть файл сцены (TOML или JSON); его можно и перетащить на страницу',
+  openHint:
+    'Открыть файл сцены (TOML или JSON) вместе с файлами сеток и облаков, которые в ней названы; файлы можно и перетащить на страницу',
   save: 'Сохранить',
   share: 'Ссылка',
   report: 'Отчёт',
@@ -147,14 +155,20 @@ export const ru: typeof en = {
     damaged: 'она изменена по дороге',
     large: 'она слишком велика',
   },
+  opening: 'Открываю {name}…',
   fileBroken: 'В этом файле нет сцены, которую можно прочесть.',
   fileTooLarge: 'Файл больше 64 МиБ — предела для файлов сцен.',
+  noSceneAmong: 'Среди этих файлов нет сцены: выберите файл сцены (TOML или JSON) вместе с файлами, которые в ней названы.',
+  openTogether: 'Часть фигур этой сцены хранится в файлах: откройте файл сцены вместе с ними.',
+  filesStay:
+    'Файлы, названные в сцене, хранятся только на этой странице: ни в ссылке, ни при следующем посещении их не будет.',
   fileProblems: 'Файл открыт, но в нём есть ошибки:',
   notKept: {
     full: 'В памяти браузера нет места, чтобы сохранить сцену до следующего раза: сохраните её в файл.',
     forbidden: 'Браузер не разрешает сохранить сцену до следующего раза: сохраните её в файл.',
   },
   failed: 'Не получилось: {why}',
+  lost: 'Расчёт прервался ({why}) и запущен заново. Сцена осталась прежней; если это повторится, уменьшите изображение.',
   close: 'Закрыть',
   download: {
     picture: 'Картина, 0–255 (PNG)',

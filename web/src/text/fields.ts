@@ -133,7 +133,7 @@ export const en = {
   duplicate: 'Duplicate',
   remove: 'Remove',
   switchedOn: 'On',
-  more: (count: number) => `Show ${count} more`,
+  more: (count: number, left: number) => `Show ${count} more of ${left} that are not shown`,
   nothing: 'None yet.',
 
   emission: 'Emission',
@@ -352,7 +352,7 @@ export const ru: typeof en = {
   duplicate: 'Копировать',
   remove: 'Удалить',
   switchedOn: 'Включён',
-  more: (count: number) => `Показать ещё ${count}`,
+  more: (count: number, left: number) => `Показать ещё ${count} (не показано ${left})`,
   nothing: 'Пока пусто.',
 
   emission: 'Излучение',

@@ -34,6 +34,7 @@ export const en = {
       turbo: 'turbo',
       batlow: 'batlow',
     },
+    inColor: 'as seen, in colour',
     normalization: 'Black and white',
     normalizations: {
       max: '0 to maximum',
@@ -58,7 +59,8 @@ export const en = {
     keys: 'Arrow keys move a cross, Enter does what a click does, Shift and arrows move the picture, + and − zoom, 0 shows all of it.',
     plot: 'Map of values: point at a place to read its value',
     waiting: 'The picture is being computed…',
-    hint: 'Point at the picture, or tap it, to read a value.',
+    hint: 'Point at the picture, or tap it, to read a value. Ctrl and the wheel, or two fingers, zoom.',
+    wheel: (key: string) => `${key} and the wheel zoom; after a click here, the wheel alone does.`,
     screen: 'screen',
     pixel: 'pixel',
     point: 'point',
@@ -75,6 +77,7 @@ export const en = {
     horizontal: (y: string) => `Horizontal section line, y = ${y}; arrow keys move it`,
     vertical: (x: string) => `Vertical section line, x = ${x}; arrow keys move it`,
     end: (number: number, place: string) => `End ${number} of the section line, ${place}; arrow keys move it`,
+    onPicture: (name: string) => `${name}, on the picture`,
   },
   describe: {
     channel: (channel: string, unit: string, width: number, height: number) =>
@@ -113,7 +116,6 @@ export const en = {
     whyProbe: (name: string) => `Why ${name} has its value`,
     remove: 'Remove',
     removeItem: (name: string) => `Remove ${name}`,
-    notNumber: 'Not a number.',
     nameTaken: 'This name is taken, or longer than allowed.',
     coordinate: (axis: string, name: string) => `${axis} of ${name}`,
     nameOf: (name: string) => `Name of ${name}`,
@@ -194,6 +196,8 @@ export const en = {
     openAll: 'Open all',
     closeAll: 'Close all',
     noPoint: 'Nothing is seen there.',
+    omitted: (count: number) =>
+      `${count} more steps, of lights that count all the same, are left out here; “isophote probe --explain” prints them.`,
   },
   sections: {
     none: 'No line yet. The first button draws two, through the centre of the shape.',
@@ -249,7 +253,10 @@ export const en = {
     removeGrid: 'Remove the grid',
     newGrid: (number: number) => `grid ${number}`,
     lights: 'Each light alone',
-    lightsNote: 'Shows what one light contributes, in the picture.',
+    lightsNote: 'What each light contributes, on one scale. Choose one to see it in the large picture.',
+    upTo: (value: string) => `up to ${value}`,
+    moreLights: (count: number) => `Show ${count} more`,
+    firstLights: (shown: number, all: number) => `These are the first ${shown} of ${all} lights.`,
     allLights: 'All lights',
     oneLight: 'There is one light only: the picture shows it.',
   },
@@ -289,6 +296,7 @@ export const ru: typeof en = {
       turbo: 'turbo',
       batlow: 'batlow',
     },
+    inColor: 'как видно, в цвете',
     normalization: 'Нормировка',
     normalizations: {
       max: 'от 0 до максимума',
@@ -313,7 +321,8 @@ export const ru: typeof en = {
     keys: 'Стрелки двигают перекрестие, Enter заменяет щелчок, Shift со стрелками сдвигает изображение, + и − меняют масштаб, 0 показывает его целиком.',
     plot: 'Карта значений: наведите указатель, чтобы прочитать значение',
     waiting: 'Изображение вычисляется…',
-    hint: 'Наведите указатель на изображение или коснитесь его, чтобы прочитать значение.',
+    hint: 'Наведите указатель на изображение или коснитесь его, чтобы прочитать значение. Масштаб — колесом с Ctrl или двумя пальцами.',
+    wheel: (key: string) => `Масштаб меняет колесо с клавишей ${key}, а после щелчка здесь — и само.`,
     screen: 'экран',
     pixel: 'пиксель',
     point: 'точка',
@@ -330,6 +339,7 @@ export const ru: typeof en = {
     horizontal: (y: string) => `Горизонтальная линия сечения, y = ${y}; сдвигается стрелками`,
     vertical: (x: string) => `Вертикальная линия сечения, x = ${x}; сдвигается стрелками`,
     end: (number: number, place: string) => `Конец ${number} линии сечения, ${place}; сдвигается стрелками`,
+    onPicture: (name: string) => `${name}, на изображении`,
   },
   describe: {
     channel: (channel: string, unit: string, width: number, height: number) =>
@@ -360,7 +370,6 @@ export const ru: typeof en = {
     whyProbe: (name: string) => `Почему в точке ${name} такое значение`,
     remove: 'Удалить',
     removeItem: (name: string) => `Удалить: ${name}`,
-    notNumber: 'Это не число.',
     nameTaken: 'Имя уже занято или слишком длинное.',
     coordinate: (axis: string, name: string) => `${axis} точки ${name}`,
     nameOf: (name: string) => `Имя точки ${name}`,
@@ -441,6 +450,8 @@ export const ru: typeof en = {
     openAll: 'Развернуть всё',
     closeAll: 'Свернуть всё',
     noPoint: 'Там ничего не видно.',
+    omitted: (count: number) =>
+      `Ещё ${count} шагов — для источников, которые тоже учтены, — здесь не показаны; их печатает «isophote probe --explain».`,
   },
   sections: {
     none: 'Линий пока нет. Первая кнопка проводит сразу две — через центр фигуры.',
@@ -496,7 +507,10 @@ export const ru: typeof en = {
     removeGrid: 'Удалить сетку',
     newGrid: (number: number) => `сетка ${number}`,
     lights: 'Каждый источник отдельно',
-    lightsNote: 'Показывает на изображении вклад одного источника.',
+    lightsNote: 'Вклад каждого источника в одном масштабе. Выбранный источник показан на большом изображении.',
+    upTo: (value: string) => `до ${value}`,
+    moreLights: (count: number) => `Показать ещё ${count}`,
+    firstLights: (shown: number, all: number) => `Здесь первые ${shown} источников; всего их ${all}.`,
     allLights: 'Все источники',
     oneLight: 'Источник один: его и показывает изображение.',
   },

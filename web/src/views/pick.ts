@@ -28,8 +28,8 @@ export async function pick(session: Session, mode: ClickMode, screen: Vec2): Pro
 
 /** "P1", or the first such name that is free. */
 export function newProbeName(session: Session): string {
-  const taken = namesBeside(session.scene, 'probe');
+  const taken = new Set(namesBeside(session.scene, 'probe'));
   let number = 1;
-  while (taken.includes(text.words.views.picture.newProbe(number))) number += 1;
+  while (taken.has(text.words.views.picture.newProbe(number))) number += 1;
   return text.words.views.picture.newProbe(number);
 }

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-use anyhow::{Error, Result, anyhow};
+use anyhow::{Error, Result};
 use isophote::map::Quantity;
 use isophote::message;
 use isophote::prepare::PreparedScene;
@@ -17,7 +17,7 @@ use serde_json::json;
 use super::summary::Summary;
 use crate::args::{DEFAULT_ISOPHOTES, MergeArguments, RenderArguments};
 use crate::channels;
-use crate::failure::{self, Paused, Usage};
+use crate::failure::{self, Failed, Paused, Usage};
 use crate::progress::{self, Patience, Progress, end_in_order};
 use crate::{load, memory, numbers, threads};
 
@@ -172,9 +172,9 @@ fn way(arguments: &RenderArguments) -> Message {
     if arguments.store.shard.is_some() { message!("the same command goes on") } else { message!("--resume goes on") }
 }
 
-/// An error of the store, which is told in English, with advice.
+/// An error of the store with advice.
 fn advised(error: &StoreError, advice: &Message) -> Usage {
-    Usage(message!("{first}; {second}", first = error.to_string(), second = advice))
+    Usage(message!("{first}; {second}", first = error.message(), second = advice))
 }
 
 /// The error, with what the user can do about it.
@@ -192,10 +192,15 @@ fn explained(error: StoreError) -> Error {
             advised(&error, &message!("go on with the same scene and options, or choose another name")).into()
         }
         StoreError::Incomplete { .. } => {
-            anyhow!("{error}; isophote render with --resume computes what is missing or damaged")
+            let advice = message!("isophote render with --resume computes what is missing or damaged");
+            Failed(message!("{first}; {second}", first = error.message(), second = advice)).into()
         }
-        StoreError::TooManyShards { .. } => Usage(Message::verbatim(format!("--shard-side: {error}"))).into(),
-        StoreError::Memory { .. } => Usage(Message::verbatim(format!("--memory: {error}"))).into(),
+        StoreError::TooManyShards { .. } => {
+            Usage(message!("{option}: {error}", option = "--shard-side", error = error.message())).into()
+        }
+        StoreError::Memory { .. } => {
+            Usage(message!("{option}: {error}", option = "--memory", error = error.message())).into()
+        }
         _ => error.into(),
     }
 }
@@ -208,7 +213,14 @@ fn resumable(error: StoreError, store: &Store, arguments: &RenderArguments) -> E
         StoreError::Render(RenderError::Interrupted) => {
             Paused(message!("{done} of {shards} shards are done and stay: {way} from there", done, shards, way)).into()
         }
-        StoreError::Write { .. } => anyhow!("{error}; {done} of {shards} shards are done and stay usable: {way}"),
+        StoreError::Write { .. } => Failed(message!(
+            "{error}; {done} of {shards} shards are done and stay usable: {way}",
+            error = error.message(),
+            done,
+            shards,
+            way
+        ))
+        .into(),
         error => explained(error),
     }
 }

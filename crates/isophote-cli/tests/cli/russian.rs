@@ -42,6 +42,22 @@ fn wrong_arguments_in_russian() {
 }
 
 #[test]
+fn errors_of_files_and_stores_in_russian() {
+    let folder = Folder::with("lab.toml", LAB);
+    let refused = |arguments: &str, expected: &str| {
+        let told = folder.run(&format!("{arguments} --lang ru")).stderr;
+        assert!(told.contains(expected), "{arguments}: {told}");
+    };
+    refused("render lab.toml -o none/map.csv", "не записать «none/map.csv»: папки «none» нет");
+    let render = "render lab.toml --size 40x30 --shard-side 20";
+    folder.ok(&format!("{render} -o map.zarr --quiet"));
+    refused(&format!("{render} -o map.zarr"), "«map.zarr» уже есть: готовых шардов");
+    refused("render lab.toml --size 44x33 --shard-side 20 -o map.zarr --resume", "размер: там 40×30, здесь 44×33");
+    std::fs::write(folder.path("map.zarr/zarr.json"), "{}").unwrap();
+    refused("merge map.zarr", "не хранилище `.zarr` этой программы");
+}
+
+#[test]
 fn the_labels_of_a_figure_in_russian() {
     let folder = Folder::new();
     folder.ok("render --figure map.svg --lang ru");

@@ -28,6 +28,8 @@ use exr::meta::attribute::{ChannelDescription, SampleType};
 use exr::meta::header::Header;
 use exr::prelude::{Compression, LineOrder};
 use isophote::map::{Map, Region};
+use isophote::message;
+use isophote::text::Message;
 
 use crate::error::ExportError;
 use crate::format::Format;
@@ -84,7 +86,7 @@ fn check_extent(map: &Map) -> Result<(), ExportError> {
         None => Ok(()),
         Some(end) => Err(ExportError::Unsuitable {
             format: Format::Exr,
-            reason: format!("the image reaches to {end}, its coordinates to {LARGEST_COORDINATE}"),
+            reason: message!("the image reaches to {end}, its coordinates to {most}", end, most = LARGEST_COORDINATE),
         }),
     }
 }
@@ -94,6 +96,6 @@ const LARGEST_COORDINATE: u32 = (1 << 30) - 2;
 fn from_exr(error: exr::error::Error) -> ExportError {
     match error {
         exr::error::Error::Io(reason) => ExportError::Write(reason),
-        other => ExportError::Unsuitable { format: Format::Exr, reason: other.to_string() },
+        other => ExportError::Unsuitable { format: Format::Exr, reason: Message::verbatim(other.to_string()) },
     }
 }

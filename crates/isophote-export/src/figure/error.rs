@@ -1,18 +1,18 @@
 //! What can be wrong with a figure.
 
 use isophote::analysis::isophotes::IsophoteError;
+use isophote::message;
+use isophote::text::Message;
 
 /// Why a figure could not be drawn.
 #[derive(Debug, thiserror::Error)]
+#[error("{}", self.message())]
 pub enum FigureError {
     /// The map lacks the channel, or the channel is not scalar.
-    #[error(transparent)]
     Channel(#[from] IsophoteError),
     /// No pixel shows a surface, so the colour bar has no ends.
-    #[error("no surface is seen in the map, so its values have no range of their own; give one")]
     NothingSeen,
     /// A value to be drawn is infinite or not a number.
-    #[error("{name} is {value}, which has no place in a figure")]
     NotFinite {
         /// The channel, or the series with the index of the value.
         name: String,
@@ -20,7 +20,6 @@ pub enum FigureError {
         value: f64,
     },
     /// The ends of the colour bar are reversed, equal or not finite.
-    #[error("`range` is {low}..{high}: its ends must be finite, the lower one first")]
     Range {
         /// The lower end as given.
         low: f64,
@@ -28,7 +27,6 @@ pub enum FigureError {
         high: f64,
     },
     /// A mark lies outside the picture.
-    #[error("mark `{name}` at x = {x}, y = {y} lies outside the map's window")]
     MarkOutside {
         /// The mark's name.
         name: String,
@@ -38,13 +36,11 @@ pub enum FigureError {
         y: f64,
     },
     /// A section has fewer than two positions, or none where a surface is seen.
-    #[error("the section has {what}, so there is no line to draw")]
     EmptySection {
         /// What is missing.
-        what: &'static str,
+        what: Message,
     },
     /// The PNG would have no pixels, or more than 16384 along a side.
-    #[error("at `scale` {scale} the picture is {width} × {height} pixels; 1 to 16384 a side are possible")]
     PictureSize {
         /// The scale as given.
         scale: f64,
@@ -54,6 +50,37 @@ pub enum FigureError {
         height: f64,
     },
     /// The PNG encoder failed.
-    #[error("could not write the picture as PNG: {0}")]
     Png(String),
+}
+
+impl FigureError {
+    /// What is wrong, in either language.
+    #[must_use]
+    pub fn message(&self) -> Message {
+        match self {
+            Self::Channel(error) => error.message(),
+            Self::NothingSeen => {
+                message!("no surface is seen in the map, so its values have no range of their own; give one")
+            }
+            Self::NotFinite { name, value } => {
+                message!("{name} is {value}, which has no place in a figure", name, value)
+            }
+            Self::Range { low, high } => {
+                message!("`range` is {low}..{high}: its ends must be finite, the lower one first", low, high)
+            }
+            Self::MarkOutside { name, x, y } => {
+                message!("mark `{name}` at x = {x}, y = {y} lies outside the map's window", name, x, y)
+            }
+            Self::EmptySection { what } => {
+                message!("the section has {what}, so there is no line to draw", what)
+            }
+            Self::PictureSize { scale, width, height } => message!(
+                "at `scale` {scale} the picture is {width} × {height} pixels; 1 to 16384 a side are possible",
+                scale,
+                width,
+                height
+            ),
+            Self::Png(reason) => message!("could not write the picture as PNG: {reason}", reason),
+        }
+    }
 }

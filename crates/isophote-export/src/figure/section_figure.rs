@@ -1,5 +1,7 @@
 //! Values along a line as a figure.
 
+use isophote::message;
+
 use crate::figure::drawing::{Anchor, BLACK, Color, Drawing, Figure, Place, Rectangle, Stroke, Style, Text};
 use crate::figure::error::FigureError;
 use crate::figure::frame::{Axis, Frame, TICK_SIZE};
@@ -121,10 +123,10 @@ fn ranges(series: &[Series]) -> Result<[[f64; 2]; 2], FigureError> {
         }
     }
     if x[0] >= x[1] {
-        return Err(FigureError::EmptySection { what: "no two places" });
+        return Err(FigureError::EmptySection { what: message!("no two places") });
     }
     if y[0] > y[1] {
-        return Err(FigureError::EmptySection { what: "no value" });
+        return Err(FigureError::EmptySection { what: message!("no value") });
     }
     Ok([x, padded(y)])
 }

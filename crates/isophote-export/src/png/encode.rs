@@ -2,6 +2,8 @@
 
 use std::io::{BufRead, Seek, Write};
 
+use isophote::text::Message;
+
 use crate::error::ExportError;
 use crate::format::Format;
 use crate::limits::LONGEST_JSON;
@@ -48,7 +50,7 @@ pub(super) fn with_unit(value: f64, unit: &str) -> String {
 pub(super) fn from_png(error: png::EncodingError) -> ExportError {
     match error {
         png::EncodingError::IoError(reason) => ExportError::Write(reason),
-        other => ExportError::Unsuitable { format: Format::Png, reason: other.to_string() },
+        other => ExportError::Unsuitable { format: Format::Png, reason: Message::verbatim(other.to_string()) },
     }
 }
 

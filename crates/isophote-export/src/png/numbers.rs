@@ -4,6 +4,7 @@ use std::io::Write;
 
 use isophote::analysis::statistics::{largest, smallest};
 use isophote::map::{Channel, Map, Scalars, Values};
+use isophote::message;
 use isophote::units::Keyword;
 
 use crate::error::ExportError;
@@ -51,8 +52,8 @@ fn scalars<'v>(channel: &'v Channel, options: &PictureOptions) -> Result<Scalars
     let holds = match &channel.values {
         Values::Scalar(values) => return Ok(Scalars::Double(values)),
         Values::Single(values) => return Ok(Scalars::Single(values)),
-        Values::Vector(_) => "three numbers",
-        Values::Index(_) => "an index",
+        Values::Vector(_) => message!("three numbers"),
+        Values::Index(_) => message!("an index"),
     };
     Err(ExportError::NotPicture { name: channel.quantity.name(), holds })
 }

@@ -7,7 +7,9 @@ use std::collections::{HashMap, HashSet};
 use self::contour_grid::ContourGrid;
 pub use crate::analysis::levels::nice_levels;
 use crate::map::{Map, Quantity, Scalars};
+use crate::message;
 use crate::render::Observer;
+use crate::text::Message;
 
 /// The contour of one level.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,9 +40,9 @@ pub struct ScreenPoint {
 
 /// Why no isophotes could be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.message())]
 pub enum IsophoteError {
     /// The map was rendered without this channel.
-    #[error("the map holds no channel `{name}`; it holds {held}")]
     Missing {
         /// The requested channel.
         name: String,
@@ -48,13 +50,11 @@ pub enum IsophoteError {
         held: String,
     },
     /// Vectors and indices have no contours.
-    #[error("the channel `{name}` holds no single number a pixel, so it has no contours")]
     NotScalar {
         /// The requested channel.
         name: String,
     },
     /// A level is infinite or not a number.
-    #[error("level {index} is {level}: a contour needs a finite level")]
     LevelNotFinite {
         /// Its index in the list, from 0.
         index: usize,
@@ -62,8 +62,26 @@ pub enum IsophoteError {
         level: f64,
     },
     /// The observer asked to stop.
-    #[error("interrupted")]
     Interrupted,
+}
+
+impl IsophoteError {
+    /// What is wrong, in either language.
+    #[must_use]
+    pub fn message(&self) -> Message {
+        match self {
+            Self::Missing { name, held } => {
+                message!("the map holds no channel `{name}`; it holds {held}", name, held)
+            }
+            Self::NotScalar { name } => {
+                message!("the channel `{name}` holds no single number a pixel, so it has no contours", name)
+            }
+            Self::LevelNotFinite { index, level } => {
+                message!("level {index} is {level}: a contour needs a finite level", index, level)
+            }
+            Self::Interrupted => message!("interrupted"),
+        }
+    }
 }
 
 /// The contours of a scalar channel, one [`Isophote`] for each level and in the order of the levels.

@@ -1,6 +1,8 @@
 //! Maps built from given numbers, instead of rendered.
 
 use super::{Channel, Map, Mask, Provenance, Quantity, Region, Resolution, Values, Window};
+use crate::message;
+use crate::text::Message;
 
 /// A map under construction: [`Map::builder`].
 #[derive(Clone, Debug)]
@@ -15,16 +17,14 @@ pub struct MapBuilder {
 
 /// Why these channels do not make a map.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.message())]
 pub enum MapError {
     /// The region does not lie in the image.
-    #[error("the region of {width} × {height} pixels from column {column}, row {row} does not lie in the image",
-        width = region.size.width, height = region.size.height, column = region.corner.column, row = region.corner.row)]
     Region {
         /// The requested region.
         region: Region,
     },
     /// A channel with too few or too many values.
-    #[error("the channel ‘{name}’ has {values} values for {pixels} pixels")]
     Length {
         /// The channel.
         name: String,
@@ -34,7 +34,6 @@ pub enum MapError {
         pixels: usize,
     },
     /// A value where there is no surface.
-    #[error("the channel ‘{name}’ is not 0 at pixel {index}, where no surface is seen")]
     Background {
         /// The channel.
         name: String,
@@ -42,14 +41,38 @@ pub enum MapError {
         index: usize,
     },
     /// Nothing tells which shapes are seen where.
-    #[error("there is no channel ‘shape’ with an index for each pixel")]
     NoShape,
     /// Contradictory data about the shapes that are seen.
-    #[error("the channel ‘shape’ is not what is seen at pixel {index}")]
     OtherShape {
         /// The first such pixel: row × width + column.
         index: usize,
     },
+}
+
+impl MapError {
+    /// What is wrong, in either language.
+    #[must_use]
+    pub fn message(&self) -> Message {
+        match self {
+            Self::Region { region } => message!(
+                "the region of {width} × {height} pixels from column {column}, row {row} does not lie in the image",
+                width = region.size.width,
+                height = region.size.height,
+                column = region.corner.column,
+                row = region.corner.row
+            ),
+            Self::Length { name, values, pixels } => {
+                message!("the channel ‘{name}’ has {values} values for {pixels} pixels", name, values, pixels)
+            }
+            Self::Background { name, index } => {
+                message!("the channel ‘{name}’ is not 0 at pixel {index}, where no surface is seen", name, index)
+            }
+            Self::NoShape => message!("there is no channel ‘shape’ with an index for each pixel"),
+            Self::OtherShape { index } => {
+                message!("the channel ‘shape’ is not what is seen at pixel {index}", index)
+            }
+        }
+    }
 }
 
 impl Map {

@@ -414,6 +414,17 @@ impl Band<'_> {
         self.layers.iter().flatten().any(is_geometry)
     }
 
+    /// Whether anything but brightness is requested of the light.
+    pub fn shows_parts(&self) -> bool {
+        let is_brightness = |channel: &BandChannel<'_>| {
+            matches!(
+                channel,
+                BandChannel::Double(ScalarChannel::Brightness, _) | BandChannel::Single(ScalarChannel::Brightness, _)
+            )
+        };
+        !self.layers.iter().flatten().all(is_brightness)
+    }
+
     /// The index in the band of a pixel of the full image.
     pub fn index(&self, pixel: Pixel) -> usize {
         let row = (pixel.row - self.first.row) as usize;

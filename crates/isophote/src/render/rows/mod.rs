@@ -16,7 +16,7 @@ use super::{Observer, RenderError};
 use crate::lanes::{Element, Lane, LaneJob, Precision, SimdToken};
 use crate::light::Ambient;
 use crate::map::{Pixel, Run};
-use crate::outline::{PlaceInRow, PointInRow, RowOfEllipse};
+use crate::outline::{Ellipse, PlaceInRow, PointInRow, RowOfEllipse};
 use crate::prepare::PreparedScene;
 use crate::reflectance::BrightnessFormula;
 use crate::shape::SurfacePoint;
@@ -145,8 +145,50 @@ enum AllChosen {
 }
 
 struct Scratch<E> {
-    chosen: Chosen<E>,
+    chosen: Vec<KeptChoice<E>>,
     shaded: Box<ShadedBlock<E>>,
+}
+
+/// A selection of emitters that is good for several rows.
+#[derive(Default)]
+struct KeptChoice<E> {
+    made_for: Option<ChoiceFor>,
+    chosen: Chosen<E>,
+}
+
+/// What a selection of emitters is made for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct ChoiceFor {
+    candidate: usize,
+    layer: usize,
+    /// The columns, as the number of a chunk.
+    chunk: u32,
+    /// The rows, as the number of [`ROWS_OF_CHOICE`] of them.
+    rows: u32,
+}
+
+/// Rows that share a selection of lights.
+const ROWS_OF_CHOICE: u32 = 8;
+
+/// The most emitters in the selections that are kept.
+const KEPT_IN_CHOICES: usize = 1 << 16;
+
+impl<E: Element> Scratch<E> {
+    fn new(band: &Band<'_>, lights: usize) -> Self {
+        let mut shaded = ShadedBlock::new(lights);
+        shaded.is_whole = band.shows_parts();
+        Self { chosen: Vec::new(), shaded }
+    }
+
+    /// Where the selection for a chunk is kept, of so many emitters.
+    fn kept(&mut self, chunk: u32, emitters: usize) -> usize {
+        let places = (KEPT_IN_CHOICES / emitters).max(1);
+        let place = chunk as usize % places;
+        if self.chosen.len() <= place {
+            self.chosen.resize_with(place + 1, KeptChoice::default);
+        }
+        place
+    }
 }
 
 impl<'a> RowShader<'a> {
@@ -160,8 +202,8 @@ impl<'a> RowShader<'a> {
             observer: job.observer,
             kept: job.candidates.iter().map(|_| None).collect(),
             kept_emitters: 0,
-            single: Scratch { chosen: Chosen::default(), shaded: ShadedBlock::new(lights) },
-            double: Scratch { chosen: Chosen::default(), shaded: ShadedBlock::new(lights) },
+            single: Scratch::new(&job.band, lights),
+            double: Scratch::new(&job.band, lights),
             geometry: job.band.has_geometry().then(SurfaceBlock::new),
         }
     }
@@ -172,7 +214,7 @@ impl<'a> RowShader<'a> {
         &mut self,
         token: S::Token,
         candidate: usize,
-        work: &StretchWork,
+        work: &StretchWork<'_>,
         band: &mut Band<'_>,
     ) -> Result<(), RenderError>
     where
@@ -183,7 +225,7 @@ impl<'a> RowShader<'a> {
         let Self { kept, lighting, single, double, observer, .. } = self;
         let Some(layers) = &kept[candidate] else { unreachable!("it was placed") };
         for (index, lit) in layers.iter().enumerate() {
-            let mut target = Target { lit, lighting, layer: index, band: &mut *band, observer: *observer };
+            let mut target = Target { lit, lighting, candidate, layer: index, band: &mut *band, observer: *observer };
             match &lit.all {
                 AllChosen::Single(all) => target.shade::<S>(token, work, all, single)?,
                 AllChosen::Double(all) => target.shade::<D>(token, work, all, double)?,
@@ -237,8 +279,10 @@ impl<'a> LitShape<'a> {
 }
 
 /// Columns of a row that see the same sphere.
-struct StretchWork {
+struct StretchWork<'c> {
+    ellipse: &'c Ellipse,
     row: RowOfEllipse,
+    roots: [Root; 2],
     /// [`Ellipse::column`](crate::outline::Ellipse::column).
     counted_from: f64,
     center: Vector,
@@ -247,10 +291,33 @@ struct StretchWork {
     at_row: u32,
 }
 
+/// A root of a row as a whole number and a rest of at most ½: near the outline, single precision would lose the digits of the
+/// distance from their sum.
+#[derive(Clone, Copy)]
+struct Root {
+    whole: f64,
+    rest: f64,
+}
+
+impl Root {
+    fn new(root: f64) -> Self {
+        let whole = root.round();
+        Self { whole, rest: root - whole }
+    }
+
+    /// How far columns are behind it: the difference of whole numbers is exact.
+    #[inline(always)]
+    fn before<V: Lane>(self, token: V::Token, column: V) -> V {
+        let whole = V::splat(token, V::Element::from_f64(self.whole));
+        (column - whole) - V::splat(token, V::Element::from_f64(self.rest))
+    }
+}
+
 /// Where a stretch is written, and the light that it is shaded in.
 struct Target<'t, 'a, 'm> {
     lit: &'t LitShape<'a>,
     lighting: &'t Lighting,
+    candidate: usize,
     layer: usize,
     band: &'t mut Band<'m>,
     observer: Option<&'t dyn Observer>,
@@ -261,7 +328,7 @@ impl Target<'_, '_, '_> {
     fn shade<V: Lane>(
         &mut self,
         token: V::Token,
-        work: &StretchWork,
+        work: &StretchWork<'_>,
         all: &Chosen<V::Element>,
         scratch: &mut Scratch<V::Element>,
     ) -> Result<(), RenderError>
@@ -279,9 +346,15 @@ impl Target<'_, '_, '_> {
         let has_choice = emitters.len() > BLOCK;
         for columns in work.chunks(if has_choice { CHUNK } else { WHOLE }) {
             let selection = if has_choice {
-                let cap = work.cap(columns.start / CHUNK);
-                scratch.chosen.choose_above_horizon(layer, self.lighting, emitters, cap);
-                scratch.chosen.selection()
+                let (chunk, rows) = (columns.start / CHUNK, work.at_row / ROWS_OF_CHOICE);
+                let place = scratch.kept(chunk, emitters.len());
+                let KeptChoice { made_for, chosen } = &mut scratch.chosen[place];
+                let this = ChoiceFor { candidate: self.candidate, layer: self.layer, chunk, rows };
+                if *made_for != Some(this) {
+                    chosen.choose_above_horizon(layer, self.lighting, emitters, work.cap_of_rows(chunk));
+                    *made_for = Some(this);
+                }
+                chosen.selection()
             } else {
                 all.selection()
             };
@@ -306,7 +379,7 @@ const WHOLE: u32 = POINTS as u32;
 /// The points of some columns of a row, straight from the outline. (This avoids storing them in a block first, which costs
 /// about as much as one light.)
 struct RowPoints<'p, V> {
-    work: &'p StretchWork,
+    work: &'p StretchWork<'p>,
     row: &'p RowOfEllipse<V>,
     first: u32,
     ambient: V,
@@ -324,10 +397,13 @@ impl<V: Lane> Points<V> for RowPoints<'_, V> {
     }
 }
 
-impl StretchWork {
-    fn new(candidate: &Candidate<'_>, stretch: Stretch, at_row: u32) -> Self {
+impl<'c> StretchWork<'c> {
+    fn new(candidate: &Candidate<'c>, stretch: Stretch, at_row: u32) -> Self {
+        let row = candidate.ellipse.in_row(at_row);
         Self {
-            row: candidate.ellipse.in_row(at_row),
+            ellipse: candidate.ellipse,
+            row,
+            roots: row.roots.map(Root::new),
             counted_from: candidate.ellipse.column,
             center: candidate.sphere.center,
             radius: candidate.sphere.radius,
@@ -351,29 +427,39 @@ impl StretchWork {
     #[inline(always)]
     #[expect(clippy::cast_precision_loss, reason = "a few hundred columns")]
     fn point<V: Lane>(&self, token: V::Token, row: &RowOfEllipse<V>, first: u32, after: usize) -> PointInRow<V> {
-        let first = f64::from(first) + after as f64 - self.counted_from;
-        let [left, right] = self.row.roots;
-        let place = PlaceInRow {
-            column: V::distances(token, first, 0.0),
-            after_first: V::distances(token, first, left),
-            after_last: V::distances(token, first, right),
-        };
+        let column = V::counted(token, f64::from(first) + after as f64 - self.counted_from);
+        let [first, last] = self.roots;
+        let place =
+            PlaceInRow { column, after_first: first.before(token, column), after_last: last.before(token, column) };
         row.point(self.center, &place)
     }
 
-    /// A cap of the unit sphere that contains everything the columns of a chunk can see: the direction of its middle, and
-    /// the largest distance from there. A row cuts the sphere in a circle, so the ends are farthest from the middle.
-    fn cap(&self, chunk: u32) -> (Vector, f64) {
-        let [left, right] = self.row.roots;
+    /// A cap of the unit sphere, given by the direction of its middle and the largest distance from there, that contains
+    /// everything the columns of a chunk can see in the rows that share its selection of lights, this one among them.
+    fn cap_of_rows(&self, chunk: u32) -> (Vector, f64) {
+        let first = self.at_row / ROWS_OF_CHOICE * ROWS_OF_CHOICE;
+        let mut caps = (first..first + ROWS_OF_CHOICE).filter_map(|row| self.cap(&self.ellipse.in_row(row), chunk));
+        let Some((middle, reach)) = caps.next() else { return (Vector::default(), f64::INFINITY) };
+        let farthest = |farthest: f64, (other, reach): (Vector, f64)| farthest.max((other - middle).length() + reach);
+        (middle, caps.fold(reach, farthest))
+    }
+
+    /// The cap for a single row; `None` if it sees nothing there. A row cuts the sphere in a circle, so the ends are farthest
+    /// from the middle.
+    fn cap(&self, row: &RowOfEllipse, chunk: u32) -> Option<(Vector, f64)> {
+        let [left, right] = row.roots;
         let start = f64::from(chunk) * f64::from(CHUNK) - self.counted_from;
         let [first, last] = [start.max(left), (start + f64::from(CHUNK)).min(right)];
+        if first >= last {
+            return None;
+        }
         let normal = |u: f64| {
             let place = PlaceInRow { column: u, after_first: u - left, after_last: u - right };
-            self.row.point(self.center, &place).point.normal
+            row.point(self.center, &place).point.normal
         };
         let middle = normal(0.5 * (first + last));
         let reach = |u: f64| (normal(u) - middle).length();
-        (middle, reach(first).max(reach(last)))
+        Some((middle, reach(first).max(reach(last))))
     }
 
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! Points of one surface that are shaded together, and the results: arrays that stay in the L1 cache.
 
+use super::lobe::Terms;
 use crate::lanes::{Element, Lane, LaneJob};
 use crate::outline::{Ellipse, PlaceInRow, PointInRow};
 use crate::prepare::Hit;
@@ -56,6 +57,14 @@ pub struct ShadedBlock<E> {
     pub ambient_error: [E; SIZE],
     /// E_j of each light whose own irradiance is requested, W/m² or lx.
     pub by_light: Vec<[E; SIZE]>,
+    /// Whether more than the brightness is requested.
+    pub is_whole: bool,
+    /// What the kernel keeps between its loops: cosθ_o.
+    pub cosines: [E; SIZE],
+    /// Σ E_j (N·H_j)ⁿ (Σ v_j I_j/r_j² (N·H_j)ⁿ in (3.11) and (3.12)).
+    pub lobes: [E; SIZE],
+    /// The terms of this sum.
+    pub terms: Terms<E>,
 }
 
 /// Screen positions within an outline, in the outline's columns and rows.
@@ -234,12 +243,16 @@ impl<E: Element> ShadedBlock<E> {
             ambient: zeros,
             ambient_error: zeros,
             by_light: vec![zeros; lights],
+            is_whole: true,
+            cosines: zeros,
+            lobes: zeros,
+            terms: Terms::default(),
         })
     }
 
     /// Takes the values of another block: each point's to its place.
     pub fn scatter(&mut self, places: &[usize], points: &Self) {
-        let Self { brightness, irradiance, diffuse, specular, ambient, ambient_error, by_light } = self;
+        let Self { brightness, irradiance, diffuse, specular, ambient, ambient_error, by_light, .. } = self;
         let arrays = [
             (brightness, &points.brightness),
             (irradiance, &points.irradiance),

@@ -11,8 +11,9 @@ use crate::vector::Vector;
 /// the horizon.
 pub const BLOCK: usize = 64;
 
-/// In single precision, a lobe with a larger n would lose more digits than [`SINGLE`](crate::tolerance::SINGLE) allows.
-const LARGEST_SHININESS_IN_SINGLE: f64 = 24.0;
+/// In single precision, a lobe with a larger n would lose more digits than [`SINGLE`](crate::tolerance::SINGLE) allows; one
+/// with a smaller n is still bright where cos²θ_h, as 1 − sin²θ_h, has lost its digits.
+pub const SHININESS_IN_SINGLE: std::ops::RangeInclusive<f64> = 1.0..=24.0;
 
 /// The largest distance, in radii, whose powers single precision can hold, and the intensities over R² that it can hold.
 const FARTHEST_IN_SINGLE: f64 = 1e5;
@@ -40,6 +41,8 @@ pub struct ShapeEmitters {
     placed: Vec<PlacedEmitter>,
     /// The index of each one among the scene's emitters.
     indices: Vec<usize>,
+    /// ‖S‖ of each, if there are blocks.
+    distances: Vec<f64>,
     /// Bounds of every [`BLOCK`] of them, in order; `None` where one of them is parallel; empty if there are so few that
     /// each is simply summed.
     blocks: Vec<Option<Ball>>,
@@ -52,6 +55,8 @@ pub struct Chosen<E> {
     block_ends: Vec<usize>,
     /// For emitters of lights whose own irradiance is requested: the index among those lights, and that of the emitter.
     asked_for: Vec<(usize, usize)>,
+    /// How many of the emitters do not shine alike in all directions.
+    with_pattern: usize,
 }
 
 /// The selected emitters in the form that the kernel reads.
@@ -63,6 +68,8 @@ pub struct Selection<'c, E> {
     pub block_ends: Option<&'c [usize]>,
     /// See [`Chosen`].
     pub asked_for: &'c [(usize, usize)],
+    /// Whether all of them shine alike in all directions.
+    pub are_isotropic: bool,
 }
 
 /// A ball that holds the emitters of a block.
@@ -90,14 +97,16 @@ impl Lighting {
 
     /// Computes the emitters as seen from a sphere.
     pub fn place(&self, scene: &PreparedScene, sphere: &Sphere, emitters: &mut ShapeEmitters) {
-        let ShapeEmitters { placed, indices, blocks } = emitters;
+        let ShapeEmitters { placed, indices, distances, blocks } = emitters;
         let all = scene.emitters().all();
         placed.clear();
         indices.clear();
+        distances.clear();
         blocks.clear();
         indices.extend(self.shining(scene));
         placed.extend(indices.iter().map(|index| all[*index].seen_from::<f64>(sphere.center).in_unit(sphere.radius)));
         if placed.len() > BLOCK {
+            distances.extend(placed.iter().map(|emitter| emitter.position.length()));
             blocks.extend(placed.chunks(BLOCK).map(Ball::around));
         }
     }
@@ -150,7 +159,7 @@ impl ShapeEmitters {
             has_digits && INTENSITIES_IN_SINGLE.contains(&emitter.intensity)
         };
         let ambient_fits = ambient == 0.0 || INTENSITIES_IN_SINGLE.contains(&ambient);
-        let highlight_fits = formula.sharpness().is_none_or(|n| n <= LARGEST_SHININESS_IN_SINGLE);
+        let highlight_fits = formula.sharpness().is_none_or(|n| SHININESS_IN_SINGLE.contains(&n));
         ambient_fits && highlight_fits && !formula.jumps_at_terminator() && self.placed.iter().all(fits)
     }
 }
@@ -161,6 +170,7 @@ impl<E: Element> Chosen<E> {
         self.emitters.clear();
         self.block_ends.clear();
         self.asked_for.clear();
+        self.with_pattern = 0;
     }
 
     /// Selects all emitters of a shape.
@@ -197,7 +207,7 @@ impl<E: Element> Chosen<E> {
             let end = ((number + 1) * BLOCK).min(shape.len());
             for place in number * BLOCK..end {
                 let placed = &shape.placed[place];
-                let distance = placed.position.length();
+                let distance = shape.distances[place];
                 let horizon = if placed.pattern.is_parallel() { 0.0 } else { 1.0 };
                 if middle.dot(placed.position) + reach * distance + spare(distance) >= horizon {
                     self.push(scene, lighting, shape.indices[place], placed);
@@ -234,6 +244,7 @@ impl<E: Element> Chosen<E> {
         if let Some(place) = lighting.asked_for[scene.emitters().all()[index].light] {
             self.asked_for.push((place, self.emitters.len()));
         }
+        self.with_pattern += usize::from(placed.pattern != Pattern::Isotropic);
         self.emitters.push(placed.map(E::from_f64));
     }
 
@@ -255,8 +266,9 @@ impl<E: Element> Chosen<E> {
     /// The selection in the form that the kernel reads.
     #[inline(always)]
     pub fn selection(&self) -> Selection<'_, E> {
-        let Self { emitters, block_ends, asked_for } = self;
-        Selection { emitters, block_ends: (block_ends.len() > 1).then_some(block_ends), asked_for }
+        let Self { emitters, block_ends, asked_for, with_pattern } = self;
+        let block_ends = (block_ends.len() > 1).then_some(block_ends.as_slice());
+        Selection { emitters, block_ends, asked_for, are_isotropic: *with_pattern == 0 }
     }
 }
 

@@ -4,11 +4,11 @@
 use std::ops::Range;
 
 use super::block::{SIZE, ShadedBlock, SurfaceBlock};
-use super::emitters::Selection;
-use super::lobe::{NoLobe, Power};
+use super::emitters::{BLOCK, Selection};
+use super::lobe::{LobeOfKernel, NoLobe, Power, Room, WithCosine, WithoutCosine};
 use crate::lanes::{Element, Lane, LaneJob, SimdToken};
-use crate::light::PlacedEmitter;
-use crate::reflectance::{BrightnessFormula, Lobe};
+use crate::light::{Pattern, PlacedEmitter};
+use crate::reflectance::BrightnessFormula;
 use crate::shade::{Shading, light_term};
 use crate::shape::SurfacePoint;
 use crate::sum::Sum;
@@ -132,7 +132,7 @@ pub struct Lit<'l, P, S, E> {
 }
 
 impl<P, S, E: Element> Lit<'_, P, S, E> {
-    /// Shades the points: the only place that chooses the kind of lobe. Each kind is compiled separately.
+    /// Shades the points. Each of these kinds of lobes is compiled separately.
     #[inline(always)]
     pub fn shade<V>(&self, token: V::Token, shaded: &mut ShadedBlock<E>)
     where
@@ -142,10 +142,8 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
     {
         match self.power {
             Power::None => self.shade_with::<V, _>(token, &NoLobe, shaded),
-            Power::Even(lobe) => self.shade_with::<V, _>(token, lobe, shaded),
-            Power::Odd(lobe) => self.shade_with::<V, _>(token, lobe, shaded),
-            Power::Any(lobe) => self.shade_with::<V, _>(token, lobe, shaded),
-            Power::WithoutCosine(lobe) => self.shade_with::<V, _>(token, lobe, shaded),
+            Power::Whole(_) | Power::Any(_) => self.shade_with::<V, _>(token, &WithCosine, shaded),
+            Power::WithoutCosine(_) => self.shade_with::<V, _>(token, &WithoutCosine, shaded),
         }
         if !shaded.by_light.is_empty() {
             token.in_own_function(
@@ -155,83 +153,150 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
         }
     }
 
+    /// In three loops: the terms of the emitters, the sums of the lobes, the brightness. So each is short enough for the
+    /// registers, and only the first is compiled for every way of finding points.
     #[inline(always)]
     fn shade_with<V, L>(&self, token: V::Token, lobe: &L, shaded: &mut ShadedBlock<E>)
     where
         V: Lane<Element = E>,
-        L: Lobe<V>,
+        L: LobeOfKernel<V>,
         P: Points<V>,
         S: Visibility<V>,
     {
         token.in_own_function(
             #[inline(always)]
-            || {
-                for at in (0..self.count).step_by(V::COUNT) {
-                    let point = self.points.point(token, at);
-                    let [irradiance, lobes] = self.sum(token, &point, at, lobe);
-                    let ambient = self.points.ambient(token, at);
-                    let shading = Shading::new(irradiance + ambient, lobes, ambient, self.formula, point.cos_theta_o);
-                    shading.brightness().store(&mut shaded.brightness[at..]);
-                    shading.irradiance.store(&mut shaded.irradiance[at..]);
-                    shading.diffuse.store(&mut shaded.diffuse[at..]);
-                    shading.specular.store(&mut shaded.specular[at..]);
-                    shading.ambient.store(&mut shaded.ambient[at..]);
-                }
+            || match self.selection.block_ends {
+                Some(ends) => self.sum_blocks::<V, L>(token, ends, lobe, shaded),
+                None => self.sum::<V, L>(token, lobe, shaded),
             },
         );
     }
 
-    /// Σ E_j and Σ E_j (N·H_j)ⁿ (Σ v_j I_j/r_j² (N·H_j)ⁿ in (3.11) and (3.12)) at a vector of points. Emitters of a block are summed plainly, and the blocks' sums with
-    /// compensation, so that the error does not grow with the number of lights.
+    /// Shades with a single block of emitters: as many points at a time as there is room for their terms.
     #[inline(always)]
-    fn sum<V, L>(&self, token: V::Token, point: &SurfacePoint<V>, at: usize, lobe: &L) -> [V; 2]
+    fn sum<V, L>(&self, token: V::Token, lobe: &L, shaded: &mut ShadedBlock<E>)
     where
         V: Lane<Element = E>,
-        L: Lobe<V>,
+        L: LobeOfKernel<V>,
         P: Points<V>,
         S: Visibility<V>,
     {
-        let zero = point.cos_theta_o.splat_like(0.0);
-        let Some(ends) = self.selection.block_ends else {
-            return self.plain_sum(token, point, at, 0..self.selection.emitters.len(), lobe);
-        };
-        let (mut irradiance, mut lobes) = (Sum::starting_at(zero), Sum::starting_at(zero));
-        let mut first = 0;
-        for end in ends {
-            let [of_block, lobes_of_block] = self.plain_sum(token, point, at, first..*end, lobe);
-            irradiance.add(of_block);
-            lobes.add(lobes_of_block);
-            first = *end;
+        let emitters = self.selection.emitters.len();
+        let together = (BLOCK / emitters.max(1)).max(1) * V::COUNT;
+        for start in (0..self.count).step_by(together) {
+            let end = (start + together).min(self.count).next_multiple_of(V::COUNT);
+            let mut room = shaded.terms.room::<V>((end - start) / V::COUNT * emitters);
+            for at in (start..end).step_by(V::COUNT) {
+                let point = self.points.point(token, at);
+                let irradiance = self.terms(token, &point, at, 0..emitters, lobe, &mut room);
+                irradiance.store(&mut shaded.irradiance[at..]);
+                point.cos_theta_o.store(&mut shaded.cosines[at..]);
+            }
+            if L::IS_THERE {
+                self.power.sum::<V>(token, &mut shaded.terms, emitters, &mut shaded.lobes[start..end]);
+            }
+            for at in (start..end).step_by(V::COUNT) {
+                self.finish::<V, L>(token, at, shaded);
+            }
         }
-        [irradiance.value(), lobes.value()]
     }
 
-    /// The same sums over some of the emitters, by plain addition.
+    /// Shades with several blocks of emitters. Those of a block are summed plainly, and the blocks' sums with compensation, so
+    /// that the error does not grow with the number of lights.
     #[inline(always)]
-    fn plain_sum<V, L>(
+    fn sum_blocks<V, L>(&self, token: V::Token, ends: &[usize], lobe: &L, shaded: &mut ShadedBlock<E>)
+    where
+        V: Lane<Element = E>,
+        L: LobeOfKernel<V>,
+        P: Points<V>,
+        S: Visibility<V>,
+    {
+        for at in (0..self.count).step_by(V::COUNT) {
+            let point = self.points.point(token, at);
+            let zero = point.cos_theta_o.splat_like(0.0);
+            let (mut irradiance, mut lobes) = (Sum::starting_at(zero), Sum::starting_at(zero));
+            let mut first = 0;
+            for end in ends {
+                let mut room = shaded.terms.room::<V>(end - first);
+                irradiance.add(self.terms(token, &point, at, first..*end, lobe, &mut room));
+                if L::IS_THERE {
+                    let of_block = &mut shaded.lobes[at..at + V::COUNT];
+                    self.power.sum::<V>(token, &mut shaded.terms, end - first, of_block);
+                    lobes.add(V::load(token, of_block));
+                }
+                first = *end;
+            }
+            irradiance.value().store(&mut shaded.irradiance[at..]);
+            lobes.value().store(&mut shaded.lobes[at..]);
+            point.cos_theta_o.store(&mut shaded.cosines[at..]);
+            self.finish::<V, L>(token, at, shaded);
+        }
+    }
+
+    /// Σ E_j of up to [`BLOCK`] of the emitters at a vector of points, and the terms of the sum of the lobes. The loop for
+    /// emitters that shine alike in all directions has no branches, so that the processor overlaps one emitter with the next.
+    #[inline(always)]
+    fn terms<V, L>(
         &self,
         token: V::Token,
         point: &SurfacePoint<V>,
         at: usize,
         emitters: Range<usize>,
         lobe: &L,
-    ) -> [V; 2]
+        room: &mut Room<'_, E>,
+    ) -> V
     where
         V: Lane<Element = E>,
-        L: Lobe<V>,
+        L: LobeOfKernel<V>,
         P: Points<V>,
         S: Visibility<V>,
     {
-        let zero = point.cos_theta_o.splat_like(0.0);
-        let (mut irradiance, mut lobes) = (zero, zero);
         let anchors = self.points.anchors(token, at);
-        for (emitter, index) in self.selection.emitters[emitters.clone()].iter().zip(emitters) {
-            let emitter = placed(token, emitter, anchors);
-            let term = light_term(point, &emitter, self.visibility.of(token, index, at), lobe);
-            irradiance = irradiance + term.irradiance;
-            lobes = term.lobe_irradiance.mul_add(term.lobe, lobes);
+        let mut irradiance = point.cos_theta_o.splat_like(0.0);
+        let those = self.selection.emitters[emitters.clone()].iter().zip(emitters);
+        if self.selection.are_isotropic {
+            for (emitter, index) in those {
+                let emitter = placed(token, &PlacedEmitter { pattern: Pattern::Isotropic, ..*emitter }, anchors);
+                let term = light_term(point, &emitter, self.visibility.of(token, index, at), lobe);
+                irradiance = irradiance + term.irradiance;
+                if L::IS_THERE {
+                    room.put(term.lobe_irradiance, term.lobe);
+                }
+            }
+        } else {
+            for (emitter, index) in those {
+                let emitter = placed(token, emitter, anchors);
+                let term = light_term(point, &emitter, self.visibility.of(token, index, at), lobe);
+                irradiance = irradiance + term.irradiance;
+                if L::IS_THERE {
+                    room.put(term.lobe_irradiance, term.lobe);
+                }
+            }
         }
-        [irradiance, lobes]
+        irradiance
+    }
+
+    /// B of a vector of points, and its parts if they are requested, from the sums.
+    #[inline(always)]
+    fn finish<V, L>(&self, token: V::Token, at: usize, shaded: &mut ShadedBlock<E>)
+    where
+        V: Lane<Element = E>,
+        L: LobeOfKernel<V>,
+        P: Points<V>,
+    {
+        let [irradiance, cosines] = [&shaded.irradiance, &shaded.cosines];
+        let (irradiance, cos_theta_o) = (V::load(token, &irradiance[at..]), V::load(token, &cosines[at..]));
+        let zero = cos_theta_o.splat_like(0.0);
+        let lobes = if L::IS_THERE { V::load(token, &shaded.lobes[at..]) } else { zero };
+        let ambient = self.points.ambient(token, at);
+        let shading = Shading::new(irradiance + ambient, lobes, ambient, self.formula, cos_theta_o);
+        shading.brightness().store(&mut shaded.brightness[at..]);
+        if shaded.is_whole {
+            shading.irradiance.store(&mut shaded.irradiance[at..]);
+            shading.diffuse.store(&mut shaded.diffuse[at..]);
+            shading.specular.store(&mut shaded.specular[at..]);
+            shading.ambient.store(&mut shaded.ambient[at..]);
+        }
     }
 
     /// E_j of the lights whose own irradiance is requested.

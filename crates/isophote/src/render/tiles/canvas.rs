@@ -199,9 +199,9 @@ impl Canvas {
         let [least, greatest] = [D::splat(token, pen.doubtful[0]), D::splat(token, pen.doubtful[1])];
         while column < end {
             let first = column - pen.column;
-            let u = D::distances(token, first, 0.0);
-            let after_first = D::distances(token, first, row.roots[0]);
-            let before_last = -D::distances(token, first, row.roots[1]);
+            let u = D::counted(token, first);
+            let after_first = u - D::splat(token, row.roots[0]);
+            let before_last = D::splat(token, row.roots[1]) - u;
             let clearance = D::splat(token, pen.clearance) * after_first * before_last;
             let along = u.mul_add(D::splat(token, row.depth[1]), D::splat(token, row.depth[0]));
             let depth = D::select(zero.is_less(clearance), along - clearance.max_zero().sqrt(), beyond);

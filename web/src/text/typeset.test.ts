@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import * as fieldWords from './fields';
 import { typeset, type Part } from './typeset';
 
 /** Parts as text: *variable*, **vector**, _{index}, ^{power}. */
@@ -53,6 +54,20 @@ describe('typeset', () => {
   it('writes powers of ten', () => {
     expect(formula('E = 1.2e-7 W/m²')).toBe('*E* = 1.2 · 10^{−7} W/m^{2}');
     expect(formula('E = -1,2e-7')).toBe('*E* = −1,2 · 10^{−7}');
+  });
+
+  it('leaves the words of a sentence alone', () => {
+    expect(formula('The formula of the lab: k_d darkens, as cosθ_o does; c(n) too.')).toBe(
+      'The formula of the lab: *k*_{d} darkens, as cos*\u2009θ*_{o} does; *c*(*n*) too.',
+    );
+    for (const fields of [fieldWords.en, fieldWords.ru]) {
+      for (const sentence of Object.values(fields.conventions)) {
+        const { parts, notes } = typeset(sentence);
+        expect(notes).toEqual([]);
+        const words = parts.map((part) => part.text).join('');
+        expect(words.replace(/\u2009/g, '')).toBe(sentence.replace(/_/g, ''));
+      }
+    }
   });
 
   it('loses no text', () => {
