@@ -1,4 +1,4 @@
-"""The scenes of other shapes than spheres, as our program reads them and, as JSON, the others: an OBJ file or a list of shapes."""
+"""The scenes of other shapes than spheres: a file for our program, and JSON for the others."""
 
 import json
 import math

@@ -4,8 +4,6 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-import files
-
 
 class SceneMitsuba:
     def __init__(self, variant, is_script):

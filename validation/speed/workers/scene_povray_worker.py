@@ -2,9 +2,8 @@
 
 import math
 
-from povray_worker import FADE_DISTANCE, PovRay
-
 import files
+from povray_worker import FADE_DISTANCE, PovRay
 
 
 class ScenePovRay(PovRay):

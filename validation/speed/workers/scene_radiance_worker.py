@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+
 from radiance_worker import LAMP_RADIUS, PROGRAMS, Radiance
 
 
