@@ -15,6 +15,7 @@ import math
 import re
 import subprocess
 import sys
+import textwrap
 import time
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -277,8 +278,9 @@ def verdict(scenes: list[SceneFiles], found: dict[str, dict[str, Times]]) -> str
             + (f"{ratio(low)} times" if ratio(low) == ratio(high) else f"{ratio(low)} to {ratio(high)} times")
             for program, (count, all_count, low, high) in faster.items()
         ]
-        sentences.append(f"{name}, faster than Isophote: {'; '.join(parts) or 'none'}.")
-    return "\n".join(sentences)
+        sentence = f"{name}, faster than Isophote: {'; '.join(parts) or 'none'}."
+        sentences.append(textwrap.fill(sentence, 128, break_long_words=False, break_on_hyphens=False))
+    return "\n\n".join(sentences)
 
 
 def _packages() -> set[str]:
