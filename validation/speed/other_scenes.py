@@ -34,8 +34,8 @@ TURN_SECONDS = 0.1
 HEADING, LATER = "## Other scenes\n", "## Hardware limits\n"
 # A value counts as different when it is off by more than this part of the largest.
 DIFFERENT = 0.01
-# How many of the pixels may be different: those at the edges of shapes and of the shadow of each light. Facets of a mesh with smooth normals shade their neighbours
-# where light grazes them, and every program has its own way to deal with that.
+# How many of the pixels may be different: those at the edges of shapes and of the shadow of each light. Facets of a mesh
+# with smooth normals shade their neighbours where light grazes them, and every program has its own way to deal with that.
 ALLOWED, ALLOWED_SMOOTH = 0.01, 0.1
 ALLOWED_MEAN = 0.01
 
@@ -63,7 +63,10 @@ PROGRAMS = [
     Program("scene-embree-shadow", "Embree, bare shadow rays", "single, 1 thread", EMBREE),
     Program("scene-trimesh", "trimesh with Embree, shading by NumPy", "1 thread", EMBREE, "npy"),
     Program("scene-povray", "POV-Ray", "double inside, 2 threads", ("numpy", "povray"), "exr", is_command=True),
-    Program("scene-radiance-1", "Radiance, `rtrace`", "double inside, 1 process", ("numpy", "pyradiance"), "hdr", is_command=True),
+    Program(
+        "scene-radiance-1", "Radiance, `rtrace`", "double inside, 1 process", ("numpy", "pyradiance"), "hdr",
+        is_command=True,
+    ),
 ]  # fmt: skip
 
 
