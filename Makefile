@@ -107,8 +107,9 @@ bench-python: ## Time the Python package as pip installs it: calls, loading, poi
 	target/bench-python/bin/python -m pip install --quiet --disable-pip-version-check ".[xarray]" numba
 	target/bench-python/bin/python validation/python/speed.py
 
-compare: ## Compare with NumPy, Numba, Dr.Jit, Mitsuba, Radiance and POV-Ray, and write docs/speed.md (20 minutes)
+compare: ## Compare with NumPy, Numba, Dr.Jit, Mitsuba, Radiance and POV-Ray, and write docs/speed.md (40 minutes)
 	python3 validation/speed/compare.py
+	python3 validation/speed/other_scenes.py
 
 growth: ## Measure how the cost grows with spheres and samples, and write docs/growth.md (5 minutes)
 	python3 validation/growth/growth.py

@@ -9,31 +9,15 @@ timed.
 """
 
 import argparse
-import math
-import random
 import statistics
 import subprocess
 import time
 from pathlib import Path
 
+from shapes import write_scenes
+
 ROOT = Path(__file__).parent.parent.parent
 FOLDER = ROOT / "target" / "any-scene"
-HEAD = """version = 1
-length = "m"
-convention = "radiance"
-shadows = true
-
-[camera]
-eye = [0, 0, 3.2]
-target = [0, 0, 0]
-screen = { distance = 1, x = [-0.4, 0.4], y = [-0.225, 0.225] }
-resolution = [1920, 1080]
-
-[material.a]
-diffuse = 0.6
-specular = 0.3
-shininess = 20
-"""
 
 
 def main() -> None:
@@ -60,7 +44,7 @@ def time_of(program: Path, task: list[str]) -> float:
 
 def tasks() -> dict[str, list[str]]:
     """The arguments of each run."""
-    all_tasks = {scene.stem: ["render", scene.name, "--quiet"] for scene in write_scenes()}
+    all_tasks = {scene.name: ["render", scene.toml.name, "--quiet"] for scene in write_scenes(FOLDER)}
     for name in ("mesh-100000", "plane-and-ten"):
         arguments = ["render", f"{name}-1.toml", "--quiet", "--size", "800x600", "--tolerance", "0.01"]
         all_tasks[f"{name}-antialiased"] = arguments
@@ -80,86 +64,6 @@ def with_part(scene: str, name: str, text: str) -> str:
     path = FOLDER / f"{scene}-{name}.toml"
     path.write_text((FOLDER / f"{scene}.toml").read_text() + "\n" + text)
     return path.name
-
-
-def write_scenes() -> list[Path]:
-    """The scenes, each with one light and with 16."""
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    bumpy_ball(FOLDER / "flat.obj", is_smooth=False)
-    bumpy_ball(FOLDER / "smooth.obj", is_smooth=True)
-    shapes = {
-        "mesh-100000": '[[mesh]]\nfile = "flat.obj"\nmaterial = "a"\n',
-        "smooth-mesh-100000": '[[mesh]]\nfile = "smooth.obj"\nmaterial = "a"\n',
-        "thousand-solids": thousand_solids(),
-        "plane-and-ten": plane_and_ten(),
-    }
-    scenes = []
-    for name, text in shapes.items():
-        for count in (1, 16):
-            scene = FOLDER / f"{name}-{count}.toml"
-            scene.write_text(HEAD + lights(count) + text)
-            scenes.append(scene)
-    return scenes
-
-
-def lights(count: int) -> str:
-    draw = random.Random(1)
-    places = [(draw.uniform(-4, 4), draw.uniform(-1, 4), draw.uniform(2, 5)) for _ in range(count)]
-    return "".join(f"\n[[light]]\nposition = {point(place)}\nintensity = 20\n" for place in places)
-
-
-def bumpy_ball(path: Path, is_smooth: bool, rows: int = 223, columns: int = 224) -> None:
-    """About 100,000 triangles."""
-    with path.open("w") as file:
-        for row in range(rows + 1):
-            for column in range(columns):
-                polar, around = math.pi * (row + 0.5) / (rows + 1), 2 * math.pi * column / columns
-                radius = 1 + 0.05 * math.sin(9 * around) * math.sin(7 * polar)
-                place = (math.sin(polar) * math.cos(around), math.cos(polar), math.sin(polar) * math.sin(around))
-                print("v", *(f"{radius * coordinate:.9g}" for coordinate in place), file=file)
-                if is_smooth:
-                    print("vn", *(f"{coordinate:.9g}" for coordinate in place), file=file)
-        corner = (lambda index: f"{index + 1}//{index + 1}") if is_smooth else (lambda index: str(index + 1))
-        for row in range(rows):
-            for column in range(columns):
-                here, right = row * columns + column, row * columns + (column + 1) % columns
-                for triangle in ((here, right, here + columns), (right, right + columns, here + columns)):
-                    print("f", *map(corner, triangle), file=file)
-
-
-def thousand_solids() -> str:
-    """Boxes and cylinders in turn."""
-    draw = random.Random(2)
-    text = ""
-    for number in range(1000):
-        x, y, z = draw.uniform(-1.4, 1.4), draw.uniform(-0.8, 0.8), draw.uniform(-2, 0)
-        if number % 2:
-            size = [draw.uniform(0.05, 0.2) for _ in range(3)]
-            text += f'\n[[box]]\ncenter = {point((x, y, z))}\nsize = {point(size)}\nmaterial = "a"\n'
-        else:
-            end = (x + draw.uniform(-0.1, 0.1), y + 0.1, z)
-            text += f'\n[[cylinder]]\nfrom = {point((x, y, z))}\nto = {point(end)}\nradius = 0.05\nmaterial = "a"\n'
-    return text
-
-
-def plane_and_ten() -> str:
-    """Spheres, boxes, cylinders and ellipsoids over a plane."""
-    draw = random.Random(3)
-    text = '\n[[plane]]\npoint = [0, -0.6, 0]\nnormal = [0, 1, 0]\nmaterial = "a"\n'
-    for number in range(10):
-        x, y, z = draw.uniform(-1, 1), draw.uniform(-0.4, 0.3), draw.uniform(-1, 0.5)
-        place = point((x, y, z))
-        text += (
-            f"\n[[sphere]]\ncenter = {place}\nradius = 0.2\n",
-            f"\n[[box]]\ncenter = {place}\nsize = [0.3, 0.2, 0.3]\n",
-            f"\n[[cylinder]]\nfrom = {place}\nto = {point((x, y + 0.3, z))}\nradius = 0.15\n",
-            f"\n[[ellipsoid]]\ncenter = {place}\nradii = [0.2, 0.1, 0.3]\n",
-        )[number % 4] + 'material = "a"\n'
-    return text
-
-
-def point(coordinates) -> str:
-    return "[" + ", ".join(f"{coordinate:.4f}" for coordinate in coordinates) + "]"
 
 
 if __name__ == "__main__":

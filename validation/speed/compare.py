@@ -14,6 +14,7 @@ import ceilings
 import cold
 import environment
 import machine
+import other_scenes
 import report
 import warm
 from cases import Case, all_cases
@@ -41,7 +42,9 @@ def main() -> None:
     if missing := [case.name for case in all_cases() if case.name not in results["warm"]]:
         print(f"{raw} lacks {', '.join(missing)}: docs/speed.md stays as it is", file=sys.stderr)
         return
-    arguments.output.write_text(page(participants, all_cases(), results))
+    former = arguments.output.read_text() if arguments.output.exists() else ""
+    text = page(participants, all_cases(), results, other_scenes.section_of(former))
+    arguments.output.write_text(text)
     print(f"wrote {arguments.output}; every single time is in {raw}", file=sys.stderr)
 
 
@@ -117,8 +120,8 @@ def measure(participants: Participants, cases: list[Case], binaries: Path, effor
     save()
 
 
-def page(participants: Participants, cases: list[Case], results: dict) -> str:
-    """The template, filled in."""
+def page(participants: Participants, cases: list[Case], results: dict, others: str) -> str:
+    """The template, filled in; the section about other scenes stays as it was measured."""
     contestants, measured = participants.contestants, results["warm"]
     by_name = {case.name: case for case in cases}
     one_light = [case for case in cases if len(case.scene.lights) == 1]
@@ -139,6 +142,7 @@ def page(participants: Participants, cases: list[Case], results: dict) -> str:
         many_lights=report.warm_table(contestants, many_lights, measured),
         best=report.best_table(contestants, cases, measured),
         cold=report.cold_table(results["cold"]),
+        other_scenes=others,
         ceilings=report.ceilings_table(results["ceilings"]),
         flops=ceilings.FLOPS_PER_PIXEL_AND_LIGHT,
         shares=report.shares_table(shares),

@@ -8,7 +8,7 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
-PYTHON_PACKAGES = ("numpy", "numba", "drjit", "mitsuba", "pyradiance")
+PYTHON_PACKAGES = ("numpy", "numba", "drjit", "mitsuba", "pyradiance", "embreex", "trimesh")
 DEBIAN_PACKAGES = ("povray", "libllvm19")
 
 

@@ -1,4 +1,4 @@
-"""Files for the programs that have no writers of their own."""
+"""Files for the programs that have no writers or readers of their own."""
 
 import struct
 import zlib
@@ -19,3 +19,14 @@ def save(image: np.ndarray, path: str) -> None:
         file.write(b"\x89PNG\r\n\x1a\n")
         for kind, data in ((b"IHDR", header), (b"IDAT", zlib.compress(rows, 6)), (b"IEND", b"")):
             file.write(struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)))
+
+
+def read_obj(path: str) -> tuple[np.ndarray, np.ndarray | None, np.ndarray]:
+    """Vertices, normals if there are any, and triangles; a vertex and its normal have the same number."""
+    rows: dict[str, list[list[str]]] = {"v": [], "vn": [], "f": []}
+    with open(path) as file:
+        for line in file:
+            kind, *words = line.split()
+            rows[kind].append(words)
+    triangles = np.array([[int(word.split("/")[0]) - 1 for word in words] for words in rows["f"]])
+    return np.array(rows["v"], float), np.array(rows["vn"], float) if rows["vn"] else None, triangles

@@ -39,6 +39,26 @@ def contestant(name: str) -> protocol.InProcess | protocol.Command:
             from povray_worker import PovRay
 
             return PovRay()
+        case "scene-mitsuba-script" | "scene-mitsuba-direct" | "scene-mitsuba-scalar":
+            from scene_mitsuba_worker import SceneMitsuba
+
+            return SceneMitsuba("scalar_rgb" if name.endswith("scalar") else "llvm_ad_mono", name.endswith("script"))
+        case "scene-embree-primary" | "scene-embree-shadow":
+            from scene_embree_worker import BareRays
+
+            return BareRays(name.rsplit("-", 1)[1])
+        case "scene-trimesh":
+            from scene_embree_worker import MeshPicture
+
+            return MeshPicture()
+        case "scene-povray":
+            from scene_povray_worker import ScenePovRay
+
+            return ScenePovRay()
+        case "scene-radiance-1" | "scene-radiance-2":
+            from scene_radiance_worker import SceneRadiance
+
+            return SceneRadiance(processes=int(name[-1]))
     raise ValueError(f'contestant "{name}": worker.py does not know it')
 
 
