@@ -110,7 +110,7 @@ fn render_reference(scene: PreparedScene) -> Map {
     black_box(brightness(&ReferenceRenderer, black_box(&scene)))
 }
 
-/// With the instructions that valgrind knows, which are not always the machine's best.
+// With the instructions that valgrind knows, which are not always the machine's best.
 #[library_benchmark]
 #[bench::rows_in_single(Precision::Single, prepared_lab())]
 #[bench::rows_in_double(Precision::Double, prepared_lab())]
