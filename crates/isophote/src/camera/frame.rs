@@ -120,6 +120,8 @@ pub(crate) struct PreciseCamera<'f> {
     frame: &'f CameraFrame<DoubleDouble>,
     /// What all rays have in common: the eye, or the direction of parallel rays.
     pub common: Vector<DoubleDouble>,
+    /// One over twice the number of columns and of rows.
+    inverse: [DoubleDouble; 2],
 }
 
 /// What differs from ray to ray.
@@ -134,7 +136,9 @@ impl CameraFrame<DoubleDouble> {
     /// Its rays.
     pub(crate) fn in_lanes(&self) -> PreciseCamera<'_> {
         let is_parallel = matches!(self.projection, Projection::Orthographic(_));
-        PreciseCamera { frame: self, common: if is_parallel { self.forward } else { self.eye } }
+        let Resolution { width, height } = self.resolution;
+        let inverse = [width, height].map(|count| DoubleDouble::from_f64(0.5) / DoubleDouble::from_f64(count.into()));
+        PreciseCamera { frame: self, common: if is_parallel { self.forward } else { self.eye }, inverse }
     }
 }
 
@@ -149,8 +153,8 @@ impl PreciseCamera<'_> {
     pub fn at<T: ExactProduct>(&self, column: T, row: T) -> Differing<T> {
         let CameraFrame { right, up, forward, eye, extent: Extent { x, y: [bottom, top] }, resolution, .. } =
             self.frame;
-        let x = between_exactly(*x, column, resolution.width);
-        let y = between_exactly([*top, *bottom], row, resolution.height);
+        let x = between_exactly(*x, column, (resolution.width, self.inverse[0]));
+        let y = between_exactly([*top, *bottom], row, (resolution.height, self.inverse[1]));
         let one = column.splat_like(1.0);
         let ([right, up, forward], zero) = ([right, up, forward].map(constants(one)), one.splat_like(0.0));
         match &self.frame.projection {
@@ -185,15 +189,18 @@ fn constants<T: ExactProduct>(like: T) -> impl Fn(&Vector<DoubleDouble>) -> Vect
     }
 }
 
-/// [`between`] for several cells at a time.
+/// [`between`] for several cells at a time; with the number of cells, one over twice this number is given.
 #[inline(always)]
-fn between_exactly<T: ExactProduct>([first, last]: [f64; 2], index: T, count: u32) -> DoubleDouble<T> {
+fn between_exactly<T: ExactProduct>(
+    [first, last]: [f64; 2],
+    index: T,
+    (count, inverse): (u32, DoubleDouble),
+) -> DoubleDouble<T> {
     let after = index + index + index.splat_like(1.0);
-    let twice = index.splat_like(2.0 * f64::from(count));
-    let before = twice - after;
+    let before = index.splat_like(2.0 * f64::from(count)) - after;
     let weighted = DoubleDouble::product_of(index.splat_like(first), before)
         + DoubleDouble::product_of(index.splat_like(last), after);
-    weighted / DoubleDouble::exactly(twice)
+    weighted * inverse.constant_like(index)
 }
 
 impl CameraFrame {

@@ -286,13 +286,15 @@ impl<'a> Tracer<'a> {
             }
             for index in set_bits(on_shape) {
                 let (primitive, position) = (primitives[index], places[index].position());
-                let hit = if is_sharp {
+                hits[index] = if is_sharp {
                     let hit = scene.frame().ray(position).and_then(|ray| scene.hit_on(primitive, &ray));
                     hit.or_else(|| scene.precise_hit_on(primitive, position))
                 } else {
                     points.hit(index, primitive, precise)
                 };
-                hits[index] = hit.or_else(|| scene.trace(position));
+                if hits[index].is_none() {
+                    hits[index] = scene.trace(position);
+                }
             }
         }
     }
