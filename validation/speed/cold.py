@@ -1,10 +1,7 @@
 """Cold times: from the start of a process to a file that is written. What programs keep on the disk between two runs, as
 compiled kernels, is there already."""
 
-import shlex
-import subprocess
 import sys
-import time
 from dataclasses import dataclass, field
 from pathlib import Path
 from statistics import median
@@ -12,7 +9,7 @@ from statistics import median
 from cases import Case, write_scene
 from contestants import Contestant
 from participants import Effort, Participants
-from processes import Unavailable, end
+from processes import Unavailable, timed
 
 OURS = "isophote render"
 
@@ -95,20 +92,10 @@ def _command(participants: Participants, contestant: Contestant, case: Case, suf
 
 
 def _run(participants: Participants, command: list[str], result: Result, limit: float, is_timed: bool) -> None:
-    start = time.perf_counter()
-    process = subprocess.Popen(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
-        env=participants.environment.variables(),
-    )  # fmt: skip
     try:
-        _, said = process.communicate(timeout=limit)
-    except subprocess.TimeoutExpired:
-        end(process)
-        result.reason = f"skipped: over {limit:.0f} s"
+        seconds, _ = timed(command, participants.environment.variables(), limit)
+    except Unavailable as why:
+        result.reason = str(why)
         return
-    seconds = time.perf_counter() - start
-    if process.returncode != 0:
-        lines = said.strip().splitlines()
-        result.reason = f"failed: {lines[-1] if lines else shlex.join(command)}"
-    elif is_timed:
+    if is_timed:
         result.seconds.append(seconds)

@@ -23,7 +23,7 @@ from statistics import mean, median
 
 import environment
 import machine
-from processes import Unavailable, Worker, end
+from processes import Unavailable, Worker, timed
 from report import duration, ratio, table
 from shapes import RESOLUTION, SceneFiles, write_scenes
 
@@ -180,19 +180,8 @@ class Comparison:
         times.render.append(median(worker.ask(3 * self.limit, do="time", seconds=TURN_SECONDS)["seconds"]))
 
     def _whole(self, command: list[str], times: Times) -> None:
-        start = time.perf_counter()
-        process = subprocess.Popen(
-            command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
-            env=self.surroundings.variables(),
-        )  # fmt: skip
-        try:
-            _, said = process.communicate(timeout=self.limit)
-        except subprocess.TimeoutExpired:
-            end(process)
-            raise Unavailable(f"over {self.limit:.0f} s") from None
-        times.whole.append(time.perf_counter() - start)
-        if process.returncode != 0:
-            raise Unavailable(f"failed: {said.strip().splitlines()[-1:]}")
+        seconds, said = timed(command, self.surroundings.variables(), self.limit)
+        times.whole.append(seconds)
         if found := re.search(r"Trace Time:.*?(?:\(([\d.]+) seconds\)|(\d+) microseconds)", said):
             times.render.append(float(found[1]) if found[1] else int(found[2]) / 1e6)
 
@@ -304,7 +293,7 @@ def _ratio(times: dict[str, Times], name: str, kind: str) -> float | None:
 
 def _cell(times: dict[str, Times], name: str, kind: str) -> str:
     seconds = getattr(times[name], kind)
-    if (reason := times[name].reason) and (reason.startswith(("over", "skipped"))):
+    if (reason := times[name].reason) and reason.startswith("skipped"):
         return reason.removeprefix("skipped: ")
     if reason or not seconds:
         return "–"

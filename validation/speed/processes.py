@@ -3,9 +3,11 @@
 import json
 import os
 import selectors
+import shlex
 import signal
 import subprocess
 import tempfile
+import time
 from typing import Any
 
 
@@ -65,6 +67,24 @@ class Worker:
             self.process.wait(10)
         except subprocess.TimeoutExpired:
             end(self.process)
+
+
+def timed(command: list[str], variables: dict[str, str], limit: float) -> tuple[float, str]:
+    """The seconds that a whole run takes, and what it says to its standard error."""
+    start = time.perf_counter()
+    process = subprocess.Popen(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True, env=variables
+    )
+    try:
+        _, said = process.communicate(timeout=limit)
+    except subprocess.TimeoutExpired:
+        end(process)
+        raise Unavailable(f"skipped: over {limit:.0f} s") from None
+    seconds = time.perf_counter() - start
+    if process.returncode != 0:
+        lines = said.strip().splitlines()
+        raise Unavailable(f"failed: {lines[-1] if lines else shlex.join(command)}")
+    return seconds, said
 
 
 def end(process: subprocess.Popen) -> None:
