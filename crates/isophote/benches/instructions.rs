@@ -42,48 +42,43 @@ fn many_lights(count: u32) -> PreparedScene {
     PreparedScene::new(&Scene::try_from(source).expect("the lights are outside the sphere"))
 }
 
-/// A box, a cylinder and a sphere over a floor, with shadows, and something more.
-fn solids(more: &str) -> PreparedScene {
+/// A scene with shadows, seen by a camera whose view is given.
+fn shadowed(view: &str, rest: &str) -> PreparedScene {
     let text = format!(
         r#"
         version = 1
         length = "m"
         convention = "radiance"
         shadows = true
-        camera = {{ eye = [0, 2, 6], target = [0, 0, 0], field_of_view = 40, resolution = [80, 60] }}
+        camera = {{ {view}, target = [0, 0, 0], resolution = [80, 60] }}
         material.chalk = {{ diffuse = 0.6, specular = 0.3, shininess = 20 }}
-        plane = [{{ point = [0, -1, 0], normal = [0, 1, 0], material = "chalk" }}]
-        box = [{{ center = [-1.2, -0.5, 0], size = [0.8, 1, 0.9], material = "chalk" }}]
-        cylinder = [{{ from = [1.2, -1, 0], to = [1.2, 0.5, 0], radius = 0.4, material = "chalk" }}]
-        sphere = [{{ center = [0, 0, 0], radius = 0.5, material = "chalk" }}]
-        light = [{{ position = [2, 3, 4], intensity = 20 }}, {{ position = [-3, 2, 1], intensity = 10 }}]
-        {more}
+        {rest}
         "#
     );
-    PreparedScene::new(&Scene::from_text("solids", &text, Syntax::Toml).expect("it is valid"))
+    PreparedScene::new(&Scene::from_text("shadowed", &text, Syntax::Toml).expect("it is valid"))
 }
 
-/// Spheres in a cube, with shadows.
+/// A box, a cylinder and a sphere over a floor, and something more.
+fn solids(more: &str) -> PreparedScene {
+    let solids = r#"
+        plane = [{ point = [0, -1, 0], normal = [0, 1, 0], material = "chalk" }]
+        box = [{ center = [-1.2, -0.5, 0], size = [0.8, 1, 0.9], material = "chalk" }]
+        cylinder = [{ from = [1.2, -1, 0], to = [1.2, 0.5, 0], radius = 0.4, material = "chalk" }]
+        sphere = [{ center = [0, 0, 0], radius = 0.5, material = "chalk" }]
+        light = [{ position = [2, 3, 4], intensity = 20 }, { position = [-3, 2, 1], intensity = 10 }]
+    "#;
+    shadowed("eye = [0, 2, 6], field_of_view = 40", &format!("{solids}\n{more}"))
+}
+
+/// Spheres in a cube.
 fn cloud() -> PreparedScene {
     let ball = |index: u32| {
         let [x, y, z] = [index % 6, index / 6 % 6, index / 36].map(|step| 0.4 * f64::from(step) - 1.0);
         format!("{{ center = [{x}, {y}, {z}], radius = 0.15, material = \"chalk\" }}")
     };
     let balls: Vec<String> = (0..216).map(ball).collect();
-    let text = format!(
-        r#"
-        version = 1
-        length = "m"
-        convention = "radiance"
-        shadows = true
-        camera = {{ eye = [1, 2, 6], target = [0, 0, 0], field_of_view = 30, resolution = [80, 60] }}
-        material.chalk = {{ diffuse = 0.6, specular = 0.3, shininess = 20 }}
-        sphere = [{}]
-        light = [{{ position = [2, 3, 4], intensity = 20 }}]
-        "#,
-        balls.join(", ")
-    );
-    PreparedScene::new(&Scene::from_text("cloud", &text, Syntax::Toml).expect("it is valid"))
+    let light = "light = [{ position = [2, 3, 4], intensity = 20 }]";
+    shadowed("eye = [1, 2, 6], field_of_view = 30", &format!("sphere = [{}]\n{light}", balls.join(", ")))
 }
 
 fn brightness(renderer: &dyn Renderer, scene: &PreparedScene) -> Map {
