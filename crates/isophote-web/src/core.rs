@@ -304,26 +304,29 @@ impl Core {
     }
 
     fn scene(&self) -> Result<&PreparedScene, Refusal> {
-        self.scene.as_ref().ok_or_else(|| Refusal(message!("no scene was loaded")))
+        self.scene.as_ref().ok_or_else(no_scene)
     }
 
     fn small_map(&mut self, name: &str) -> Result<Band, Refusal> {
         let quantity = channel(name, self.scene()?.scene())?;
-        let size = small(self.scene()?.scene().camera().resolution);
-        if self.small.is_none() {
-            self.small = Some(self.scene()?.at_resolution(size));
-        }
-        let prepared = self.small.as_ref().ok_or_else(|| Refusal(message!("no scene was loaded")))?;
+        let Self { scene: Some(scene), small, .. } = self else { return Err(no_scene()) };
+        let prepared = small.get_or_insert_with(|| resized(scene, thumbnail_of));
         Band::of(render(prepared, vec![quantity.clone()], None)?, &quantity)
     }
 
     fn half(&mut self) -> Result<&PreparedScene, Refusal> {
-        if self.half.is_none() {
-            let scene = self.scene()?;
-            self.half = Some(scene.at_resolution(half_of(scene.scene().camera().resolution)));
-        }
-        self.half.as_ref().ok_or_else(|| Refusal(message!("no scene was loaded")))
+        let Self { scene: Some(scene), half, .. } = self else { return Err(no_scene()) };
+        Ok(half.get_or_insert_with(|| resized(scene, half_of)))
     }
+}
+
+fn no_scene() -> Refusal {
+    Refusal(message!("no scene was loaded"))
+}
+
+/// The same scene with another number of pixels.
+fn resized(scene: &PreparedScene, size: impl Fn(Resolution) -> Resolution) -> PreparedScene {
+    scene.at_resolution(size(scene.scene().camera().resolution))
 }
 
 fn half_of(Resolution { width, height }: Resolution) -> Resolution {
@@ -331,7 +334,7 @@ fn half_of(Resolution { width, height }: Resolution) -> Resolution {
 }
 
 /// A size with the same proportions, of at most [`THUMBNAIL`] pixels a side.
-fn small(size: Resolution) -> Resolution {
+fn thumbnail_of(size: Resolution) -> Resolution {
     let longest = u64::from(size.width.max(size.height).max(1));
     let side = |pixels: u32| {
         let scaled = (u64::from(pixels) * u64::from(THUMBNAIL)).div_ceil(longest);
