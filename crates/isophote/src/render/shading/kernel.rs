@@ -257,20 +257,14 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
         if self.selection.are_isotropic {
             for (emitter, index) in those {
                 let emitter = placed(token, &PlacedEmitter { pattern: Pattern::Isotropic, ..*emitter }, anchors);
-                let term = light_term(point, &emitter, self.visibility.of(token, index, at), lobe);
-                irradiance = irradiance + term.irradiance;
-                if L::IS_THERE {
-                    room.put(term.lobe_irradiance, term.lobe);
-                }
+                let visibility = self.visibility.of(token, index, at);
+                irradiance = irradiance + contribution(point, &emitter, visibility, lobe, room);
             }
         } else {
             for (emitter, index) in those {
                 let emitter = placed(token, emitter, anchors);
-                let term = light_term(point, &emitter, self.visibility.of(token, index, at), lobe);
-                irradiance = irradiance + term.irradiance;
-                if L::IS_THERE {
-                    room.put(term.lobe_irradiance, term.lobe);
-                }
+                let visibility = self.visibility.of(token, index, at);
+                irradiance = irradiance + contribution(point, &emitter, visibility, lobe, room);
             }
         }
         irradiance
@@ -321,6 +315,22 @@ impl<P, S, E: Element> Lit<'_, P, S, E> {
             }
         }
     }
+}
+
+/// E_j of an emitter at a vector of points; the term of its lobe is written down.
+#[inline(always)]
+fn contribution<V: Lane, L: LobeOfKernel<V>>(
+    point: &SurfacePoint<V>,
+    emitter: &PlacedEmitter<V>,
+    visibility: V,
+    lobe: &L,
+    room: &mut Room<'_, V::Element>,
+) -> V {
+    let term = light_term(point, emitter, visibility, lobe);
+    if L::IS_THERE {
+        room.put(term.lobe_irradiance, term.lobe);
+    }
+    term.irradiance
 }
 
 /// An emitter as seen from the anchors of some points, or, if they have none of their own, from that of their block.
