@@ -3,7 +3,7 @@
 
 use super::rays::{RAYS, RayPacket, Vectors};
 use super::shading::{Shader, Subject};
-use super::{Blocked, Find, Packets, set_bits};
+use super::{Blocked, Find, Packets, set_bits, those};
 use crate::accelerate::Walk;
 use crate::lanes::{Lane, LaneJob};
 use crate::prepare::{AmbientShare, Hemisphere, HemisphereDirection};
@@ -34,12 +34,10 @@ impl AmbientLight {
 impl Shader<'_> {
     /// Finds how much of the ambient light arrives at some of the points, given as bits.
     pub fn see_environment(&mut self, subject: &Subject<'_>, present: u64, packet: &mut RayPacket, walk: &mut Walk) {
-        let scene = self.packets.scene;
-        let hemisphere = subject.obstructed_hemisphere(scene);
-        let is_sampled = |ray: &usize| hemisphere.is_some() && subject.is_plain(*ray);
-        let sampled = set_bits(present).filter(is_sampled).fold(0_u64, |bits, ray| bits | 1 << ray);
+        let hemisphere = subject.obstructed_hemisphere();
+        let sampled = those(present, |ray| hemisphere.is_some() && subject.is_plain(ray));
         for ray in set_bits(present & !sampled) {
-            self.ambient.shares[ray] = subject.ambient_share(scene, ray);
+            self.ambient.shares[ray] = subject.ambient_share(ray);
         }
         let Some(hemisphere) = hemisphere.filter(|_| sampled != 0) else { return };
         for ray in set_bits(sampled) {
@@ -60,12 +58,11 @@ impl Shader<'_> {
         let first = points.trailing_zeros() as usize;
         let axes = |ray: usize| [get(&self.normal, ray), get(&self.ambient.across[0], ray)];
         let ([normal, across], shape) = (axes(first), subject.shape(first));
-        let is_alike = |ray: &usize| {
-            let [other_normal, other_across] = axes(*ray);
+        those(points, |ray| {
+            let [other_normal, other_across] = axes(ray);
             let alike = normal.dot(other_normal).min(across.dot(other_across));
-            alike > ALIKE && subject.shape(*ray) == shape
-        };
-        set_bits(points).filter(is_alike).fold(0, |bits, ray| bits | 1 << ray)
+            alike > ALIKE && subject.shape(ray) == shape
+        })
     }
 
     /// Samples the ambient light at points that are alike.
@@ -97,7 +94,7 @@ impl Shader<'_> {
             }
             let Blocked { surely, maybe, .. } = blocked;
             for ray in set_bits(points & !surely) {
-                let is_clear = |ray| subject.sees_environment(scene, ray, &to_environment(self, packet, ray));
+                let is_clear = |ray| subject.sees_environment(ray, &to_environment(self, packet, ray));
                 free[ray] += usize::from(maybe >> ray & 1 == 0 || is_clear(ray));
             }
         }

@@ -91,35 +91,36 @@ pub type Hits = [Option<Hit>; RAYS];
 
 impl Packets<'_> {
     /// Fills a band, and returns what its pixels see.
-    pub fn fill(&self, mut band: Band<'_>, observer: Option<&dyn Observer>) -> Result<Vec<Run>, RenderError> {
+    pub fn fill(&self, band: Band<'_>, observer: Option<&dyn Observer>) -> Result<Vec<Run>, RenderError> {
         let mut tracer = Tracer::new(*self);
-        let mut seen = vec![band::NOTHING; band.size.pixels()];
-        for tile in band.tiles(SIDE, SIDE) {
+        let mut output = InBand::new(band);
+        for tile in output.band.tiles(SIDE, SIDE) {
+            output.tile = tile;
             tracer.trace_tile(tile);
             for (ray, hit) in tracer.hits.iter().enumerate() {
                 if let Some(hit) = hit {
-                    let shape = u32::try_from(hit.primitive.shape).unwrap_or(band::NOTHING);
-                    seen[band.index(pixel_of(tile, ray))] = shape;
+                    output.see(ray, u32::try_from(hit.primitive.shape).unwrap_or(band::NOTHING));
                 }
             }
-            tracer.shade(&mut InTile { tile, band: &mut band, indices: Vec::with_capacity(RAYS) })?;
+            tracer.shade(&mut output)?;
             band::advance(observer, u64::from(tile.width) * u64::from(tile.height))?;
         }
-        Ok(band.runs(&seen))
+        Ok(output.band.runs(&output.seen))
     }
 
     /// Fills a band of a map with points that no rays have found; those that there are belong to this shape.
     pub fn fill_cells(
         &self,
-        mut band: Band<'_>,
+        band: Band<'_>,
         shape: u32,
         cells: &Cells<'_>,
         observer: Option<&dyn Observer>,
     ) -> Result<Vec<Run>, RenderError> {
         let mut tracer = Tracer::new(*self);
         let mut lights = Box::new([const { None }; RAYS]);
-        let mut seen = vec![band::NOTHING; band.size.pixels()];
-        for tile in band.tiles(SIDE, SIDE) {
+        let mut output = InBand::new(band);
+        for tile in output.band.tiles(SIDE, SIDE) {
+            output.tile = tile;
             let mut count = 0;
             tracer.hits.fill(None);
             for ray in (0..RAYS).filter(|ray| is_in(tile, *ray)) {
@@ -132,7 +133,7 @@ impl Packets<'_> {
                     }),
                 };
                 if tracer.hits[ray].is_some() {
-                    seen[band.index(pixel)] = shape;
+                    output.see(ray, shape);
                     count += 1;
                 }
             }
@@ -141,22 +142,34 @@ impl Packets<'_> {
                 Cells::Free(_) => Origin::Free(&lights),
             };
             let Tracer { hits, packet, walk, shader, .. } = &mut tracer;
-            let mut output = InTile { tile, band: &mut band, indices: Vec::with_capacity(RAYS) };
-            shader.shade(&Subject { hits, origin }, packet, walk, &mut output)?;
+            shader.shade(&Subject { scene: self.scene, hits, origin }, packet, walk, &mut output)?;
             band::advance(observer, count)?;
         }
-        Ok(band.runs(&seen))
+        Ok(output.band.runs(&output.seen))
     }
 }
 
-/// The pixels of a tile.
-struct InTile<'b, 'm> {
+/// The pixels of a band, of which those of a tile are being filled.
+struct InBand<'m> {
+    band: Band<'m>,
+    /// The shape that each of them sees.
+    seen: Vec<u32>,
     tile: Tile,
-    band: &'b mut Band<'m>,
+    /// Where the points of a block go.
     indices: Vec<usize>,
 }
 
-impl InTile<'_, '_> {
+impl<'m> InBand<'m> {
+    fn new(band: Band<'m>) -> Self {
+        let seen = vec![band::NOTHING; band.size.pixels()];
+        let tile = Tile { first: band.first, width: 0, height: 0 };
+        Self { band, seen, tile, indices: Vec::with_capacity(RAYS) }
+    }
+
+    fn see(&mut self, ray: usize, shape: u32) {
+        self.seen[self.band.index(pixel_of(self.tile, ray))] = shape;
+    }
+
     fn find(&mut self, rays: &[usize]) {
         self.indices.clear();
         self.indices.extend(rays.iter().map(|ray| self.band.index(pixel_of(self.tile, *ray))));
@@ -232,8 +245,9 @@ impl<'a> Tracer<'a> {
 
     /// Shades what the rays have hit.
     pub fn shade(&mut self, output: &mut impl Output) -> Result<(), RenderError> {
-        let Self { places, hits, packet, walk, shader, .. } = self;
-        shader.shade(&Subject { hits, origin: Origin::Seen(places) }, packet, walk, output)
+        let Self { packets, places, hits, packet, walk, shader, .. } = self;
+        let subject = Subject { scene: packets.scene, hits, origin: Origin::Seen(places) };
+        shader.shade(&subject, packet, walk, output)
     }
 
     /// Sets the rays.
@@ -243,8 +257,8 @@ impl<'a> Tracer<'a> {
         packet.in_use = in_use;
         precise.aim(places);
         let Visible { surely, maybe } = instructions.run_wide(precise::Aim { rays: precise, packet });
-        let is_seen = |ray: &usize| scene.frame().ray(places[*ray].position()).is_some();
-        packet.in_use &= set_bits(maybe & in_use).filter(is_seen).fold(surely, |bits, ray| bits | 1 << ray);
+        let is_seen = |ray: usize| scene.frame().ray(places[ray].position()).is_some();
+        packet.in_use &= surely | those(maybe & in_use, is_seen);
         nearest.clear();
     }
 
@@ -271,8 +285,7 @@ impl<'a> Tracer<'a> {
         let kind = |ray: usize| (primitives[ray].shape, scene.has_sharper_highlight(primitives[ray], SHARPEST));
         while left != 0 {
             let (shape, is_sharp) = kind(left.trailing_zeros() as usize);
-            let alike = set_bits(left).filter(|ray| kind(*ray) == (shape, is_sharp));
-            let on_shape = alike.fold(0, |bits, ray| bits | 1 << ray);
+            let on_shape = those(left, |ray| kind(ray) == (shape, is_sharp));
             left &= !on_shape;
             if !is_sharp {
                 let geometry = scene.geometry(shape);
@@ -333,7 +346,7 @@ impl<'a> Tracer<'a> {
     }
 }
 
-impl Output for InTile<'_, '_> {
+impl Output for InBand<'_> {
     fn put(&mut self, layer: usize, rays: &[usize], shaded: &ShadedBlock<f64>) -> Result<(), RenderError> {
         self.find(rays);
         self.band.put(layer, Pixels::At(&self.indices), Shaded::Double(shaded))
@@ -394,6 +407,11 @@ fn set_bits(mut bits: u64) -> impl Iterator<Item = usize> {
         bits &= bits - 1;
         Some(next)
     })
+}
+
+/// Those of the bits for which something holds.
+fn those(all: u64, holds: impl Fn(usize) -> bool) -> u64 {
+    set_bits(all).filter(|bit| holds(*bit)).fold(0, |those, bit| those | 1 << bit)
 }
 
 /// A bit for each answer.

@@ -3,7 +3,7 @@
 use super::ambient::AmbientLight;
 use super::blocked::ShadowRay;
 use super::rays::{RAYS, RayPacket, Vectors};
-use super::{Blocked, Find, Hits, Packets, Place, bits, set_bits};
+use super::{Blocked, Find, Hits, Packets, Place, bits, set_bits, those};
 use crate::accelerate::Walk;
 use crate::lanes::{Lane, LaneJob, Precision};
 use crate::light::Emitter;
@@ -21,6 +21,8 @@ use crate::vector::Vector;
 
 /// What is to be shaded.
 pub struct Subject<'h> {
+    /// The scene.
+    pub scene: &'h PreparedScene,
     /// The point of each ray.
     pub hits: &'h Hits,
     /// Where they come from.
@@ -38,26 +40,26 @@ pub enum Origin<'h> {
     Free(&'h [Option<LightAtPoint>; RAYS]),
 }
 
-impl Subject<'_> {
+impl<'h> Subject<'h> {
     /// v of an emitter at a point, computed for itself.
-    fn visibility(&self, scene: &PreparedScene, ray: usize, emitter: usize) -> f64 {
+    fn visibility(&self, ray: usize, emitter: usize) -> f64 {
         let Some(hit) = &self.hits[ray] else { return 0.0 };
         match self.origin {
-            Origin::Seen(places) => scene.visibility(hit, Some(places[ray].position()))(emitter),
-            Origin::Given => scene.visibility(hit, None)(emitter),
+            Origin::Seen(places) => self.scene.visibility(hit, Some(places[ray].position()))(emitter),
+            Origin::Given => self.scene.visibility(hit, None)(emitter),
             Origin::Free(lights) => {
-                lights[ray].as_ref().map_or(0.0, |light| scene.visibility_at(light, &hit.point, emitter))
+                lights[ray].as_ref().map_or(0.0, |light| self.scene.visibility_at(light, &hit.point, emitter))
             }
         }
     }
 
     /// The ambient light at a point, computed for itself.
-    pub fn ambient_share(&self, scene: &PreparedScene, ray: usize) -> AmbientShare {
+    pub fn ambient_share(&self, ray: usize) -> AmbientShare {
         let Some(hit) = &self.hits[ray] else { return AmbientShare::ALL };
         match self.origin {
-            Origin::Seen(_) | Origin::Given => scene.ambient_share(hit),
+            Origin::Seen(_) | Origin::Given => self.scene.ambient_share(hit),
             Origin::Free(lights) => {
-                let share = |light| scene.ambient_share_at(light, &hit.point);
+                let share = |light| self.scene.ambient_share_at(light, &hit.point);
                 lights[ray].as_ref().map_or(AmbientShare::ALL, share)
             }
         }
@@ -72,10 +74,10 @@ impl Subject<'_> {
     }
 
     /// Whether a ray from a point sees the environment.
-    pub fn sees_environment(&self, scene: &PreparedScene, ray: usize, to_environment: &Ray) -> bool {
+    pub fn sees_environment(&self, ray: usize, to_environment: &Ray) -> bool {
         match self.own(ray) {
-            Some(own) => scene.sees_environment(&[own], to_environment),
-            None => scene.sees_environment(&[], to_environment),
+            Some(own) => self.scene.sees_environment(&[own], to_environment),
+            None => self.scene.sees_environment(&[], to_environment),
         }
     }
 
@@ -93,8 +95,8 @@ impl Subject<'_> {
     }
 
     /// Whether a light casts shadows on a point.
-    fn gets_shadows(&self, scene: &PreparedScene, ray: usize, light: usize) -> bool {
-        let scene = scene.scene();
+    fn gets_shadows(&self, ray: usize, light: usize) -> bool {
+        let scene = self.scene.scene();
         match (self.origin, &self.hits[ray]) {
             (Origin::Free(_), _) => scene.shadows() && scene.lights()[light].casts_shadows,
             (_, Some(hit)) => scene.casts_shadows(hit.primitive.shape, light),
@@ -103,23 +105,23 @@ impl Subject<'_> {
     }
 
     /// The directions in which the ambient light of the points may be blocked, if it may.
-    pub fn obstructed_hemisphere<'s>(&self, scene: &'s PreparedScene) -> Option<&'s Hemisphere> {
-        scene.obstructed_hemisphere(!matches!(self.origin, Origin::Free(_)))
+    pub fn obstructed_hemisphere(&self) -> Option<&'h Hemisphere> {
+        self.scene.obstructed_hemisphere(!matches!(self.origin, Origin::Free(_)))
     }
 
     /// Tells the materials of points apart.
-    fn formula_index(&self, scene: &PreparedScene, hit: &Hit) -> usize {
+    fn formula_index(&self, hit: &Hit) -> usize {
         match self.origin {
-            Origin::Seen(_) | Origin::Given => scene.formula_index(hit.primitive),
+            Origin::Seen(_) | Origin::Given => self.scene.formula_index(hit.primitive),
             Origin::Free(_) => 0,
         }
     }
 
-    /// The convention applied to the material of a primitive, if points have one.
-    fn formula<'s>(&self, scene: &'s PreparedScene, primitive: Primitive) -> &'s BrightnessFormula {
+    /// The convention applied in a layer to the material of a primitive, if points have one.
+    fn formula<'s>(&self, layer: &'s PreparedScene, primitive: Primitive) -> &'s BrightnessFormula {
         match self.origin {
-            Origin::Seen(_) | Origin::Given => scene.formula(primitive),
-            Origin::Free(_) => scene.formula_without_material(),
+            Origin::Seen(_) | Origin::Given => layer.formula(primitive),
+            Origin::Free(_) => layer.formula_without_material(),
         }
     }
 }
@@ -209,16 +211,13 @@ impl<'a> Shader<'a> {
         self.see_lights(subject, left, packet, walk);
         self.see_environment(subject, left, packet, walk);
         // The points of one material after those of another.
-        let scene = self.packets.scene;
         while left != 0 {
             let Some(first) = &hits[left.trailing_zeros() as usize] else { break };
-            let formula = subject.formula_index(scene, first);
-            let has_formula =
-                |ray: &usize| hits[*ray].as_ref().is_some_and(|hit| subject.formula_index(scene, hit) == formula);
-            let rays: Vec<usize> = set_bits(left).filter(has_formula).collect();
-            for ray in &rays {
-                left &= !(1 << ray);
-            }
+            let formula = subject.formula_index(first);
+            let has_formula = |hit: &Hit| subject.formula_index(hit) == formula;
+            let alike = those(left, |ray| hits[ray].as_ref().is_some_and(has_formula));
+            left &= !alike;
+            let rays: Vec<usize> = set_bits(alike).collect();
             self.shade_some(subject, &rays, output)?;
         }
         Ok(())
@@ -226,7 +225,6 @@ impl<'a> Shader<'a> {
 
     /// Writes the points by axis.
     fn spread_out(&mut self, subject: &Subject<'_>) {
-        let scene = self.packets.scene;
         for (ray, hit) in subject.hits.iter().enumerate() {
             let Some(hit) = hit else {
                 // It faces no light.
@@ -237,7 +235,7 @@ impl<'a> Shader<'a> {
             put(hit.point.offset, ray, &mut self.offset);
             put(hit.point.normal, ray, &mut self.normal);
             put(hit.shadow_ray_offset, ray, &mut self.shadow_ray_offset);
-            self.own[ray] = subject.own(ray).map_or(u32::MAX, |own| scene.number_of(own));
+            self.own[ray] = subject.own(ray).map_or(u32::MAX, |own| subject.scene.number_of(own));
         }
     }
 
@@ -248,7 +246,7 @@ impl<'a> Shader<'a> {
         let from_inside = bits(hits.iter().map(|hit| hit.as_ref().is_some_and(|hit| hit.from_inside)));
         // Those whose lights are seen one by one.
         let special = match subject.origin {
-            Origin::Free(_) => bits((0..RAYS).map(|ray| hits[ray].is_some() && !subject.is_plain(ray))),
+            Origin::Free(_) => those(present, |ray| !subject.is_plain(ray)),
             Origin::Seen(_) | Origin::Given => 0,
         };
         self.chosen.clear();
@@ -261,14 +259,10 @@ impl<'a> Shader<'a> {
             if lit == 0 {
                 continue;
             }
-            let mut dark = 0;
-            for ray in set_bits(lit & from_inside) {
-                let own = hits[ray].map(|hit| hit.primitive);
-                dark |= u64::from(own.is_some_and(|own| !scene.encloses(own, emitter))) << ray;
-            }
+            let is_shut_out = |hit: &Hit| !scene.encloses(hit.primitive, emitter);
+            let mut dark = those(lit & from_inside, |ray| hits[ray].as_ref().is_some_and(is_shut_out));
             let in_use = if scene.scene().shadows() {
-                let gets_shadows = |ray: &usize| subject.gets_shadows(scene, *ray, emitter.light);
-                set_bits(lit & !dark).filter(gets_shadows).fold(0_u64, |bits, ray| bits | 1 << ray)
+                those(lit & !dark, |ray| subject.gets_shadows(ray, emitter.light))
             } else {
                 0
             };
@@ -289,7 +283,7 @@ impl<'a> Shader<'a> {
             let start = self.visible.len();
             self.visible.extend((0..RAYS).map(|ray| if dark >> ray & 1 == 1 { 0.0 } else { 1.0 }));
             for ray in set_bits(maybe) {
-                self.visible[start + ray] = subject.visibility(scene, ray, index);
+                self.visible[start + ray] = subject.visibility(ray, index);
             }
             self.chosen.push((place, index));
         }
