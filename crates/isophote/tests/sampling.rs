@@ -324,6 +324,8 @@ fn the_mean_over_a_straight_edge_is_within_the_tolerance_and_the_bound() {
             );
             let map = render_with_errors(&scene(&text));
             let (found, bounds) = (values(&map, &Quantity::Brightness), values(&map, &Quantity::SamplingError));
+            // As many samples as notice what matters, and those that locate the edge.
+            assert!(values(&map, &Quantity::Samples).iter().all(|samples| *samples < 400.0));
             for (index, (found, bound)) in found.iter().zip(bounds).enumerate() {
                 let Pixel { column, row } = map.pixel(index);
                 let exact = below_the_edge([a, b], d, [f64::from(column) - 8.0, 6.0 - f64::from(row)]);

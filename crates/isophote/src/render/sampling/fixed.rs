@@ -4,9 +4,10 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::Renders;
+use super::apply::{copy_geometry, put, put_exactly, put_shapes};
 use super::bands::{RowBand, Stack, bands};
 use super::pattern::Patterns;
-use super::refine::{copy_geometry, is_mean, offsets, put, put_exactly, put_shapes};
+use super::refine::{is_mean, offsets};
 use crate::map::{Map, Quantity, Run, Scalars, Values};
 use crate::prepare::PreparedScene;
 use crate::render::share::Share;

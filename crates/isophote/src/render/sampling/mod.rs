@@ -1,6 +1,9 @@
 //! Pixels as means over their area instead of values at their centres.
 
+mod apply;
 mod bands;
+mod cut;
+mod edge;
 mod fixed;
 mod narrow;
 mod outlined;
@@ -149,7 +152,7 @@ fn refined(
     };
     let over_tolerance = refined.iter().filter(is_over).count();
     for (layer, (map, averages)) in layers.iter_mut().zip(&averages).enumerate() {
-        refine::apply((layer, map), averages, sampling.filter, &refined)?;
+        apply::apply((layer, map), averages, sampling.filter, &refined)?;
         map.over_tolerance = Some(over_tolerance);
     }
     Ok(layers)

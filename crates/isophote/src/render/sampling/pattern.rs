@@ -17,8 +17,6 @@ impl Patterns {
     /// The positions of this many samples: a power of two, or the maximum.
     pub fn of(&self, count: u32) -> &[[f64; 2]] {
         let (_, places) = self.0.iter().find(|(known, _)| *known == count).expect("a power of two, or the most");
-        // Few digits, so that adding them to a column loses none.
-        let short = |part: f64| (part * 16_777_216.0).round() / 16_777_216.0;
         places.get_or_init(|| scrambled_points(count).into_iter().map(|place| place.map(short)).collect())
     }
 }
@@ -36,27 +34,40 @@ pub fn error_bound(contrast: f64, samples: u32) -> f64 {
 /// The smallest number of points, a power of two, that bounds the error of the mean over a pixel cut by an edge, where the
 /// values on the two sides differ by `contrast`.
 pub fn enough(contrast: f64, tolerance: f64, most: u32) -> u32 {
-    let wanted = libm::pow(EDGE_ERROR * contrast / tolerance, 4.0 / 3.0).min(f64::from(most));
+    power_of_two(libm::pow(EDGE_ERROR * contrast / tolerance, 4.0 / 3.0), most)
+}
+
+/// A coordinate in few digits, so that adding it to a column loses none.
+pub fn short(coordinate: f64) -> f64 {
+    (coordinate * 16_777_216.0).round() / 16_777_216.0
+}
+
+/// The largest part of a pixel, cut off by a straight edge, that contains none of n points, times n.
+const UNNOTICED: f64 = 1.6;
+
+/// How much a part of a pixel may change its mean if it contains none of this many points and its brightness differs by
+/// `contrast`.
+pub fn unnoticed(contrast: f64, samples: u32) -> f64 {
+    UNNOTICED * contrast / f64::from(samples)
+}
+
+/// The smallest number of points, a power of two, that notice every part of a pixel, cut off by a straight edge, that changes
+/// its mean by more than the tolerance, where the part's brightness differs by `contrast`.
+pub fn noticing(contrast: f64, tolerance: f64, most: u32) -> u32 {
+    power_of_two(UNNOTICED * contrast / tolerance, most)
+}
+
+/// The smallest power of two that is at least as large, or the maximum.
+fn power_of_two(wanted: f64, most: u32) -> u32 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is positive, and at most `most`")]
-    let wanted = wanted.ceil().max(1.0) as u32;
+    let wanted = wanted.min(f64::from(most)).ceil().max(1.0) as u32;
     wanted.next_power_of_two().min(most)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The area of the unit square where x cosφ + y sinφ ≤ d.
-    fn area_below([cosine, sine]: [f64; 2], distance: f64) -> f64 {
-        let (longer, shorter) = (cosine.abs().max(sine.abs()), cosine.abs().min(sine.abs()));
-        let distance = (distance - cosine.min(0.0) - sine.min(0.0)).clamp(0.0, longer + shorter);
-        if shorter < 1e-12 {
-            return (distance / longer).min(1.0);
-        }
-        let square = |part: f64| part.max(0.0) * part.max(0.0);
-        let cut = square(distance - longer) + square(distance - shorter) - square(distance - longer - shorter);
-        (square(distance) - cut) / (2.0 * longer * shorter)
-    }
+    use crate::render::sampling::edge::Line;
 
     /// The largest difference between the fraction of the points on one side of an edge in this direction and the fraction of
     /// the area. It is largest where the edge passes through a point.
@@ -67,7 +78,7 @@ mod tests {
         let share = |count: usize| count as f64 / places.len() as f64;
         let mut worst = 0.0_f64;
         for distance in &distances {
-            let area = area_below([cosine, sine], *distance);
+            let area = Line { normal: [cosine, sine], distance: *distance }.area_below();
             // Points on the edge itself, but for rounding, are on either side.
             let before = distances.partition_point(|other| *other < distance - 1e-9);
             let after = distances.partition_point(|other| *other <= distance + 1e-9);
@@ -100,6 +111,25 @@ mod tests {
             }
         }
         assert!(worst > 0.85, "the bound could be tighter: {worst}");
+    }
+
+    #[test]
+    fn what_no_point_notices_is_bounded() {
+        let mut largest = 0.0_f64;
+        for exponent in 1..=12 {
+            let count = 1_u32 << exponent;
+            let patterns = Patterns::new(count);
+            for [cosine, sine] in directions(200) {
+                let distances = || patterns.of(count).iter().map(|[x, y]| x * cosine + y * sine);
+                let (first, last) =
+                    (distances().fold(f64::INFINITY, f64::min), distances().fold(f64::NEG_INFINITY, f64::max));
+                let area = |distance| Line { normal: [cosine, sine], distance }.area_below();
+                let area = area(first).max(1.0 - area(last));
+                assert!(area <= unnoticed(1.0, count), "{count} points, {cosine} {sine}: {area}");
+                largest = largest.max(area / unnoticed(1.0, count));
+            }
+        }
+        assert!(largest > 0.8, "the bound could be tighter: {largest}");
     }
 
     /// The sum i + b(i) is the same for √n of n Hammersley points: they lie on the anti-diagonal.
