@@ -1,9 +1,11 @@
 //! A folder to run the program in, and readers of its files that the project did not write.
 
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use assert_cmd::Command;
+use png::{BitDepth, ColorType};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -89,6 +91,10 @@ impl Folder {
 
     pub fn csv(&self, name: &str) -> Csv {
         Csv::parse(&self.text(name))
+    }
+
+    pub fn picture(&self, name: &str) -> Picture {
+        Picture::read(&self.read(name))
     }
 
     /// Everything in the folder, hidden files too.
@@ -194,6 +200,46 @@ impl Csv {
         let index = self.names.iter().position(|known| known == name);
         let index = index.unwrap_or_else(|| panic!("no column {name} among {:?}", self.names));
         self.rows.iter().map(|row| row[index]).collect()
+    }
+}
+
+/// What a PNG file holds, with nothing converted.
+pub struct Picture {
+    pub width: u32,
+    pub height: u32,
+    pub color: ColorType,
+    pub depth: BitDepth,
+    bytes: Vec<u8>,
+}
+
+impl Picture {
+    pub fn read(file: &[u8]) -> Self {
+        let mut reader = png::Decoder::new(Cursor::new(file)).read_info().unwrap();
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut bytes).unwrap();
+        reader.finish().unwrap();
+        Self { width: info.width, height: info.height, color: info.color_type, depth: info.bit_depth, bytes }
+    }
+
+    /// The levels of a grey picture.
+    #[track_caller]
+    pub fn levels(&self, depth: BitDepth) -> Vec<f64> {
+        assert_eq!((self.color, self.depth), (ColorType::Grayscale, depth));
+        match depth {
+            BitDepth::Eight => self.bytes.iter().map(|level| f64::from(*level)).collect(),
+            BitDepth::Sixteen => {
+                self.bytes.as_chunks().0.iter().map(|pair| f64::from(u16::from_be_bytes(*pair))).collect()
+            }
+            other => panic!("depth {other:?}"),
+        }
+    }
+
+    /// The pixels of a picture of this kind with eight bits a sample.
+    #[track_caller]
+    pub fn pixels<const SAMPLES: usize>(&self, color: ColorType) -> &[[u8; SAMPLES]] {
+        assert_eq!((self.color, self.depth), (color, BitDepth::Eight));
+        assert_eq!(color.samples(), SAMPLES);
+        self.bytes.as_chunks().0
     }
 }
 

@@ -1,6 +1,7 @@
 //! Map files, read back by readers that this project did not write.
 
 use exr::prelude::{ReadChannels, ReadLayers};
+use png::BitDepth;
 
 use crate::common::{COURSE, Folder, TWO_LIGHTS, bits, npy};
 
@@ -126,8 +127,7 @@ fn a_png_file_of_another_size_shows_the_numbers_of_the_csv_file() {
     folder.ok("render course.toml --size 50x50 -o map.png -o map.csv");
     let brightness = folder.csv("map.csv").column("brightness");
     let maximum = brightness.iter().copied().fold(0.0, f64::max);
-    let picture = image::open(folder.path("map.png")).unwrap().into_luma8();
-    let levels: Vec<f64> = picture.as_raw().iter().map(|&level| f64::from(level)).collect();
+    let levels = folder.picture("map.png").levels(BitDepth::Eight);
     assert_eq!(levels, brightness.iter().map(|value| (255.0 * value / maximum).round()).collect::<Vec<_>>());
     assert!(levels.contains(&255.0) && levels.contains(&0.0));
 }
@@ -150,7 +150,7 @@ fn a_suffix_in_capitals_is_a_suffix_and_folders_may_have_any_name() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("карты.toml")).unwrap();
     folder.ok("render --size 8x6 -o карты.toml/ЛАБ.PNG -q");
-    assert_eq!(image::open(folder.path("карты.toml/ЛАБ.PNG")).unwrap().width(), 8);
+    assert_eq!(folder.picture("карты.toml/ЛАБ.PNG").width, 8);
 }
 
 #[test]

@@ -81,7 +81,7 @@ fn a_figure_has_its_axes_in_the_unit_of_the_scene_and_labelled_lines() {
     for text in [">CIE 171, test 5.2: desk<", ">u, m<", ">v, m<", ">illuminance, lx<", "grid desk, double"] {
         assert!(svg.contains(text), "{text}");
     }
-    assert!(image::open(folder.path("desk.png")).unwrap().width() > 800);
+    assert!(folder.picture("desk.png").width > 800);
 }
 
 #[test]

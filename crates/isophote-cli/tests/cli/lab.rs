@@ -1,5 +1,7 @@
 //! The lab's report: its table and its picture, by the bare command.
 
+use png::BitDepth;
+
 use crate::common::{Folder, bits, npy};
 
 #[test]
@@ -45,16 +47,14 @@ fn every_pixel_of_the_labs_picture_is_its_brightness_scaled_to_255() {
     folder.ok("render -o map.npy");
     let (kind, shape, map) = npy(&folder.read("map.npy"));
     assert_eq!((kind.as_str(), shape.as_slice()), ("<f8", &[600, 800][..]));
-    let picture = image::open(folder.path("lab.png")).unwrap();
-    assert_eq!(picture.color(), image::ColorType::L8);
-    let picture = picture.into_luma8();
-    assert_eq!(picture.dimensions(), (800, 600));
+    let picture = folder.picture("lab.png");
+    assert_eq!((picture.width, picture.height), (800, 600));
     let maximum = map.iter().copied().fold(0.0, f64::max);
     let expected: Vec<f64> = map.iter().map(|brightness| (255.0 * brightness / maximum).round()).collect();
-    let levels: Vec<f64> = picture.as_raw().iter().map(|&level| f64::from(level)).collect();
+    let levels = picture.levels(BitDepth::Eight);
     assert!(levels == expected, "the first wrong pixel: {:?}", levels.iter().zip(&expected).position(|(a, b)| a != b));
-    assert_eq!(picture[(418, 281)].0, [255], "the maximum is white");
-    assert_eq!(picture[(0, 0)].0, [0], "nothing is seen in the corner");
+    assert_eq!(levels[281 * 800 + 418], 255.0, "the maximum is white");
+    assert_eq!(levels[0], 0.0, "nothing is seen in the corner");
 }
 
 #[test]

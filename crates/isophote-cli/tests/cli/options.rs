@@ -1,5 +1,7 @@
 //! What the options of `render` choose.
 
+use png::{BitDepth, ColorType};
+
 use crate::common::{COURSE, Csv, Folder, LAB, TWO_LIGHTS, bits};
 
 #[test]
@@ -30,7 +32,8 @@ fn size_replaces_the_resolution_of_the_scene() {
     let folder = Folder::with("lab.toml", LAB);
     let outcome = folder.ok("render lab.toml --size 80×60 -o map.png");
     assert_eq!(outcome.row("image")[1..], ["80", "×", "60", "pixels"]);
-    assert_eq!(image::open(folder.path("map.png")).unwrap().into_luma8().dimensions(), (80, 60));
+    let picture = folder.picture("map.png");
+    assert_eq!((picture.width, picture.height, picture.color), (80, 60, ColorType::Grayscale));
     assert_eq!(folder.names(), ["lab.toml", "map.png"], "with a scene nothing is written unasked");
 }
 
@@ -49,7 +52,8 @@ fn a_region_holds_the_very_numbers_of_the_whole() {
         assert_eq!(bits(&row[2..]), bits(&whole[2..]), "the place and every value agree to the last bit");
     }
     assert!(outcome.stdout.contains("of these 37 × 19 from column 11, row 23"), "{}", outcome.stdout);
-    assert_eq!(image::open(folder.path("part.png")).unwrap().into_luma8().dimensions(), (37, 19));
+    let picture = folder.picture("part.png");
+    assert_eq!((picture.width, picture.height, picture.color), (37, 19, ColorType::Grayscale));
 }
 
 #[test]
@@ -139,7 +143,7 @@ fn a_scene_without_anything_to_see_says_so_and_makes_a_black_picture() {
     let outcome = folder.ok("render empty.toml --size 8x6 -o map.png -o map.csv");
     assert!(outcome.stdout.contains("no surface is seen"), "{}", outcome.stdout);
     assert!(outcome.stderr.contains("the scene has no shapes") && outcome.stderr.contains("the scene has no lights"));
-    assert!(image::open(folder.path("map.png")).unwrap().into_luma8().as_raw().iter().all(|&level| level == 0));
+    assert!(folder.picture("map.png").levels(BitDepth::Eight).iter().all(|&level| level == 0.0));
     assert_eq!(folder.csv("map.csv").rows.len(), 48);
     assert!(folder.ok("render empty.toml --size 8x6 --json -q").json()["max"].is_null());
 }

@@ -1,5 +1,7 @@
 //! How numbers become grey levels and colours.
 
+use png::{BitDepth, ColorType};
+
 use crate::common::{Folder, LAB};
 
 /// The brightness of the lab at 80×60, and its greatest value.
@@ -12,9 +14,7 @@ fn brightness(folder: &Folder) -> (Vec<f64>, f64) {
 
 fn levels(folder: &Folder, arguments: &str) -> Vec<f64> {
     folder.ok(&format!("render --size 80x60 -o map.png {arguments}"));
-    let picture = image::open(folder.path("map.png")).unwrap();
-    assert_eq!(picture.color(), image::ColorType::L8);
-    picture.into_luma8().as_raw().iter().map(|&level| f64::from(level)).collect()
+    folder.picture("map.png").levels(BitDepth::Eight)
 }
 
 #[test]
@@ -47,12 +47,12 @@ fn normalization_stretches_or_takes_the_logarithm() {
     assert!(least > 0.03, "{least}");
     let levels = |how: &str| {
         folder.ok(&format!("render bright.toml --size 80x60 -o map.png --normalize {how}"));
-        image::open(folder.path("map.png")).unwrap().into_luma8().into_raw()
+        folder.picture("map.png").levels(BitDepth::Eight)
     };
     let check = |how: &str, level: &dyn Fn(f64) -> f64| {
         for ((found, value), shape) in levels(how).into_iter().zip(&values).zip(&shapes) {
             let expected = if *shape >= 0.0 { 255.0 * level(*value) } else { 0.0 };
-            assert!((f64::from(found) - expected).abs() <= 0.5 + 1e-9, "{how}: {found} {expected}");
+            assert!((found - expected).abs() <= 0.5 + 1e-9, "{how}: {found} {expected}");
         }
     };
     check("max", &|value| value / greatest);
@@ -84,9 +84,7 @@ fn depth_16_keeps_sixteen_bits_of_the_map() {
     let folder = Folder::new();
     let (values, maximum) = brightness(&folder);
     folder.ok("render --size 80x60 --bits 16 -o map.png");
-    let picture = image::open(folder.path("map.png")).unwrap();
-    assert_eq!(picture.color(), image::ColorType::L16);
-    let levels: Vec<f64> = picture.into_luma16().as_raw().iter().map(|&level| f64::from(level)).collect();
+    let levels = folder.picture("map.png").levels(BitDepth::Sixteen);
     assert_eq!(levels, values.iter().map(|value| (65535.0 * value / maximum).round()).collect::<Vec<_>>());
 }
 
@@ -98,9 +96,8 @@ fn a_colormap_begins_and_ends_with_its_published_colours() {
     // Ends of the tables of matplotlib.
     for (name, first, last) in [("viridis", [68, 1, 84], [253, 231, 37]), ("inferno", [0, 0, 4], [252, 255, 164])] {
         folder.ok(&format!("render --size 80x60 --colormap {name} -o map.png"));
-        let picture = image::open(folder.path("map.png")).unwrap();
-        assert_eq!(picture.color(), image::ColorType::Rgb8);
-        let colors: Vec<[u8; 3]> = picture.into_rgb8().pixels().map(|pixel| pixel.0).collect();
+        let picture = folder.picture("map.png");
+        let colors = picture.pixels(ColorType::Rgb);
         let at = |wanted: &dyn Fn(f64, f64) -> bool| {
             colors[values.iter().zip(&shapes).position(|(value, shape)| wanted(*value, *shape)).unwrap()]
         };
@@ -118,9 +115,9 @@ fn the_gray_colormap_shows_what_the_grey_picture_shows() {
     let folder = Folder::new();
     let grey = levels(&folder, "");
     folder.ok("render --size 80x60 --colormap gray -o color.png");
-    let colors = image::open(folder.path("color.png")).unwrap().into_rgb8();
-    for (pixel, grey) in colors.pixels().zip(grey) {
-        assert_eq!(pixel.0.map(f64::from), [grey; 3]);
+    let picture = folder.picture("color.png");
+    for (pixel, grey) in picture.pixels(ColorType::Rgb).iter().zip(grey) {
+        assert_eq!(pixel.map(f64::from), [grey; 3]);
     }
 }
 

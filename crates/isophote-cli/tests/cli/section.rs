@@ -113,8 +113,8 @@ fn a_plot_has_its_title_axes_and_units() {
     ] {
         assert!(svg.contains(text), "{text}");
     }
-    let picture = image::open(folder.path("row.png")).unwrap();
-    assert!(picture.width() > 800 && picture.height() > 400);
+    let picture = folder.picture("row.png");
+    assert!(picture.width > 800 && picture.height > 400);
     folder.ok("section --column 400 --channel diffuse --channel specular -o column.svg");
     let svg = folder.text("column.svg");
     for text in [">y, m<", ">values, W/m²<", ">diffuse<", ">specular<", "section along column 400, x = 0.005 m"] {

@@ -1,11 +1,12 @@
 //! Colours in every format, read back by independent readers.
 
-use image::ImageFormat;
 use isophote::color::ColorSpace;
 use isophote::map::{Channel, Map, Quantity, Values};
 use isophote::units::Keyword;
+use png::ColorType;
 
 use super::exr::{channels, image};
+use super::png::picture;
 use super::{encoded, sample, with_channels};
 use crate::figure::{FigureOptions, map_figure};
 use crate::png::{Depth, PictureColor, PictureOptions, PictureReport, write};
@@ -28,20 +29,13 @@ fn options() -> PictureOptions<'static> {
     PictureOptions::new(Quantity::Color)
 }
 
-fn picture(map: &Map, options: &PictureOptions<'_>) -> (Vec<u16>, PictureReport) {
-    let mut bytes = Vec::new();
-    let report = write(map, options, &mut bytes).unwrap();
-    let image = image::load_from_memory_with_format(&bytes, ImageFormat::Png).unwrap();
-    let samples = match options.depth {
-        Depth::Eight => image.as_rgb8().unwrap().iter().map(|sample| u16::from(*sample)).collect(),
-        Depth::Sixteen => image.as_rgb16().unwrap().to_vec(),
-    };
-    (samples, report)
+fn colors(map: &Map, options: &PictureOptions<'_>) -> (Vec<u16>, PictureReport) {
+    picture(map, options, ColorType::Rgb)
 }
 
 #[test]
 fn a_picture_of_rec709_is_srgb_of_the_shares_of_the_largest_component() {
-    let (samples, report) = picture(&colored(ColorSpace::Rec709), &options());
+    let (samples, report) = colors(&colored(ColorSpace::Rec709), &options());
     // Half of white is 188, a thousandth 3 (12.92 × 255/1000), a quarter 137.
     let expected = [[255, 0, 0], [0; 3], [0, 188, 0], [188; 3], [3, 137, 255], [0; 3]];
     assert_eq!(samples, expected.as_flattened());
@@ -51,7 +45,7 @@ fn a_picture_of_rec709_is_srgb_of_the_shares_of_the_largest_component() {
 #[test]
 fn sixteen_bits_and_a_range_hold_for_colours_too() {
     let options = PictureOptions { depth: Depth::Sixteen, range: Some([0.0, 1.0]), ..options() };
-    let (samples, report) = picture(&colored(ColorSpace::Rec709), &options);
+    let (samples, report) = colors(&colored(ColorSpace::Rec709), &options);
     assert_eq!(samples[9..12], [65535; 3]);
     assert_eq!((report.clamped_below, report.clamped_above), (0, 2));
 }
@@ -59,7 +53,7 @@ fn sixteen_bits_and_a_range_hold_for_colours_too() {
 /// By the matrix of ITU-R BT.2087, half of the green of BT.2020 is (−0.2938, 0.5665, −0.0503) in sRGB.
 #[test]
 fn another_space_is_shown_in_the_primaries_of_srgb() {
-    let (samples, report) = picture(&colored(ColorSpace::Rec2020), &options());
+    let (samples, report) = colors(&colored(ColorSpace::Rec2020), &options());
     assert_eq!(samples[6..9], [0, 198, 0]);
     assert_eq!(samples[9..12], [188; 3], "white is white");
     assert_eq!((report.clamped_below, report.clamped_above), (3, 2));

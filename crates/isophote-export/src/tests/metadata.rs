@@ -66,9 +66,11 @@ fn a_picture_says_how_numbers_became_colours() {
 
 #[test]
 fn another_programs_file_is_told_from_a_damaged_one() {
-    let mut foreign = Cursor::new(Vec::new());
-    image::GrayImage::new(3, 2).write_to(&mut foreign, image::ImageFormat::Png).unwrap();
-    let message = read_bytes(foreign.get_ref()).unwrap_err().to_string();
+    let mut foreign = Vec::new();
+    let mut writer = png::Encoder::new(&mut foreign, 3, 2).write_header().unwrap();
+    writer.write_image_data(&[0; 6]).unwrap();
+    writer.finish().unwrap();
+    let message = read_bytes(&foreign).unwrap_err().to_string();
     assert!(message.ends_with("no suffix’ (png) carries no Isophote metadata"), "{message}");
 
     let sphere = encoded(&sample(), Format::Npy).unwrap();
