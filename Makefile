@@ -21,7 +21,7 @@ FUZZ_TARGETS := $(notdir $(basename $(wildcard fuzz/fuzz_targets/*.rs)))
 FUZZ_SECONDS := 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-python test-wasm check check-python check-wasm app test-app bench-app bench bench-python bench-instructions compare growth trials audit fuzz docs generate generated-is-current
+.PHONY: help demo test test-python test-wasm check lint check-python check-wasm app test-app bench-app bench bench-python bench-instructions compare growth trials audit fuzz docs generate generated-is-current
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-18s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -38,27 +38,24 @@ test: python-env ## Run every test (those that use Python need 3.10 or later)
 .PHONY: test-node-and-python
 test-node-and-python: $(if $(shell command -v node),test-wasm) $(if $(wildcard $(PYTHON_ENV)/ready),test-python)
 
-WASM := wasm32-wasip1
-WASM_RUNNER := node --no-warnings $(CURDIR)/validation/wasm/run.mjs
+BROWSER := wasm32-unknown-unknown
+# A library that Rust can link too, as the app's is, gets no link-time optimisation; without it the tests use the same core.
+IN_BROWSER := CARGO_PROFILE_DIST_LTO=off CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="-C target-feature=+simd128"
+WASM_TEST := $(IN_BROWSER) CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER="node $(CURDIR)/validation/wasm/run.mjs" \
+	$(CARGO) test --profile dist --target $(BROWSER) -p isophote-wasm --test conformance
+APP_MODULE := $(or $(CARGO_TARGET_DIR),target)/$(BROWSER)/dist/isophote_web.wasm
 
-WASM_TEST := CARGO_TARGET_WASM32_WASIP1_RUSTFLAGS="-C target-feature=+simd128" \
-	CARGO_TARGET_WASM32_WASIP1_RUNNER="$(WASM_RUNNER)" $(CARGO) test --target $(WASM) -p isophote-wasm
-
-test-wasm: test-wasm-build ## Run the conformance suite as WebAssembly (needs Node 20 or later; installs the Rust target)
+test-wasm: test-wasm-build ## Run the conformance suite as the app's WebAssembly (needs Node 20 or later; installs the Rust target)
 	$(WASM_TEST)
 
+# After the app's module, whose core it tests.
 .PHONY: test-wasm-build
-test-wasm-build:
-	@rustup target list --installed 2>/dev/null | grep -qx $(WASM) || rustup target add $(WASM)
+test-wasm-build: check-wasm
 	$(WASM_TEST) --no-run
-
-BROWSER := wasm32-unknown-unknown
-APP_MODULE := $(or $(CARGO_TARGET_DIR),target)/$(BROWSER)/dist/isophote_web.wasm
 
 check-wasm: ## Build the core for browsers
 	@rustup target list --installed 2>/dev/null | grep -qx $(BROWSER) || rustup target add $(BROWSER)
-	CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="-C target-feature=+simd128" \
-		$(CARGO) build --profile dist --target $(BROWSER) -p isophote-web
+	$(IN_BROWSER) $(CARGO) build --profile dist --target $(BROWSER) -p isophote-web
 
 app: check-wasm web/node_modules/.package-lock.json ## Build the app: web/dist/site, a folder for any web server, and web/dist/isophote.html, one file (needs Node 20 or later)
 	CARGO_TARGET_DIR=target/bindgen $(CARGO) run --quiet --locked --manifest-path web/bindgen/Cargo.toml -- $(APP_MODULE) web/src/engine/wasm
@@ -85,7 +82,9 @@ bench-app: app ## Time the app in a browser: first visit, change to picture, ker
 test-python: python-env python-module ## Run the tests of the Python package alone
 	cd python && PYTHONPATH="$(CURDIR)/python" $(PYTHON) -m pytest
 
-check: generated-is-current check-python check-wasm ## Formatting, lints, documentation without warnings, generated files up to date
+check: lint generated-is-current check-python check-wasm ## Formatting, lints, documentation without warnings, generated files up to date
+
+lint: ## Check the formatting, the lints and the documentation of the Rust code
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets -- -D warnings
 	$(CARGO) clippy --workspace --bench instructions -- -D warnings

@@ -5,6 +5,7 @@ mod random;
 use isophote::analysis::probe::ProbePosition;
 use isophote::conformance::{conforms, cosine_of_emission};
 use isophote::double_double::DoubleDouble;
+use isophote::import::Resolver;
 use isophote::lanes::{Instructions, Precision};
 use isophote::map::{Map, Pixel, Quantity, Region, Resolution, Values};
 use isophote::prepare::{Hit, PreparedScene};
@@ -18,16 +19,34 @@ use isophote::units::Keyword;
 use isophote::vector::Vector;
 use proptest::prelude::*;
 
+// In a browser's WebAssembly there are no files and no output: what runs the suite provides these.
+#[cfg(target_os = "unknown")]
+use super::system::{files, report_panics, scene_names, seed};
+
 fn prepared(source: SceneSource) -> PreparedScene {
-    PreparedScene::new(&Scene::try_from(source).unwrap_or_else(|error| panic!("{error}")))
+    report_panics();
+    PreparedScene::new(&Scene::from_source_with(&files(), source).unwrap_or_else(|error| panic!("{error}")))
+}
+
+#[cfg(not(target_os = "unknown"))]
+fn report_panics() {}
+
+/// The scenes of the repository, and the files they name.
+#[cfg(not(target_os = "unknown"))]
+fn files() -> impl Resolver {
+    isophote::scene::FileResolver::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"))
 }
 
 fn scene_file(name: &str) -> SceneSource {
-    let path = format!("{}/../../scenes/{name}", env!("CARGO_MANIFEST_DIR"));
-    Scene::from_file(path.as_ref()).unwrap_or_else(|error| panic!("{error}")).source().clone()
+    let files = files();
+    let text = files.read(name).expect("it is in the repository");
+    let text = std::str::from_utf8(&text).expect("a scene is text");
+    let scene = Scene::from_text_with(&files, None, name, text, Syntax::Toml);
+    scene.unwrap_or_else(|error| panic!("{error}")).source().clone()
 }
 
 fn scene_text(text: &str) -> PreparedScene {
+    report_panics();
     PreparedScene::new(&Scene::from_text("scene", text, Syntax::Toml).unwrap_or_else(|error| panic!("{error}")))
 }
 
@@ -47,13 +66,13 @@ fn is_within_tolerance_of_single(scene: &PreparedScene, visible: usize) {
     assert_eq!(deviation.visible, visible);
 }
 
-/// The scenes of the repository.
+/// The names of these scenes.
+#[cfg(not(target_os = "unknown"))]
 fn scene_names() -> Vec<String> {
     let names = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes")).expect("it is there");
     let names = names.map(|entry| entry.expect("it is readable").file_name().to_string_lossy().into_owned());
     let names: Vec<String> =
         names.filter(|name| std::path::Path::new(name).extension().is_some_and(|suffix| suffix == "toml")).collect();
-    assert!(names.len() >= 20);
     names
 }
 
@@ -92,7 +111,9 @@ fn precise_hit(scene: &PreparedScene, primitive: Primitive, point: Vector) -> Hi
 
 #[test]
 fn the_scenes_of_the_repository_are_rendered_within_tolerance() {
-    for name in scene_names() {
+    let names = scene_names();
+    assert!(names.len() >= 20);
+    for name in names {
         let mut source = scene_file(&name);
         // Renderers are held to the exact values of single rays.
         source.sampling = None;

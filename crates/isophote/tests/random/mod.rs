@@ -13,6 +13,9 @@ use proptest::prelude::*;
 pub fn config(cases: u32) -> ProptestConfig {
     let default = ProptestConfig::default();
     let cases = if std::env::var_os("PROPTEST_CASES").is_some() { default.cases } else { cases };
+    // In a browser's WebAssembly, the system has no random numbers either.
+    #[cfg(target_os = "unknown")]
+    let default = ProptestConfig { rng_seed: proptest::test_runner::RngSeed::Fixed(super::seed()), ..default };
     ProptestConfig { cases, failure_persistence: None, ..default }
 }
 
