@@ -156,7 +156,7 @@ proptest! {
             let (radiance, samples) = (Some(0.5.into()), Some(16));
             source.ambient = Some(AmbientSource { radiance, obstructed: Some(true), samples });
         } else {
-            let (samples, tolerance) = (Some(256), Some(0.05));
+            let (samples, tolerance) = (Some(1024), Some(0.02));
             source.sampling = Some(SamplingSource { samples, tolerance, filter: Some(filter) });
         }
         let Ok(scene) = Scene::try_from(source) else { return Ok(()) };
@@ -206,7 +206,7 @@ proptest! {
             source.ambient = Some(AmbientSource { radiance, obstructed: Some(true), samples });
         }
         if is_sampled {
-            let (samples, tolerance) = (Some(100), Some(0.05));
+            let (samples, tolerance) = (Some(1024), Some(0.02));
             source.sampling = Some(SamplingSource { samples, tolerance, filter: None });
         }
         let Ok(scene) = Scene::try_from(source) else { return Ok(()) };

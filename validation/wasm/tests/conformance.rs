@@ -7,7 +7,7 @@ mod conformance;
 /// What the suite otherwise gets from the system.
 mod system {
     use std::path::Path;
-    use std::sync::Once;
+    use std::sync::{Once, OnceLock};
 
     use isophote::import::MemoryFiles;
     use wasm_bindgen::prelude::wasm_bindgen;
@@ -23,15 +23,20 @@ mod system {
         fn random() -> f64;
     }
 
-    /// Of random scenes: another one each time.
+    /// What the random numbers of a test start from, which is told if it fails.
+    static SEED: OnceLock<f64> = OnceLock::new();
+
+    /// The seed of random scenes: another one each time.
     pub fn seed() -> u64 {
-        random().to_bits()
+        SEED.get_or_init(random).to_bits()
     }
 
     /// Has the runner print why a test fails: here, a panic ends the program without a word.
     pub fn report_panics() {
         static ONCE: Once = Once::new();
-        ONCE.call_once(|| std::panic::set_hook(Box::new(|panic| error(&panic.to_string()))));
+        ONCE.call_once(|| {
+            std::panic::set_hook(Box::new(|panic| error(&format!("{panic}\nSEED={:?}", SEED.get()))));
+        });
     }
 
     /// The names of the scene files of the repository.

@@ -46,8 +46,8 @@ struct LayerParts {
 #[expect(clippy::cast_possible_truncation, reason = "small")]
 const SAMPLES_OF_ROUND: u32 = ROUND as u32;
 
-/// The edge of a pixel that could not be told after so many rounds is none.
-const ROUNDS: u32 = 8;
+/// The largest number of rounds: what has not been located by then is no edge.
+pub const ROUNDS: u32 = 8;
 
 /// How uneven the parts may be: the part of the tolerance that this may use up.
 const UNEVEN: f64 = 0.5;
@@ -63,7 +63,7 @@ impl Cut {
             (0..wanted.averages.len()).map(|layer| samples.brightness(layer, wanted)).collect::<Option<_>>()?;
         let contrast = |layer: &usize| {
             let [least, greatest] = range(brightness[*layer].iter().copied());
-            (greatest - least) / wanted.tolerances[*layer]
+            if greatest > least { (greatest - least) / wanted.tolerances[*layer] } else { 0.0 }
         };
         let layer = (0..brightness.len()).max_by(|one, other| contrast(one).total_cmp(&contrast(other)))?;
         let ranges = around_gap(&brightness[layer])?;
@@ -100,7 +100,7 @@ impl Cut {
     }
 
     /// Takes their brightness in the layer that tells the parts apart; `None` if the pixel is not what it seemed.
-    pub fn narrow(&mut self, brightness: [f64; ROUND]) -> Option<()> {
+    pub fn bisect(&mut self, brightness: [f64; ROUND]) -> Option<()> {
         self.rounds += 1;
         let slack = OUTSIDE * (self.ranges[1][0] - self.ranges[0][1]);
         let mut is_bright = [false; ROUND];
@@ -111,8 +111,7 @@ impl Cut {
                 return None;
             }
         }
-        self.edge.narrow(&is_bright)?;
-        (self.rounds < ROUNDS).then_some(())
+        self.edge.bisect(&is_bright)
     }
 
     /// In each layer, what the error of the brightness does not exceed; `None` while the edge has been seen from one side only.
@@ -124,6 +123,16 @@ impl Cut {
     /// Whether the edge is where all samples say.
     pub fn is_confirmed(&self, places: &[[f64; 2]]) -> bool {
         self.edge.agrees(places.iter().copied().zip(self.is_bright.iter().copied()))
+    }
+
+    /// Whether there may be another round.
+    pub fn has_rounds(&self) -> bool {
+        self.rounds < ROUNDS
+    }
+
+    /// The largest number of samples that cutting a pixel may take after these.
+    pub fn most_samples(samples: u32) -> u32 {
+        samples + ROUNDS * SAMPLES_OF_ROUND
     }
 
     /// The number of samples so far.
@@ -199,5 +208,5 @@ fn around_gap(values: &[f64]) -> Option<[[f64; 2]; 2]> {
     sorted.sort_unstable_by(f64::total_cmp);
     let gap = |pair: &[f64]| pair[1] - pair[0];
     let widest = sorted.windows(2).max_by(|one, other| gap(one).total_cmp(&gap(other)))?;
-    Some([[sorted[0], widest[0]], [widest[1], *sorted.last()?]])
+    (gap(widest) > 0.0).then_some([[sorted[0], widest[0]], [widest[1], *sorted.last()?]])
 }

@@ -34,7 +34,7 @@ pub fn error_bound(contrast: f64, samples: u32) -> f64 {
 /// The smallest number of points, a power of two, that bounds the error of the mean over a pixel cut by an edge, where the
 /// values on the two sides differ by `contrast`.
 pub fn enough(contrast: f64, tolerance: f64, most: u32) -> u32 {
-    power_of_two(libm::pow(EDGE_ERROR * contrast / tolerance, 4.0 / 3.0), most)
+    power_of_two(libm::pow(ratio(EDGE_ERROR * contrast, tolerance), 4.0 / 3.0), most)
 }
 
 /// A coordinate in few digits, so that adding it to a column loses none.
@@ -43,18 +43,23 @@ pub fn short(coordinate: f64) -> f64 {
 }
 
 /// The largest part of a pixel, cut off by a straight edge, that contains none of n points, times n.
-const UNNOTICED: f64 = 1.6;
+const UNDETECTED: f64 = 1.6;
 
 /// How much a part of a pixel may change its mean if it contains none of this many points and its brightness differs by
 /// `contrast`.
-pub fn unnoticed(contrast: f64, samples: u32) -> f64 {
-    UNNOTICED * contrast / f64::from(samples)
+pub fn undetected_error(contrast: f64, samples: u32) -> f64 {
+    UNDETECTED * contrast / f64::from(samples)
 }
 
-/// The smallest number of points, a power of two, that notice every part of a pixel, cut off by a straight edge, that changes
+/// The smallest number of points, a power of two, that detect every part of a pixel, cut off by a straight edge, that changes
 /// its mean by more than the tolerance, where the part's brightness differs by `contrast`.
-pub fn noticing(contrast: f64, tolerance: f64, most: u32) -> u32 {
-    power_of_two(UNNOTICED * contrast / tolerance, most)
+pub fn enough_to_detect(contrast: f64, tolerance: f64, most: u32) -> u32 {
+    power_of_two(ratio(UNDETECTED * contrast, tolerance), most)
+}
+
+/// Nothing is 0 times as large as a tolerance of 0: that of a colour without any light.
+fn ratio(error: f64, tolerance: f64) -> f64 {
+    if error > 0.0 { error / tolerance } else { 0.0 }
 }
 
 /// The smallest power of two that is at least as large, or the maximum.
@@ -114,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_point_notices_is_bounded() {
+    fn what_no_point_detects_is_bounded() {
         let mut largest = 0.0_f64;
         for exponent in 1..=12 {
             let count = 1_u32 << exponent;
@@ -125,8 +130,8 @@ mod tests {
                     (distances().fold(f64::INFINITY, f64::min), distances().fold(f64::NEG_INFINITY, f64::max));
                 let area = |distance| Line { normal: [cosine, sine], distance }.area_below();
                 let area = area(first).max(1.0 - area(last));
-                assert!(area <= unnoticed(1.0, count), "{count} points, {cosine} {sine}: {area}");
-                largest = largest.max(area / unnoticed(1.0, count));
+                assert!(area <= undetected_error(1.0, count), "{count} points, {cosine} {sine}: {area}");
+                largest = largest.max(area / undetected_error(1.0, count));
             }
         }
         assert!(largest > 0.8, "the bound could be tighter: {largest}");

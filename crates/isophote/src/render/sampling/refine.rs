@@ -39,7 +39,7 @@ pub struct Refinement {
     pub index: usize,
     /// Whether the centre sees a surface.
     pub sees: bool,
-    /// The number of samples in the mean.
+    /// The number of samples traced for it.
     pub samples: u32,
     /// The fraction of the pixel that shows a surface.
     pub coverage: f64,
@@ -134,10 +134,10 @@ struct Left {
     cuts: Vec<OpenCut>,
 }
 
-/// A pixel is even if its samples differ by no more than this, in units of the tolerance.
+/// A pixel is evenly bright if its samples differ by no more than this, in units of the tolerance.
 const EVEN: f64 = 2.0;
 
-/// About as many samples locate the edge of a pixel.
+/// Locating an edge is expected to take about this many samples.
 const EXPECTED_AT_EDGE: u32 = 36;
 
 /// The side of the squares whose pixels share packets.
@@ -191,7 +191,7 @@ impl Refiner<'_> {
     ) -> Result<(), RenderError> {
         let wanted = self.wanted;
         let samples = pixels[0].samples;
-        let mut means: Vec<PixelMeans> = pixels.iter().map(|_| PixelMeans::new(wanted)).collect();
+        let mut means: Vec<PixelMeans> = pixels.iter().map(|_| PixelMeans::new(wanted, samples)).collect();
         let all = wanted.patterns.of(samples);
         for places in all.chunks(SAMPLES) {
             let in_pixel = |open: &Open| {
@@ -211,17 +211,17 @@ impl Refiner<'_> {
             let first = wanted.first(&contrasts);
             let is_even =
                 contrasts.iter().zip(wanted.tolerances).all(|(contrast, tolerance)| *contrast <= EVEN * tolerance);
-            let beside = if is_even { 1 } else { wanted.enough(&uncertain.contrasts) };
-            let enough = wanted.enough(&contrasts).max(beside);
+            let enough_by_neighbours = if is_even { 1 } else { wanted.enough(&uncertain.contrasts) };
+            let enough = wanted.enough(&contrasts).max(enough_by_neighbours);
             if enough <= samples {
-                let bound = |(contrast, beside): (&f64, &f64)| {
-                    pattern::error_bound(*contrast, samples).max(pattern::unnoticed(*beside, samples))
-                };
-                let error_bounds = contrasts.iter().zip(&uncertain.contrasts).map(bound).collect();
+                let seen = contrasts.iter().map(|contrast| pattern::error_bound(*contrast, samples));
+                let error_bounds = or_undetected(seen, &uncertain, samples);
                 refined.push(means.finish(&uncertain, samples, error_bounds));
             } else if first > samples {
                 left.open.push(Open { pixel, uncertain, samples: first });
-            } else if let Some(cut) = Cut::new(&means.into_samples(all), wanted) {
+            } else if wanted.may_cut(samples)
+                && let Some(cut) = Cut::new(&means.into_samples(all), wanted)
+            {
                 left.cuts.push(OpenCut { pixel, uncertain, cut, enough });
             } else {
                 left.open.push(Open { pixel, uncertain, samples: enough });
@@ -248,8 +248,8 @@ impl Refiner<'_> {
                 let sample = number * ROUND + sample;
                 self.tracer.hit(sample).map_or(0.0, |_| shaded.brightness[at(sample)])
             };
-            let is_cut = cut.narrow(std::array::from_fn(brightness)).is_some();
-            let bounds = cut.error_bounds();
+            let is_cut = cut.bisect(std::array::from_fn(brightness)).is_some();
+            let bounds = cut.error_bounds().map(|bounds| or_undetected(bounds.into_iter(), &uncertain, cut.samples));
             let is_within =
                 |bounds: &Vec<f64>| bounds.iter().zip(self.wanted.tolerances).all(|(bound, most)| bound <= most);
             match bounds.filter(|bounds| is_cut && is_within(bounds)) {
@@ -261,7 +261,7 @@ impl Refiner<'_> {
                     let samples = cut.count();
                     refined.push(Refinement { index, sees, samples, coverage, error_bounds, seen, hit, sums });
                 }
-                None if is_cut => left.cuts.push(OpenCut { pixel, uncertain, cut, enough }),
+                None if is_cut && cut.has_rounds() => left.cuts.push(OpenCut { pixel, uncertain, cut, enough }),
                 _ => left.open.push(Open { pixel, uncertain, samples: enough }),
             }
         }
@@ -269,20 +269,30 @@ impl Refiner<'_> {
     }
 }
 
+/// The bounds of the errors in each layer, or what a part of the pixel may make that none of these samples has detected.
+fn or_undetected(bounds: impl Iterator<Item = f64>, uncertain: &Uncertain, samples: u32) -> Vec<f64> {
+    let undetected = uncertain.contrasts.iter().map(|contrast| pattern::undetected_error(*contrast, samples));
+    bounds.zip(undetected).map(|(bound, undetected)| bound.max(undetected)).collect()
+}
+
 impl Wanted<'_> {
+    /// Whether a pixel with this many samples may be cut.
+    fn may_cut(&self, samples: u32) -> bool {
+        self.sampling.filter == Filter::Box && Cut::most_samples(samples) <= self.sampling.samples
+    }
+
     /// How many samples are enough where brightness differs by this much in each layer.
     fn enough(&self, contrasts: &[f64]) -> u32 {
         self.most(contrasts, pattern::enough)
     }
 
     /// How many samples are traced first where brightness differs by this much in each layer: enough, or, if cutting the pixel
-    /// may save most of them, as many as notice all of its parts.
+    /// may save most of them, as many as detect all of its parts.
     fn first(&self, contrasts: &[f64]) -> u32 {
         let few = FIRST_SAMPLES.min(self.sampling.samples);
-        let [enough, noticing] =
-            [pattern::enough, pattern::noticing].map(|samples| self.most(contrasts, samples).max(few));
-        let is_cut = self.sampling.filter == Filter::Box && noticing + EXPECTED_AT_EDGE <= enough / 2;
-        if is_cut { noticing } else { enough }
+        let [enough, detecting] =
+            [pattern::enough, pattern::enough_to_detect].map(|samples| self.most(contrasts, samples).max(few));
+        if self.may_cut(detecting) && detecting + EXPECTED_AT_EDGE <= enough / 2 { detecting } else { enough }
     }
 
     /// The largest number of samples that any layer needs.
@@ -302,8 +312,9 @@ struct PixelMeans<'w> {
 }
 
 impl<'w> PixelMeans<'w> {
-    fn new(wanted: &Wanted<'w>) -> Self {
-        let layers = wanted.averages.iter().map(|of| LayerMeans::new(of, wanted.offsets)).collect();
+    fn new(wanted: &Wanted<'w>, samples: u32) -> Self {
+        let keeps = wanted.may_cut(samples);
+        let layers = wanted.averages.iter().map(|of| LayerMeans::new(of, wanted.offsets, keeps)).collect();
         Self { layers, covered: 0, first_hit: None, see: Vec::new() }
     }
 
@@ -327,7 +338,12 @@ impl<'w> PixelMeans<'w> {
 
     fn into_samples(self, places: &[[f64; 2]]) -> Samples<'_> {
         let Self { layers, first_hit, see, .. } = self;
-        Samples { places, see, values: layers.into_iter().map(|layer| layer.values).collect(), first_hit }
+        Samples {
+            places,
+            see,
+            values: layers.into_iter().map(|layer| layer.values.unwrap_or_default()).collect(),
+            first_hit,
+        }
     }
 
     fn finish(self, uncertain: &Uncertain, samples: u32, error_bounds: Vec<f64>) -> Refinement {
@@ -352,15 +368,15 @@ struct LayerMeans<'w> {
     sums: Vec<f64>,
     least: f64,
     greatest: f64,
-    /// The values of each sample.
-    values: Vec<f64>,
+    /// The values of each sample, if they are kept.
+    values: Option<Vec<f64>>,
 }
 
 impl<'w> LayerMeans<'w> {
-    fn new(averages: &'w Averages, offsets: &[[f64; 2]]) -> Self {
+    fn new(averages: &'w Averages, offsets: &[[f64; 2]], keeps: bool) -> Self {
         let channels = &averages.channels;
         let sums = vec![0.0; offsets.len() * (channels.len() + 1)];
-        Self { channels, sums, least: f64::INFINITY, greatest: f64::NEG_INFINITY, values: Vec::new() }
+        Self { channels, sums, least: f64::INFINITY, greatest: f64::NEG_INFINITY, values: keeps.then(Vec::new) }
     }
 
     /// Adds samples, given by their positions and where their values are, if they see anything.
@@ -376,7 +392,9 @@ impl<'w> LayerMeans<'w> {
             let at = |values: &[f64]| point.map_or(0.0, |point| values[point]);
             let brightness = at(&shaded.brightness);
             (self.least, self.greatest) = (self.least.min(brightness), self.greatest.max(brightness));
-            self.values.extend(self.channels.iter().map(|(_, channel)| at(shaded.values(*channel))));
+            if let Some(values) = &mut self.values {
+                values.extend(self.channels.iter().map(|(_, channel)| at(shaded.values(*channel))));
+            }
             let [across, down] = place.map(|part| part - 0.5);
             for (sums, [columns, rows]) in self.sums.chunks_exact_mut(count + 1).zip(offsets) {
                 let weight = filter.weight(across - columns, down - rows);
