@@ -358,7 +358,7 @@ mod tests {
         for turn in 0..97 {
             let angle = std::f64::consts::TAU * f64::from(turn) / 97.0;
             let normal = [angle.cos(), angle.sin()];
-            for step in 1..40 {
+            for step in 1..40_u32 {
                 let through = [
                     0.5 + 0.7 * (f64::from(step) / 20.0 - 1.0) * normal[0],
                     0.5 + 0.7 * (f64::from(step) / 20.0 - 1.0) * normal[1],
