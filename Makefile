@@ -60,8 +60,9 @@ check-wasm: ## Build the core for browsers
 app: check-wasm web/node_modules/.package-lock.json ## Build the app: web/dist/site, a folder for any web server, and web/dist/isophote.html, one file (needs Node 20 or later)
 	CARGO_TARGET_DIR=target/bindgen $(CARGO) run --quiet --locked --manifest-path web/bindgen/Cargo.toml -- $(APP_MODULE) web/src/engine/wasm
 	cd web && npm run --silent build
-	cp web/dist/one-file/index.html web/dist/isophote.html
-	gzip --best --no-name --force --keep web/dist/isophote.html
+	@cmp -s web/dist/one-file/index.html web/dist/isophote.html && [ -e web/dist/isophote.html.gz ] || { \
+		cp web/dist/one-file/index.html web/dist/isophote.html && \
+		gzip --best --no-name --force --keep web/dist/isophote.html; }
 
 web/node_modules/.package-lock.json: web/package-lock.json
 	@command -v npm >/dev/null || { echo "Node is missing: install version 20 or later, with npm, by your system's package manager"; exit 1; }
