@@ -11,7 +11,7 @@ fn main() {
         println!("cargo::rerun-if-changed={}", page.display());
         format!("Some(include_bytes!({:?}))", page.display().to_string())
     } else {
-        // The folder is always there, and changes when the page is built. Cargo takes a file that is missing for one that has changed.
+        // The folder is always there, and changes when the page is built. Cargo takes a missing file for one that has changed.
         println!("cargo::rerun-if-changed={}", folder.display());
         "None".into()
     };

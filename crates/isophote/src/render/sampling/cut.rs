@@ -1,7 +1,8 @@
 //! A pixel in two parts, of which each is about evenly bright, with an edge between them.
 
 use super::edge::{Edge, ROUND};
-use super::pattern::error_bound;
+use super::pattern::{error_bound, ratio};
+use super::range;
 use super::refine::Wanted;
 use crate::prepare::Hit;
 use crate::render::band::ScalarChannel;
@@ -56,40 +57,20 @@ const UNEVEN: f64 = 0.5;
 const OUTSIDE: f64 = 0.25;
 
 impl Cut {
-    /// Cuts a pixel at the largest gap in its brightness, if a straight line separates the samples on both sides of the gap, and
-    /// each side is about evenly bright.
-    pub fn new(samples: &Samples<'_>, wanted: &Wanted<'_>) -> Option<Self> {
-        let brightness: Vec<Vec<f64>> =
-            (0..wanted.averages.len()).map(|layer| samples.brightness(layer, wanted)).collect::<Option<_>>()?;
-        let contrast = |layer: &usize| {
-            let [least, greatest] = range(brightness[*layer].iter().copied());
-            if greatest > least { (greatest - least) / wanted.tolerances[*layer] } else { 0.0 }
-        };
-        let layer = (0..brightness.len()).max_by(|one, other| contrast(one).total_cmp(&contrast(other)))?;
-        let ranges = around_gap(&brightness[layer])?;
-        let is_bright: Vec<bool> = brightness[layer].iter().map(|value| *value >= ranges[1][0]).collect();
+    /// Cuts a pixel, whose brightness differs by so much in each layer, at the largest gap, if a straight line separates the
+    /// samples on both sides of the gap, and each side is about evenly bright.
+    pub fn new(samples: &Samples<'_>, contrasts: &[f64], wanted: &Wanted<'_>) -> Option<Self> {
+        let in_tolerances = |layer: usize| ratio(contrasts[layer], wanted.tolerances[layer]);
+        let layer = (0..contrasts.len()).max_by(|one, other| in_tolerances(*one).total_cmp(&in_tolerances(*other)))?;
+        let brightness = samples.brightness(layer, wanted)?;
+        let ranges = around_gap(&brightness)?;
+        let is_bright: Vec<bool> = brightness.iter().map(|value| *value >= ranges[1][0]).collect();
         let parts = [false, true].map(|bright| Part::new(&is_bright, bright));
-        let layers = brightness.iter().enumerate().map(|(layer, brightness)| {
-            let values = &samples.values[layer];
-            let uneven = |part: &Part| {
-                let [least, greatest] = range(part.of(brightness));
-                error_bound(greatest - least, samples.count())
-            };
-            let [dark, bright] = &parts;
-            let unevenness = uneven(dark) + uneven(bright);
-            let is_even = unevenness <= UNEVEN * wanted.tolerances[layer];
-            is_even.then(|| LayerParts {
-                means: [dark, bright].map(|part| part.means(values, values.len() / is_bright.len())),
-                contrast: (bright.mean(brightness) - dark.mean(brightness)).abs(),
-                unevenness,
-            })
-        });
+        let layers = (0..contrasts.len()).map(|layer| LayerParts::new(samples, &parts, layer, wanted));
         let layers = layers.collect::<Option<_>>()?;
-        let places = |part: &Part| part.samples.iter().map(|sample| samples.places[*sample]).collect::<Vec<_>>();
-        let [dark, bright] = &parts;
-        let edge = Edge::between(&places(dark), &places(bright))?;
-        let seeing: Vec<f64> = samples.see.iter().map(|sees| f64::from(*sees)).collect();
-        let coverage = [dark, bright].map(|part| part.mean(&seeing));
+        let [dark, bright] = parts.each_ref().map(|part| part.of(samples.places).collect::<Vec<_>>());
+        let edge = Edge::between(&dark, &bright)?;
+        let coverage = parts.map(|part| part.mean(|sample| f64::from(samples.see[sample])));
         let (samples, first_hit) = (samples.count(), samples.first_hit);
         Some(Self { edge, rounds: 0, samples, is_bright, layer, ranges, layers, coverage, first_hit })
     }
@@ -152,9 +133,31 @@ impl Cut {
     }
 }
 
+impl LayerParts {
+    /// `None` if the parts are not evenly bright.
+    fn new(samples: &Samples<'_>, parts: &[Part; 2], layer: usize, wanted: &Wanted<'_>) -> Option<Self> {
+        let brightness = samples.brightness(layer, wanted)?;
+        let [in_dark, in_bright] = parts.each_ref().map(|part| {
+            let [least, greatest] = range(part.of(&brightness));
+            error_bound(greatest - least, samples.count())
+        });
+        let unevenness = in_dark + in_bright;
+        if unevenness > UNEVEN * wanted.tolerances[layer] {
+            return None;
+        }
+        let (values, channels) = (&samples.values[layer], wanted.averages[layer].channels().len());
+        let means = parts.each_ref().map(|part| {
+            let mean = |channel| part.mean(|sample| values[sample * channels + channel]);
+            (0..channels).map(mean).collect()
+        });
+        let [dark, bright] = parts.each_ref().map(|part| part.mean(|sample| brightness[sample]));
+        Some(Self { means, contrast: (bright - dark).abs(), unevenness })
+    }
+}
+
 impl Samples<'_> {
     fn count(&self) -> u32 {
-        u32::try_from(self.see.len()).unwrap_or(u32::MAX)
+        u32::try_from(self.places.len()).unwrap_or(u32::MAX)
     }
 
     /// The brightness of each sample in a layer.
@@ -180,26 +183,15 @@ impl Part {
         Self { samples, share }
     }
 
-    /// Their values, of the values of all samples.
-    fn of(&self, values: &[f64]) -> impl Iterator<Item = f64> {
-        self.samples.iter().map(|sample| values[*sample])
+    /// What belongs to them, of what belongs to all samples.
+    fn of<T: Copy>(&self, all: &[T]) -> impl Iterator<Item = T> {
+        self.samples.iter().map(|sample| all[*sample])
     }
 
-    fn mean(&self, values: &[f64]) -> f64 {
-        self.of(values).sum::<f64>() * self.share
+    /// The mean of a value of each sample.
+    fn mean(&self, value: impl Fn(usize) -> f64) -> f64 {
+        self.samples.iter().map(|sample| value(*sample)).sum::<f64>() * self.share
     }
-
-    /// The mean of each channel, of the values of all samples with so many channels.
-    fn means(&self, values: &[f64], channels: usize) -> Vec<f64> {
-        let mean =
-            |channel| self.samples.iter().map(|sample| values[sample * channels + channel]).sum::<f64>() * self.share;
-        (0..channels).map(mean).collect()
-    }
-}
-
-/// The least and the greatest of some values.
-fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], value| [least.min(value), greatest.max(value)])
 }
 
 /// The least and the greatest of the values below the widest gap among them, and of those above it.

@@ -1,8 +1,8 @@
-//! The edge between two parts of a pixel: first a line that separates the samples on both sides, then
-//! where the edge really is. So the areas of the parts are known far better than from how many samples fall into each.
+//! The edge between two parts of a pixel: first a line that separates the samples on both sides, then where the edge really is.
+//! So the areas of the parts are known far better than from how many samples fall into each.
 
 /// A place in a pixel: fractions of its width and height.
-pub type Place = [f64; 2];
+type Place = [f64; 2];
 
 /// The places p with p·normal = distance.
 #[derive(Clone, Copy)]
@@ -38,7 +38,6 @@ const CLEAR: f64 = 0.06;
 const ASIDE: f64 = 0.3;
 
 /// An edge that is being located: as a parabola over the chord of a line that separates the samples.
-#[derive(Clone)]
 pub struct Edge {
     line: Line,
     /// The middle of the chord.
@@ -189,7 +188,7 @@ impl Edge {
             middle: moved(first, way, 0.5),
             half,
             step,
-            nodes: [-OUTER * half, 0.0, OUTER * half].map(node),
+            nodes: [-OUTER, 0.0, OUTER].map(|part| node(part * half)),
         })
     }
 
@@ -268,6 +267,11 @@ impl Edge {
         self.nodes.map(|node| 0.5 * (node.dark.unwrap_or(0.0) + node.bright.unwrap_or(0.0)))
     }
 
+    /// How far the outer nodes are from the middle.
+    fn outer(&self) -> f64 {
+        OUTER * self.half
+    }
+
     /// How far the edge is from the line through its outer nodes, in the middle.
     fn bulge(&self) -> f64 {
         let [first, middle, last] = self.heights();
@@ -277,7 +281,7 @@ impl Edge {
     /// The line through the outer nodes.
     fn straight(&self) -> Line {
         let [first, _, last] = self.heights();
-        let slope = (last - first) / (2.0 * OUTER * self.half);
+        let slope = (last - first) / (2.0 * self.outer());
         let scale = 1.0 / slope.hypot(1.0);
         let normal = moved(self.line.normal, self.line.direction(), -slope).map(|part| part * scale);
         let through = moved(self.middle, self.line.normal, 0.5 * (first + last));
@@ -291,10 +295,10 @@ impl Edge {
 
     /// The fraction of the pixel that is dark.
     pub fn dark_area(&self) -> f64 {
-        let node = OUTER * self.half;
+        let outer = self.outer();
         let straight = self.straight();
         let [first, last] = straight.chord().map_or([0.0; 2], |chord| self.ends(chord));
-        let integral = |along: f64| along - along * along * along / (3.0 * node * node);
+        let integral = |along: f64| along - along * along * along / (3.0 * outer * outer);
         (straight.area_below() + self.bulge() * (integral(last) - integral(first))).clamp(0.0, 1.0)
     }
 
@@ -304,12 +308,12 @@ impl Edge {
         // What the heights of the nodes weigh at the ends of the chord.
         let slack = width * (beyond * beyond / (OUTER * OUTER) - 0.5);
         let [before, _, after] = self.heights();
-        let node = OUTER * self.half;
+        let outer = self.outer();
         samples.all(|(place, is_bright)| {
             let way = difference(place, self.middle);
             let along = dot(way, self.line.direction());
-            let straight = 0.5 * (before + after) + 0.5 * (after - before) * along / node;
-            let within = along.abs().min(beyond * self.half) / node;
+            let straight = 0.5 * (before + after) + 0.5 * (after - before) * along / outer;
+            let within = along.abs().min(beyond * self.half) / outer;
             let above = dot(way, self.line.normal) - straight - self.bulge() * (1.0 - within * within);
             (above > 0.0) == is_bright || above.abs() <= slack
         })

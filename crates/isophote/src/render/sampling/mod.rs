@@ -158,6 +158,11 @@ fn refined(
     Ok(layers)
 }
 
+/// The least and the greatest of some values.
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], value| [least.min(value), greatest.max(value)])
+}
+
 /// A region grown by this many pixels on every side, as far as the image extends.
 fn grown(region: Region, by: u32, full: Resolution) -> Region {
     let Region { corner, size } = region;

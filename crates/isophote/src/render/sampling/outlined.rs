@@ -2,6 +2,7 @@
 //! estimate the area that an edge cuts off with an error that falls only as n^(−3/4); the outline is known, and within it
 //! the brightness is smooth.
 
+use super::range;
 use super::refine::{Refinement, Wanted};
 use super::rule::{Center, NodePlaces, RowRule};
 use super::uncertain::Uncertain;
@@ -152,7 +153,7 @@ impl<'s> Outlined<'s> {
             self.evaluate(nodes, sphere, lit, is_first);
             let count = nodes.places.count;
             let brightness = &nodes.shaded.brightness[..count];
-            let (least, greatest) = (least_of(brightness), greatest_of(brightness));
+            let [least, greatest] = range(brightness.iter().copied());
             let range = greatest - least;
             if !(range <= rows.widest() * tolerance) {
                 return None;
@@ -188,14 +189,6 @@ impl<'s> Outlined<'s> {
             shaded,
         });
     }
-}
-
-fn least_of(values: &[f64]) -> f64 {
-    values.iter().copied().fold(f64::INFINITY, f64::min)
-}
-
-fn greatest_of(values: &[f64]) -> f64 {
-    values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }
 
 impl<'s> LitSphere<'s> {

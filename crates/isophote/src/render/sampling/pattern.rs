@@ -58,7 +58,7 @@ pub fn enough_to_detect(contrast: f64, tolerance: f64, most: u32) -> u32 {
 }
 
 /// Nothing is 0 times as large as a tolerance of 0: that of a colour without any light.
-fn ratio(error: f64, tolerance: f64) -> f64 {
+pub fn ratio(error: f64, tolerance: f64) -> f64 {
     if error > 0.0 { error / tolerance } else { 0.0 }
 }
 
@@ -73,6 +73,7 @@ fn power_of_two(wanted: f64, most: u32) -> u32 {
 mod tests {
     use super::*;
     use crate::render::sampling::edge::Line;
+    use crate::render::sampling::range;
 
     /// The largest difference between the fraction of the points on one side of an edge in this direction and the fraction of
     /// the area. It is largest where the edge passes through a point.
@@ -103,37 +104,35 @@ mod tests {
         turned.chain(whole.map(|[across, down]| [across, down].map(|part| part / across.hypot(down))))
     }
 
-    #[test]
-    fn the_error_of_an_edge_is_bounded() {
-        let mut worst = 0.0_f64;
-        for exponent in 1..=12 {
-            let count = 1_u32 << exponent;
-            let patterns = Patterns::new(count);
-            for direction in directions(200) {
-                let scaled = edge_error(patterns.of(count), direction) / error_bound(1.0, count);
-                assert!(scaled < 1.0, "{count} points, {direction:?}: {scaled}");
-                worst = worst.max(scaled);
-            }
-        }
-        assert!(worst > 0.85, "the bound could be tighter: {worst}");
-    }
-
-    #[test]
-    fn what_no_point_detects_is_bounded() {
+    /// The largest error of an edge in any direction, as a fraction of its bound; none may exceed that.
+    fn largest(error: impl Fn(&[[f64; 2]], [f64; 2]) -> f64, bound: impl Fn(f64, u32) -> f64) -> f64 {
         let mut largest = 0.0_f64;
         for exponent in 1..=12 {
             let count = 1_u32 << exponent;
             let patterns = Patterns::new(count);
-            for [cosine, sine] in directions(200) {
-                let distances = || patterns.of(count).iter().map(|[x, y]| x * cosine + y * sine);
-                let (first, last) =
-                    (distances().fold(f64::INFINITY, f64::min), distances().fold(f64::NEG_INFINITY, f64::max));
-                let area = |distance| Line { normal: [cosine, sine], distance }.area_below();
-                let area = area(first).max(1.0 - area(last));
-                assert!(area <= undetected_error(1.0, count), "{count} points, {cosine} {sine}: {area}");
-                largest = largest.max(area / undetected_error(1.0, count));
+            for direction in directions(200) {
+                let scaled = error(patterns.of(count), direction) / bound(1.0, count);
+                assert!(scaled < 1.0, "{count} points, {direction:?}: {scaled}");
+                largest = largest.max(scaled);
             }
         }
+        largest
+    }
+
+    #[test]
+    fn the_error_of_an_edge_is_bounded() {
+        let largest = largest(edge_error, error_bound);
+        assert!(largest > 0.85, "the bound could be tighter: {largest}");
+    }
+
+    #[test]
+    fn what_no_point_detects_is_bounded() {
+        let undetected = |places: &[[f64; 2]], normal: [f64; 2]| {
+            let [first, last] = range(places.iter().map(|[x, y]| x * normal[0] + y * normal[1]));
+            let area = |distance| Line { normal, distance }.area_below();
+            area(first).max(1.0 - area(last))
+        };
+        let largest = largest(undetected, undetected_error);
         assert!(largest > 0.8, "the bound could be tighter: {largest}");
     }
 

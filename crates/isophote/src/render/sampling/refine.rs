@@ -54,6 +54,25 @@ pub struct Refinement {
     pub sums: Vec<Vec<f64>>,
 }
 
+/// What the samples of a pixel add up to.
+struct Means {
+    samples: u32,
+    coverage: f64,
+    error_bounds: Vec<f64>,
+    sums: Vec<Vec<f64>>,
+}
+
+impl Means {
+    /// The refinement of a pixel whose first sample that sees anything has this hit.
+    fn of(self, uncertain: &Uncertain, first_hit: Option<Hit>) -> Refinement {
+        let Self { samples, coverage, error_bounds, sums } = self;
+        let Uncertain { index, sees, .. } = *uncertain;
+        let seen = first_hit.map(|hit| hit.primitive.shape);
+        let hit = first_hit.filter(|_| !sees).map(Box::new);
+        Refinement { index, sees, samples, coverage, error_bounds, seen, hit, sums }
+    }
+}
+
 impl Averages {
     /// The averaged channels of a layer.
     pub fn of(map: &Map) -> Self {
@@ -220,7 +239,7 @@ impl Refiner<'_> {
             } else if first > samples {
                 left.open.push(Open { pixel, uncertain, samples: first });
             } else if wanted.may_cut(samples)
-                && let Some(cut) = Cut::new(&means.into_samples(all), wanted)
+                && let Some(cut) = Cut::new(&means.into_samples(all), &contrasts, wanted)
             {
                 left.cuts.push(OpenCut { pixel, uncertain, cut, enough });
             } else {
@@ -255,11 +274,8 @@ impl Refiner<'_> {
             match bounds.filter(|bounds| is_cut && is_within(bounds)) {
                 Some(error_bounds) if cut.is_confirmed(self.wanted.patterns.of(cut.samples)) => {
                     let (coverage, sums) = cut.means();
-                    let (seen, hit) = (cut.first_hit.map(|hit| hit.primitive.shape), cut.first_hit);
-                    let Uncertain { index, sees, .. } = uncertain;
-                    let hit = hit.filter(|_| !sees).map(Box::new);
-                    let samples = cut.count();
-                    refined.push(Refinement { index, sees, samples, coverage, error_bounds, seen, hit, sums });
+                    let means = Means { samples: cut.count(), coverage, error_bounds, sums };
+                    refined.push(means.of(&uncertain, cut.first_hit));
                 }
                 None if is_cut && cut.has_rounds() => left.cuts.push(OpenCut { pixel, uncertain, cut, enough }),
                 _ => left.open.push(Open { pixel, uncertain, samples: enough }),
@@ -305,7 +321,6 @@ impl Wanted<'_> {
 /// The sums over the samples of a pixel.
 struct PixelMeans<'w> {
     layers: Vec<LayerMeans<'w>>,
-    covered: u32,
     first_hit: Option<Hit>,
     /// Which samples see a surface.
     see: Vec<bool>,
@@ -315,19 +330,14 @@ impl<'w> PixelMeans<'w> {
     fn new(wanted: &Wanted<'w>, samples: u32) -> Self {
         let keeps = wanted.may_cut(samples);
         let layers = wanted.averages.iter().map(|of| LayerMeans::new(of, wanted.offsets, keeps)).collect();
-        Self { layers, covered: 0, first_hit: None, see: Vec::new() }
+        Self { layers, first_hit: None, see: Vec::new() }
     }
 
     /// Adds samples that have been traced, given by the number of the first one and their positions in the pixel.
     fn add(&mut self, tracer: &SampleTracer<'_>, first: usize, places: &[[f64; 2]], wanted: &Wanted<'_>) {
         let hits = (first..first + places.len()).map(|sample| tracer.hit(sample));
         self.see.extend(hits.clone().map(|hit| hit.is_some()));
-        for hit in hits.flatten() {
-            self.covered += 1;
-            if self.first_hit.is_none() {
-                self.first_hit = Some(*hit);
-            }
-        }
+        self.first_hit = self.first_hit.or_else(|| hits.flatten().next().copied());
         for (layer, means) in self.layers.iter_mut().enumerate() {
             let (shaded, at) = tracer.values(layer);
             let seen = places.iter().zip(first..);
@@ -348,17 +358,10 @@ impl<'w> PixelMeans<'w> {
 
     fn finish(self, uncertain: &Uncertain, samples: u32, error_bounds: Vec<f64>) -> Refinement {
         let share = 1.0 / f64::from(samples);
-        let Uncertain { index, sees, .. } = *uncertain;
-        Refinement {
-            index,
-            sees,
-            samples,
-            coverage: f64::from(self.covered) * share,
-            error_bounds,
-            seen: self.first_hit.map(|hit| hit.primitive.shape),
-            hit: self.first_hit.filter(|_| !sees).map(Box::new),
-            sums: self.layers.into_iter().map(|means| means.finish(share)).collect(),
-        }
+        let covered: f64 = self.see.iter().map(|sees| f64::from(*sees)).sum();
+        let coverage = covered * share;
+        let sums = self.layers.into_iter().map(|means| means.finish(share)).collect();
+        Means { samples, coverage, error_bounds, sums }.of(uncertain, self.first_hit)
     }
 }
 
