@@ -156,7 +156,7 @@ struct Left {
 /// A pixel is evenly bright if its samples differ by no more than this, in units of the tolerance.
 const EVEN: f64 = 2.0;
 
-/// Locating an edge is expected to take about this many samples.
+/// Room for the samples that locate an edge: in most cases two or three rounds.
 const EXPECTED_AT_EDGE: u32 = 36;
 
 /// The side of the squares whose pixels share packets.
